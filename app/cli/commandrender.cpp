@@ -20,7 +20,8 @@ namespace ps::cli {
 namespace {
 
 constexpr OptionSpec kOptions[] = {
-    {"--out", "FOLDER|FILE.mp4", "where the pictures go: PNG files in a folder, or a film (needs ffmpeg)"},
+    {"--out", "FOLDER|FILE.mp4|FILE.png|FILE.jpg",
+     "where the pictures go: PNG files in a folder, a film (needs ffmpeg), or one file for the end"},
     {"--size", "WxH", "in pixels; without it 1280x720"},
     {"--seconds", "S",
      "mechanical time to draw; without it what is left of the project's duration, or all of the recording"},
@@ -70,18 +71,23 @@ FilmChoices choicesOf(const Arguments& arguments, const Project& project, const 
           .camera = {}};
 }
 
+/// Of one picture, the last, all before it are left out.
+long everyFor(const Arguments& arguments, long usual, long frames) {
+  if (isPicture(arguments.text("--out"))) return std::max(1L, frames);
+  return arguments.integer("--every", 1, 1'000'000).value_or(usual);
+}
+
 int renderProject(const Arguments& arguments, const std::string& path) {
   PluginRegistry plugins;
   Project project = loadFor(arguments, path, plugins);
   if (arguments.has(kAtStart.name)) project.state = nullptr;
-  const bool film = isFilm(arguments.text("--out"));
-  const long every = arguments.integer("--every", 1, 1'000'000).value_or(film ? 1 : 60);
   Engine engine = makeEngine(arguments, project, plugins);
   tellRemarks(arguments, path, engine);
   const std::string colour = colourOf(project, engine.fields(), nullptr, arguments);
   engine.show({colour});
   const SnapshotPtr begin = engine.snapshot();
   const long frames = frameCount(arguments, project, begin->stats.time), first = static_cast<long>(begin->stats.frame);
+  const long every = everyFor(arguments, isFilm(arguments.text("--out")) ? 1 : 60, frames);
   FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
   painter.draw(*begin, first);
   StepFlags flags = 0;
@@ -110,17 +116,17 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
   if (recording.frameCount() == 0)
     throw InputError(recording.damage().empty() ? path + ": holds no frames" : recording.damage());
   Project project = parseFor(arguments, recording.projectText(), path, plugins);
-  const long every = arguments.integer("--every", 1, 1'000'000).value_or(1);
   const KeptRun::Frames& kept = recording.content().present.frames;
   const auto length = static_cast<long>(kept.rbegin()->first - kept.begin()->first);
   project.duration = static_cast<double>(length + 1) * frameLength(project);
-  const auto frames = static_cast<uint64_t>(std::min(frameCount(arguments, project), length));
+  const long frames = std::min(frameCount(arguments, project), length), every = everyFor(arguments, 1, frames);
   const std::string colour =
       colourOf(project, ParticleFields(plugins), recording.frame(recording.frameCount() - 1).get(), arguments);
   FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
   const uint64_t first = kept.begin()->first;
   const FrameUnpacker unpacker;
-  for (const RangeFrame& frame : framesIn(recording.content().present, {first, first + frames, uint64_t(every)})) {
+  for (const RangeFrame& frame : framesIn(
+           recording.content().present, {first, first + static_cast<uint64_t>(frames), static_cast<uint64_t>(every)})) {
     if (interrupted()) break;
     painter.draw(*unpacker.snapshot(*kept.at(frame.kept), 1), static_cast<long>(frame.wanted - first));
   }
@@ -142,8 +148,10 @@ std::string renderHelp() {
 int renderCommand(CommandArguments list) {
   const Arguments arguments(list, kOptions);
   const std::string path = onlyFile(arguments, "project or recording");
-  if (arguments.text("--out").empty()) throw InputError("--out is missing: a folder for PNG files, or a FILE.mp4");
-  if (isFilm(arguments.text("--out"))) requireOutputs(arguments, {path}, {"--out"});
+  if (arguments.text("--out").empty())
+    throw InputError("--out is missing: a folder for PNG files, a FILE.mp4, or a FILE.png or .jpg");
+  if (isFilm(arguments.text("--out")) || isPicture(arguments.text("--out")))
+    requireOutputs(arguments, {path}, {"--out"});
   sizeOf(arguments);
   applyMachineOptions(arguments);
   return isRecording(path) ? renderRecording(arguments, path) : renderProject(arguments, path);

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   ps::MainWindow::Options options;
   options.project = arguments.project;
   options.sample = samplePath();
+  if (!options.sample.isEmpty()) options.samples = QFileInfo(options.sample).path();
   options.restore = !picture;
   options.session.autosave = !picture;
   options.exitOnBadProject = picture;

@@ -93,7 +93,7 @@ class TestFiles : public QObject {
 
   void theSampleIsEverybodys() {
     Desk first(*m_plugins, copies(1)), second(*m_plugins, copies(2));
-    first.files.setSample(m_directory->path() + QStringLiteral("/./scene.json"));  // whatever way leads to it
+    first.files.setSamples(m_directory->path() + QStringLiteral("/./scene.json"));  // whatever way leads to it
     open(first);
     QSignalSpy elsewhere(&second.files, &DocumentFiles::openElsewhere);
     open(second);

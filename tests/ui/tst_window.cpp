@@ -332,8 +332,8 @@ class TestWindow : public QObject {
                           << "Hot plate temperature";
     QTest::newRow("own things before what replaces the scene") << "plate"
                                                                << "Hot plate heat";
-    QTest::newRow("what replaces the scene by its name") << "open sample"
-                                                         << "Open sample “Ice on a hot plate”";
+    QTest::newRow("what replaces the scene by its name") << "new sc"
+                                                         << "New scene";
     QTest::newRow("solver") << "substeps"
                             << "Substeps";
     QTest::newRow("action") << "frame all"

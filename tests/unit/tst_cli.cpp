@@ -303,6 +303,13 @@ void TestCli::runsGoOnFromAState() {
   QVERIFY2(ran.code == 0, ran.err.constData());
   QCOMPARE(QDir(folder.filePath("p")).entryList(QDir::Files, QDir::Name),
            (QStringList{"frame-000007.png", "frame-000009.png"}));
+  // One file holds the end.
+  const QString end = folder.filePath("end.jpg");
+  ran = cli({"render", kept, "--frames", "2", "--out", end, "--size", "64x48"});
+  QVERIFY2(ran.code == 0 && ran.out.contains("1 picture in"), ran.err.constData());
+  QFile picture(end);
+  QVERIFY(picture.open(QIODevice::ReadOnly));
+  QCOMPARE(picture.read(3), QByteArray("\xff\xd8\xff"));
 }
 
 void TestCli::statesThatDoNotFitAreTold() {

@@ -27,7 +27,7 @@ void FilmPainter::draw(const Snapshot& snapshot, long frame) {
   m_scene.environment = environmentAt(m_project, &m_plugins, snapshot.stats.time);
   m_renderer->prepare(snapshot, nullptr, 1, m_scene, m_choices.look);
   m_sink->add(renderImage(*m_renderer, eyeOf(*m_choices.camera, width, height), m_choices.size), frame);
-  ++m_pictures;
+  m_pictures = isPicture(m_choices.out) ? 1 : m_pictures + 1;  // the last is kept
 }
 
 size_t FilmPainter::finish() {

@@ -26,6 +26,20 @@ extern char** environ;
 namespace ps {
 namespace {
 
+constexpr int kJpegQuality = 88;
+
+/// Throws Error when it is too large, or the disk is full.
+void writePicture(const std::vector<uint8_t>& pixels, int width, int height, const std::string& path,
+                  const char* format) {
+  const QImage image(pixels.data(), width, height, 4 * width, QImage::Format_RGBA8888);
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  if (!image.convertToFormat(QImage::Format_RGB888).save(&buffer, format, format[0] == 'J' ? kJpegQuality : -1))
+    throw Error(path + ": the picture could not be made; choose a smaller size");
+  writeFileAtomically(path, {bytes.constData(), static_cast<size_t>(bytes.size())});
+}
+
 class PngFolder final : public FrameSink {
  public:
   PngFolder(const std::string& folder, int width, int height) : m_folder(folder), m_width(width), m_height(height) {
@@ -35,20 +49,28 @@ class PngFolder final : public FrameSink {
     char name[40];
     std::snprintf(name, sizeof name, "frame-%06ld.png", frame);
     const std::string path = (std::filesystem::path(m_folder) / name).string();
-    const QImage image(pixels.data(), m_width, m_height, 4 * m_width, QImage::Format_RGBA8888);
-    QByteArray bytes;
-    QBuffer buffer(&bytes);
-    buffer.open(QIODevice::WriteOnly);
-    if (!image.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG")) {
-      throw Error(path + ": the picture could not be made; choose a smaller size");
-    }
-    writeFileAtomically(path, {bytes.constData(), static_cast<size_t>(bytes.size())});
+    writePicture(pixels, m_width, m_height, path, "PNG");
   }
   void finish() override {}
 
  private:
   std::string m_folder;
   int m_width, m_height;
+};
+
+class OnePicture final : public FrameSink {
+ public:
+  OnePicture(const std::string& path, int width, int height) : m_path(path), m_width(width), m_height(height) {}
+  void add(const std::vector<uint8_t>& pixels, long) override { m_pixels = pixels; }
+  void finish() override {
+    const bool png = std::filesystem::path(m_path).extension() == ".png";
+    if (!m_pixels.empty()) writePicture(m_pixels, m_width, m_height, m_path, png ? "PNG" : "JPEG");
+  }
+
+ private:
+  std::string m_path;
+  int m_width, m_height;
+  std::vector<uint8_t> m_pixels;
 };
 
 /// Raw frames through a socket to ffmpeg: to write to one that has ended is an error there, and no signal. The film
@@ -160,9 +182,14 @@ class Film final : public FrameSink {
 }  // namespace
 
 bool isFilm(const std::string& out) { return std::filesystem::path(out).extension() == ".mp4"; }
+bool isPicture(const std::string& out) {
+  const std::filesystem::path ending = std::filesystem::path(out).extension();
+  return ending == ".png" || ending == ".jpg";
+}
 
 std::unique_ptr<FrameSink> makeFrameSink(const std::string& out, int width, int height, double framesPerSecond) {
   if (isFilm(out)) return std::make_unique<Film>(out, width, height, framesPerSecond);
+  if (isPicture(out)) return std::make_unique<OnePicture>(out, width, height);
   return std::make_unique<PngFolder>(out, width, height);
 }
 

@@ -7,7 +7,8 @@
 
 namespace ps {
 
-/// Where pictures go: a folder of PNG files, or a film. What is not finished leaves no film; pictures stay.
+/// Where pictures go: a folder of PNG files, one file for the last of them, or a film. What is not finished leaves no
+/// film; pictures stay.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
@@ -17,10 +18,11 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// `out` ending in .mp4: a film of `framesPerSecond` through the program ffmpeg, which must be installed; else a
-/// folder, made when it does not exist. Throws InputError for a size that a film cannot have, Error when it cannot be
-/// made.
+/// `out` ending in .mp4: a film of `framesPerSecond` through the program ffmpeg, which must be installed; in .png or
+/// .jpg: one picture, the last; else a folder, made when it does not exist. Throws InputError for a size that a film
+/// cannot have, Error when it cannot be made.
 std::unique_ptr<FrameSink> makeFrameSink(const std::string& out, int width, int height, double framesPerSecond);
 bool isFilm(const std::string& out);
+bool isPicture(const std::string& out);
 
 }  // namespace ps

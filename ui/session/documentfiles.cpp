@@ -94,13 +94,18 @@ DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent
 
 /// Whatever way leads to it.
 bool DocumentFiles::isSample(const QString& path) const {
-  const QString sample = QFileInfo(m_sample).canonicalFilePath();  // "" of what is not there
-  return !sample.isEmpty() && QFileInfo(path).canonicalFilePath() == sample;
+  const QString samples = m_samples.isEmpty() ? QString() : QFileInfo(m_samples).canonicalFilePath();
+  const QString file = QFileInfo(path).canonicalFilePath();  // "" of what is not there
+  return !samples.isEmpty() && (file == samples || file.startsWith(samples + QLatin1Char('/')));
 }
 
 void DocumentFiles::open(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   load({absolute, absolute, false, false, {}, {}});
+}
+
+void DocumentFiles::openTemplate(const QString& path) {
+  load({QFileInfo(path).absoluteFilePath(), {}, false, false, {}, {}});
 }
 
 void DocumentFiles::openAnyway() {

@@ -33,11 +33,13 @@ class DocumentFiles : public QObject {
   /// From here on a project that is open is locked, so that another window knows, and what a file held before it was
   /// saved is kept; and no copy of unsaved work is offered later that is older than its file.
   void keepWith(const Autosave& autosave) { m_autosave = &autosave; }
-  /// A file that everybody opens and nobody saves: never locked.
-  void setSample(const QString& path) { m_sample = path; }
+  /// A file, or a folder of them, that everybody opens and nobody saves: never locked.
+  void setSamples(const QString& place) { m_samples = place; }
   bool isSample(const QString& path) const;
 
   void open(const QString& path);
+  /// A new project, no file's, that begins as the one at `path`.
+  void openTemplate(const QString& path);
   /// What openFailed() came for last, a copy of unsaved work and an earlier version too, though plugins are missing
   /// that the project cannot do without, by its own word: what they made stands still.
   void openAnyway();
@@ -93,7 +95,7 @@ class DocumentFiles : public QObject {
   Document& m_document;
   Worker& m_worker;
   const Autosave* m_autosave = nullptr;
-  QString m_sample;
+  QString m_samples;
   std::optional<Source> m_failed;    ///< what could not be opened last
   std::shared_ptr<FileLock> m_lock;  ///< of the document's file
   std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs

@@ -12,7 +12,8 @@ namespace ps::preferences {
 namespace {
 
 constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
-                     *kAutosave = "autosave/interval";
+                     *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
+                     *kTour = "welcome/tourDone";
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
@@ -61,5 +62,11 @@ RecordBudget recordBudget(size_t onDisk) {
 
 int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }
 void setAutosaveInterval(int seconds) { set(kAutosave, seconds); }
+
+bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
+bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }
+void setWelcomeAtStart(bool on) { set(kWelcome, on); }
+bool tourDone() { return QSettings().value(QLatin1String(kTour), false).toBool(); }
+void setTourDone() { set(kTour, true); }
 
 }  // namespace ps::preferences

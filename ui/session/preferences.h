@@ -27,4 +27,13 @@ RecordBudget recordBudget(size_t onDisk = 0);
 int autosaveInterval();
 void setAutosaveInterval(int seconds);
 
+/// Whether no window has been closed in order yet.
+bool isFirstStart();
+/// Whether the welcome page shows when the program starts.
+bool welcomeAtStart();
+void setWelcomeAtStart(bool on);
+/// Whether the tour has been gone through or skipped.
+bool tourDone();
+void setTourDone();
+
 }  // namespace ps::preferences

@@ -43,7 +43,6 @@ const QString kOpenFilter = QStringLiteral("Projects and recordings (*.json *.ps
 constexpr std::pair<const char*, const char*> kTips[] = {
     {"file.new", "An empty tray to draw in. Unsaved work can be brought back."},
     {"file.open", "A project runs at once, or stands at the state that it holds. Unsaved work can be brought back."},
-    {"file.sample", "The sample stays as it is: saving it asks for another name."},
     {"file.restore", "Work that no file holds, of this session and of those before."},
     {"file.save", "The scene as it begins, with its view. What matter does meanwhile is not part of it."},
     {"file.saveAs", "In another file, which is the one that is saved from then on."},
@@ -72,7 +71,7 @@ FileActions::FileActions(Session& session, const Actions& actions, Notices& noti
       m_exports(std::make_unique<ExportActions>(session, actions, notices)),
       m_sharing(std::make_unique<ShareActions>(session, actions, notices)) {
   DocumentFiles& files = session.files();
-  files.setSample(options.sample);
+  files.setSamples(options.samples.isEmpty() ? options.sample : options.samples);
   connect(&files, &DocumentFiles::opened, this, &FileActions::onOpened);
   connect(&files, &DocumentFiles::openFailed, this, &FileActions::onOpenFailed);
   connect(&files, &DocumentFiles::saveFailed, this, &FileActions::onSaveFailed);
@@ -100,10 +99,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
                 [this] { chooseOpen(); });
   m_recent = menu->addMenu(QStringLiteral("Open recent"));
   connect(m_recent, &QMenu::aboutToShow, this, &FileActions::fillRecent);
-  if (!m_options.sample.isEmpty()) {
-    m_actions.add(menu, QStringLiteral("file.sample"), QStringLiteral("Open sample “Ice on a hot plate”"), {},
-                  [this] { open(m_options.sample); });
-  }
+  m_samples = menu->addMenu(QStringLiteral("New from sample"));
   m_guard->addVersionsMenu(menu);
   m_actions.add(menu, QStringLiteral("file.restore"), QStringLiteral("Restore unsaved work…"), {},
                 [this] { m_restore.offer(); });
@@ -129,7 +125,7 @@ void FileActions::makeMenu(QMenu* menu, Viewport* view) {
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("file.quit"), QStringLiteral("Quit"), {QKeySequence(QStringLiteral("Ctrl+Q"))},
                 [this] { m_actions.window().close(); });
-  for (const char* name : {"file.new", "file.open", "file.sample", "file.restore"}) {
+  for (const char* name : {"file.new", "file.open", "file.restore"}) {
     if (QAction* replacing = m_actions.find(QString::fromLatin1(name))) replacing->setProperty(kReplaces, true);
   }
   explain(menu);
@@ -143,14 +139,17 @@ void FileActions::explain(QMenu* menu) const {
     if (QAction* action = m_actions.find(QString::fromLatin1(name))) action->setToolTip(QString::fromUtf8(tip));
   }
   m_recent->menuAction()->setToolTip(QStringLiteral("Projects that were opened or saved last."));
+  m_samples->menuAction()->setToolTip(QStringLiteral("A sample stays as it is: saving it asks for another name."));
+  m_samples->setToolTipsVisible(true);
   menu->setToolTipsVisible(true);
 }
 
 void FileActions::setEnabled(bool on) {
-  for (const char* name : {"file.new", "file.open", "file.sample", "file.save", "file.saveAs", "file.saveState"}) {
+  for (const char* name : {"file.new", "file.open", "file.save", "file.saveAs", "file.saveState"}) {
     if (QAction* needed = m_actions.find(QString::fromLatin1(name))) needed->setEnabled(on);
   }
   m_recent->setEnabled(on);
+  m_samples->setEnabled(on);
   m_recordings->setEnabled(on);
   m_exports->setEnabled(on);
   m_sharing->setEnabled(on);
@@ -203,9 +202,17 @@ void FileActions::open(const QString& path) {
 void FileActions::saveTo(const QString& path) { m_session.files().save(path); }
 
 void FileActions::chooseOpen() {
-  const QString path = QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a project"),
-                                                    QFileInfo(m_session.document().path()).path(), kOpenFilter);
+  const QString path =
+      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a project"), folderToOpen(), kOpenFilter);
   if (!path.isEmpty()) open(path);
+}
+
+/// Where the open project lies, or the one before it that is no sample, or else the user's documents.
+QString FileActions::folderToOpen() const {
+  for (const QString& path : QStringList(m_session.document().path()) + DocumentFiles::recent()) {
+    if (!path.isEmpty() && !m_session.files().isSample(path)) return QFileInfo(path).path();
+  }
+  return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
 }
 
 void FileActions::save() {

@@ -29,6 +29,7 @@ class FileActions : public QObject {
   struct Options {
     QString project;                ///< to open first; "": the last session, else the sample
     QString sample;                 ///< path of the first sample; "": an empty scene
+    QString samples;                ///< folder of all that nobody saves to; "": the first sample is the only one
     bool exitOnBadProject = false;  ///< startFailed() instead of a notice
   };
   FileActions(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore, const Options& options,
@@ -40,6 +41,7 @@ class FileActions : public QObject {
   void saveTo(const QString& path);
   void exportCsv();
   void exportGraph(const GraphsPanel& graphs, const std::string& id, const QString& ending);  ///< "png", "svg", "csv"
+  QMenu* samplesMenu() const { return m_samples; }
   void updateRestore();  ///< enabled while unsaved work waits
   void showNotSaved(const QString& problem, const QString& more);
 
@@ -52,6 +54,7 @@ class FileActions : public QObject {
   void explain(QMenu* menu) const;
   void setEnabled(bool on);  ///< what needs plugins
   void chooseOpen();
+  QString folderToOpen() const;
   void save();
   void chooseSave();
   QString chooseFile();       ///< to save to; "" when given up
@@ -75,7 +78,7 @@ class FileActions : public QObject {
   std::unique_ptr<ExportActions> m_exports;
   std::unique_ptr<ShareActions> m_sharing;
   Viewport* m_view = nullptr;
-  QMenu* m_recent = nullptr;
+  QMenu *m_recent = nullptr, *m_samples = nullptr;
   QString m_stateTo;       ///< file that waits for the state; "": none
   bool m_leftOut = false;  ///< what is being saved had a state that did not fit
   bool m_first = true;

@@ -4,6 +4,7 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
 #include "ui/viewport/viewport.h"
+#include "ui/welcome/buttons.h"
 
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QAbstractItemView>
@@ -27,7 +28,7 @@ bool takesKey(const QObject* widget, int key) {
     case Qt::Key_Up:
     case Qt::Key_Down:
       if (qobject_cast<const QTabBar*>(widget) || qobject_cast<const QMenuBar*>(widget) ||
-          qobject_cast<const MaterialsPanel*>(widget))
+          qobject_cast<const MaterialsPanel*>(widget) || qobject_cast<const Card*>(widget))
         return true;
       [[fallthrough]];
     case Qt::Key_Home:

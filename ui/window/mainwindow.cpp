@@ -37,8 +37,10 @@
 #include "ui/window/statusline.h"
 #include "ui/window/thingactions.h"
 #include "ui/window/topbar.h"
+#include "ui/window/tour.h"
 #include "ui/window/viewactions.h"
 #include "ui/window/viewportpane.h"
+#include "ui/window/welcome.h"
 
 #include <QtCore/QFileInfo>
 #include <QtCore/QMimeData>
@@ -77,10 +79,14 @@ MainWindow::MainWindow(const Options& options)
   m_notices = new Notices(*m_session, *notice(), m_actions, this);
   m_restore = new RestoreOffer(*m_session, *m_notices, options.restore, this);
   m_files = new FileActions(*m_session, m_actions, *m_notices, *m_restore,
-                            {options.project, options.sample, options.exitOnBadProject}, this);
+                            {options.project, options.sample, options.samples, options.exitOnBadProject}, this);
   m_pages = new PageChooser(*m_selection, *m_tools, *m_inspector, *m_layout, this);
   makeMenus();
+  m_welcome =
+      new Welcome({*m_session, m_actions, *m_files, *m_restore, *m_layout, *m_centre, *m_pane, *m_top, viewport()},
+                  options.samples, this);
   m_palette = new CommandPalette(this);
+  m_tour = new Tour(*this);
   connectParts();
   m_layout->applyDefault();
   m_layout->restore();
@@ -91,6 +97,7 @@ MainWindow::MainWindow(const Options& options)
 /// What follows the session goes before it.
 MainWindow::~MainWindow() {
   qApp->removeEventFilter(this);
+  m_welcome->endPictures();
   m_session->disconnect(this);
   m_session->document().disconnect(this);
   delete takeCentralWidget();
@@ -104,10 +111,10 @@ Outliner* MainWindow::outliner() const { return findChild<Outliner*>(); }
 GraphsPanel* MainWindow::graphs() const { return findChild<GraphsPanel*>(); }
 Transport* MainWindow::transport() const { return findChild<Transport*>(); }
 bool MainWindow::showsPlugins() const { return m_centre->currentWidget() == m_plugins; }
-void MainWindow::start() { m_session->start(); }
 void MainWindow::openFile(const QString& path) { m_files->open(path); }
 void MainWindow::saveTo(const QString& path) { m_files->saveTo(path); }
 bool MainWindow::revealParameter(const Address& address, bool focus) {
+  m_welcome->leave();
   if (workspaceTab() == kTuneTab) showWorkspace(kSceneTab);  // Tune has no rows
   return m_pages->reveal(address, focus);
 }
@@ -152,6 +159,7 @@ void MainWindow::showWorkspace(WorkspaceTab tab) { m_top->workspaces()->setCurre
 
 /// A brush is held in Sketch alone; what else is taken in hand leaves Tune as it is.
 void MainWindow::onTool() {
+  m_welcome->leave();
   const bool draws = m_tools->tool().usesBrush();
   if (draws == (workspaceTab() == kSketchTab)) return;
   const QSignalBlocker quiet(m_top->workspaces());
@@ -251,22 +259,6 @@ void MainWindow::addGraphButton() {
   });
   connect(dock, &Dock::pageChanged, button,
           [button](const QString& page) { button->setVisible(page == QStringLiteral("Graphs")); });
-}
-
-void MainWindow::makeHelpMenu(QMenu* menu) {
-  m_actions.add(menu, QStringLiteral("help.shortcuts"), QStringLiteral("Keyboard shortcuts"),
-                {QKeySequence(QStringLiteral("F1"))}, [this] { openShortcuts(*this); });
-  m_actions.add(menu, QStringLiteral("help.plugins"), QStringLiteral("Plugins"), {}, [this] {
-    m_plugins->refresh();
-    m_centre->setCurrentWidget(m_plugins);
-  });
-  m_actions.add(menu, QStringLiteral("help.messages"), QStringLiteral("Messages"), {},
-                [this] { m_layout->showPage(QStringLiteral("Messages")); });
-  m_actions.add(menu, QStringLiteral("help.about"), QStringLiteral("About PhaseSketch"), {}, [this] {
-    m_notices->message(MessageLevel::Info, QStringLiteral("PhaseSketch " PS_VERSION),
-                       QStringLiteral("Matter that melts, boils and freezes, sketched and set loose. Apache-2.0."));
-    m_layout->showPage(QStringLiteral("Messages"));
-  });
 }
 
 void MainWindow::connectParts() {
@@ -391,6 +383,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 /// Closing asks nothing: unsaved work is kept as a copy. Only when there can be no copy does the window stay, once.
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_layout->save();
+  m_welcome->keepPicture();
   const QString problem = m_session->close();
   const Document& document = m_session->document();
   if (!problem.isEmpty() && document.isDirty() && m_warnedAt != document.changeCount()) {
@@ -406,10 +399,14 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
     QMainWindow::keyPressEvent(event);
+  } else if (m_tour->running()) {
+    m_tour->end();
   } else if (Viewport* view = viewport(); view && view->cancelGesture()) {
     return;
   } else if (m_session->work().cancel()) {
     return;
+  } else if (m_welcome->shown()) {
+    m_welcome->leave();
   } else if (showsPlugins()) {
     m_centre->setCurrentWidget(m_pane);
   } else if (m_layout->fullViewport()) {

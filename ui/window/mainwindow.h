@@ -19,6 +19,7 @@ class CurveTarget;
 class EditActions;
 class FileActions;
 class GraphsPanel;
+class Help;
 class Inspector;
 class NoticeBar;
 class Notices;
@@ -32,10 +33,12 @@ class StatusLine;
 class ThingActions;
 class Toolbox;
 class TopBar;
+class Tour;
 class Transport;
 class ViewActions;
 class Viewport;
 class ViewportPane;
+class Welcome;
 
 /// The editor's window. Shows at once; plugins and the project follow. It makes its parts and hands them to each other:
 /// panels, views and menus follow session, document, selection and toolbox by themselves.
@@ -46,6 +49,7 @@ class MainWindow : public QMainWindow {
     Session::Options session;
     QString project;                ///< to open first; "": the last session, else the sample
     QString sample;                 ///< path of the first sample; "": an empty scene
+    QString samples;                ///< folder of all samples, with their pictures and templates; "": none
     bool restore = true;            ///< last session, window state and theme of the user's settings
     bool exitOnBadProject = false;  ///< for pictures by command: startFailed() instead of a notice
     bool dark = true;               ///< where `restore` finds nothing or is off
@@ -75,6 +79,10 @@ class MainWindow : public QMainWindow {
   CommandPalette* palette() const { return m_palette; }
   NoticeBar* notice() const;
   bool showsPlugins() const;
+  Welcome& welcome() const { return *m_welcome; }
+  Help& help() const { return *m_help; }
+  Tour& tour() const { return *m_tour; }
+  void startTour();  ///< of five steps over the scene
   bool isDark() const { return m_layout->isDark(); }
   void setDark(bool dark) { m_layout->setDark(dark); }
   QAction* action(const QString& name) const { return m_actions.find(name); }
@@ -128,6 +136,9 @@ class MainWindow : public QMainWindow {
   RestoreOffer* m_restore = nullptr;
   FileActions* m_files = nullptr;
   PageChooser* m_pages = nullptr;
+  Welcome* m_welcome = nullptr;
+  Help* m_help = nullptr;
+  Tour* m_tour = nullptr;
   std::unique_ptr<EditActions> m_edit;
   std::unique_ptr<ThingActions> m_things;
   BodyActions* m_bodies = nullptr;

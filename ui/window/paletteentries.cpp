@@ -10,6 +10,7 @@
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
+#include "ui/window/welcome.h"
 
 #include <QtGui/QAction>
 
@@ -41,11 +42,8 @@ std::vector<PaletteEntry> paletteEntries(Session& session, Selection& selection,
       continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
-    entries.push_back({cleanText(*action),
-                       where,
-                       action->shortcut().toString(QKeySequence::NativeText),
-                       {},
-                       [action] { action->trigger(); },
+    entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText),
+                       action->property(kWords).toString(), [action] { action->trigger(); },
                        action->property(kReplaces).toBool()});
   }
   Document& document = session.document();

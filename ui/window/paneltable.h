@@ -26,6 +26,7 @@ struct PanelRow {
   const char* dock;   ///< DockRow::name
   const char* title;  ///< of its tab
   QWidget* (*make)(const PanelContext&);
+  const char* help = "first-steps";  ///< page that F1 opens in it
 };
 const std::vector<PanelRow>& panelTable();
 

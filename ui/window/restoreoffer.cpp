@@ -4,7 +4,6 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
 #include <QtCore/QFileInfo>
@@ -88,26 +87,30 @@ void RestoreOffer::offer() {
 
 void RestoreOffer::offerNext() {
   m_notices.bar().close(QStringLiteral("restore"));
+  m_present = {};
   for (const AutosavedSession& session : unsavedWork()) {
     if (!m_offered.contains(session.stem)) continue;
     const auto decided = [this, stem = session.stem] {
       m_offered.removeAll(stem);
       offerNext();
     };
-    m_notices.bar().show(QStringLiteral("restore"), MessageLevel::Info, QStringLiteral("Unsaved work can be restored."),
-                         whyLeftBehind(session),
-                         {{QStringLiteral("Restore"),
-                           [this, session, decided] {
-                             m_session.files().reopen(session);
-                             decided();
-                           }},
-                          {QStringLiteral("Keep for later"), decided},
-                          {QStringLiteral("Discard"), [session, decided] {
-                             Autosave::discard(session);
-                             decided();
-                           }}});
-    return;
+    m_present = {QStringLiteral("Unsaved work can be restored."),
+                 whyLeftBehind(session),
+                 {{QStringLiteral("Restore"),
+                   [this, session, decided] {
+                     m_session.files().reopen(session);
+                     decided();
+                   }},
+                  {QStringLiteral("Keep for later"), decided},
+                  {QStringLiteral("Discard"), [session, decided] {
+                     Autosave::discard(session);
+                     decided();
+                   }}}};
+    m_notices.bar().show(QStringLiteral("restore"), MessageLevel::Info, m_present.title, m_present.text,
+                         m_present.buttons);
+    break;
   }
+  Q_EMIT offerChanged();
 }
 
 void RestoreOffer::showReplaced(const QString& text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/session/autosave.h"
+#include "ui/window/noticebar.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QStringList>
@@ -30,6 +31,15 @@ class RestoreOffer : public QObject {
   /// The way back to work whose place another project took. It is in memory: it leads there even where no copy could
   /// be written.
   void showReplaced(const QString& text);
+  /// What is offered now; without a title nothing is.
+  struct Offer {
+    QString title, text;
+    std::vector<NoticeBar::Button> buttons;
+  };
+  const Offer& present() const { return m_present; }
+
+ Q_SIGNALS:
+  void offerChanged();
 
  private:
   std::vector<AutosavedSession> unsavedWork() const;
@@ -39,6 +49,7 @@ class RestoreOffer : public QObject {
   Notices& m_notices;
   bool m_old;
   std::shared_ptr<const ReplacedWork> m_replaced;
+  Offer m_present;
   QStringList m_offered;  ///< stems of unsaved work that is still to be decided about
 };
 

@@ -108,7 +108,7 @@ TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QWidget* parent)
   right->addWidget(buttonFor(undo, QStringLiteral("undo")));
   right->addWidget(buttonFor(redo, QStringLiteral("redo")));
   right->addSpacing(6);
-  right->addWidget(new SearchField(search));
+  right->addWidget(m_search = new SearchField(search));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 0, 8, 0);
   row->addLayout(left, 1);

@@ -15,6 +15,7 @@ class TopBar : public QWidget {
   TopBar(QAction* undo, QAction* redo, QAction* search, QWidget* parent = nullptr);
   QMenuBar* menus() const { return m_menus; }
   QTabBar* workspaces() const { return m_workspaces; }
+  QWidget* searchField() const { return m_search; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -22,6 +23,7 @@ class TopBar : public QWidget {
  private:
   QMenuBar* m_menus;
   QTabBar* m_workspaces;
+  QWidget* m_search;
 };
 
 }  // namespace ps

@@ -68,7 +68,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(makeBar());
+  column->addWidget(m_bar = makeBar());
   column->addWidget(m_notice);
   if (canHaveContext()) {
     m_viewport = new Viewport(session, selection, tools);

@@ -22,6 +22,7 @@ class ViewportPane : public QWidget {
   ViewportPane(Session& session, Selection& selection, Toolbox& tools, QWidget* parent = nullptr);
   Viewport* viewport() const { return m_viewport; }  ///< nullptr without OpenGL
   NoticeBar* notice() const { return m_notice; }
+  QWidget* toolBar() const { return m_bar; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -39,6 +40,7 @@ class ViewportPane : public QWidget {
   Session& m_session;
   Toolbox& m_tools;
   Viewport* m_viewport = nullptr;
+  QWidget* m_bar = nullptr;
   NoticeBar* m_notice;
   QButtonGroup *m_buttons, *m_shapes;
   QWidget* m_brushBar;

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Help inside the program: F1 on rows, panels and tools, pages and their links, and the tour.
+#include "core/plugin_host/registry.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/document/declared.h"
+#include "ui/help/helpwindow.h"
+#include "ui/help/parameterhelp.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/rowmodels.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/window/dock.h"
+#include "ui/window/help.h"
+#include "ui/window/tour.h"
+#include "ui/window/windowlayout.h"
+
+#include <QtCore/QRegularExpression>
+#include <QtGui/QAction>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QTextBrowser>
+
+using namespace ps;
+
+namespace {
+
+const Address kFloor{Owner::Wall, "floor", "temperature"};
+const Address kConductivity{Owner::Material, "water", "conductivity_solid"};
+
+}  // namespace
+
+class TestHelp : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void cleanup() {
+    delete m_window->help().dialog();
+    m_window->tour().end();
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+  }
+
+  void valuesAreExplained() {
+    const auto said = [this](const Address& address) {
+      return explainedValue(*rowModelOf(document(), address), document()).join(QLatin1Char(' '));
+    };
+    QVERIFY2(said(kFloor).contains(QStringLiteral("That is 420 K, 146.9 °C and 296.3 °F.")), qPrintable(said(kFloor)));
+    document().setParameter(kFloor, std::get<double>(document().defaultValue(kFloor)));
+    QVERIFY2(said(kFloor).contains(QStringLiteral("It is the default.")), qPrintable(said(kFloor)));
+    document().setParameter(kFloor, std::get<double>(document().defaultValue(kFloor)) + 80);
+    QVERIFY2(said(kFloor).contains(QStringLiteral("It is 80 °C above the default of")), qPrintable(said(kFloor)));
+    // Against the default, on the slider, and among what is installed.
+    const double ice = document().declaration(kConductivity)->maximum;
+    Response flat;
+    flat.constant = ice;
+    document().setParameter(kConductivity, flat);
+    QVERIFY2(said(kConductivity).contains(QStringLiteral("times the default of")), qPrintable(said(kConductivity)));
+    QVERIFY2(said(kConductivity).contains(QStringLiteral("the most that the slider offers")),
+             qPrintable(said(kConductivity)));
+    // A row that does nothing says so.
+    const Address idle{Owner::Wall, "left", "temperature"};
+    QVERIFY2(said(idle).contains(QStringLiteral("It does nothing at present.")), qPrintable(said(idle)));
+  }
+
+  void knownFiguresComeFromTheInstalled() {
+    const auto figures = knownFigures(document(), "conductivity_solid", 263.15);
+    QVERIFY(figures.size() > 5);
+    QVERIFY(
+        std::is_sorted(figures.begin(), figures.end(), [](const auto& a, const auto& b) { return a.value < b.value; }));
+    const auto water =
+        std::find_if(figures.begin(), figures.end(), [](const KnownFigure& f) { return f.material == "water"; });
+    QVERIFY(water != figures.end());
+    QCOMPARE(water->value, valueOf(*session().plugins()->material("water"), "conductivity_solid", 263.15));
+    // Where a material is none: ice has no conductivity of ice at 100 °C.
+    for (const KnownFigure& figure : knownFigures(document(), "conductivity_solid", 373.15))
+      QVERIFY(figure.material != "water");
+    const QStringList said = explainedValue(*rowModelOf(document(), kConductivity), document());
+    QVERIFY2(said.join(QLatin1Char(' ')).contains(QStringLiteral("installed material")) ||
+                 said.join(QLatin1Char(' ')).contains(QStringLiteral("It is that of")) ||
+                 said.join(QLatin1Char(' ')).contains(QStringLiteral("It lies between")),
+             qPrintable(said.join(QLatin1Char(' '))));
+  }
+
+  /// Every value of the scene has a page that says what is declared of it.
+  void everyValueHasItsPage() {
+    int count = 0;
+    for (const Address& address : allAddresses(document().project(), document().plugins())) {
+      const auto row = rowModelOf(document(), address);
+      if (!row) continue;
+      const HelpPage page = parameterHelp(*row, document());
+      QVERIFY(page.text.contains(QString::fromUtf8(row->declaration.help).toHtmlEscaped()));
+      QVERIFY(page.text.contains(QStringLiteral("Default")) && page.text.contains(row->key));
+      ++count;
+    }
+    QVERIFY(count > 60);
+  }
+
+  void linksLeadSomewhere() {
+    QVERIFY(writtenHelp().size() >= 6);
+    static const QRegularExpression link(QStringLiteral("\\]\\((help|action):([^)]+)\\)"));
+    for (const HelpPage& page : writtenHelp()) {
+      QVERIFY2(!page.title.isEmpty() && page.text.size() > 300, qPrintable(page.id));
+      for (auto found = link.globalMatch(page.text); found.hasNext();) {
+        const auto match = found.next();
+        const QString to = match.captured(2);
+        if (match.captured(1) == QStringLiteral("action")) {
+          QVERIFY2(m_window->action(to), qPrintable(to));
+        } else {
+          m_window->help().open(to);
+          QCOMPARE(dialog()->current(), to);
+        }
+      }
+    }
+  }
+
+  void f1ExplainsTheRowUnderThePointer() {
+    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
+    ParameterRow* row = m_window->inspector().materialPanel()->row(QString::fromStdString(kConductivity.text()));
+    QVERIFY(row && m_window->revealParameter(kConductivity, false));
+    QTest::mouseMove(row, row->labelRect().center());
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("parameter/material/water/conductivity_solid"));
+    for (const char* part : {"W/(m·K)", "Slider", "Default", "on the next frame", "The value now", "this value"})
+      QVERIFY2(dialog()->text().contains(QString::fromUtf8(part)), part);
+    picture("help_row_dark");
+    m_window->setDark(false);
+    picture("help_row_light");
+    m_window->setDark(true);
+  }
+
+  void f1InPanelsAndTools() {
+    Dock* transport = m_window->layoutOfDocks().dock(QStringLiteral("dock.transport"));
+    QTest::mouseMove(transport, transport->rect().center());
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("timeline"));
+    picture("help_page");
+    m_window->tools().activate("brush");
+    QTest::mouseMove(view(), view()->rect().center());
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("tool/brush"));
+    QVERIFY(dialog()->text().contains(QStringLiteral("draw"), Qt::CaseInsensitive));
+    m_window->tools().activate("select");
+    Q_EMIT dialog()->findChild<QTextBrowser*>()->anchorClicked(QUrl(QStringLiteral("help:sketching")));
+    QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
+  }
+
+  void allValuesAreListed() {
+    m_window->help().open(QStringLiteral("values"));
+    QVERIFY(dialog()->text().contains(QStringLiteral("Conductivity")));
+    Q_EMIT dialog()->findChild<QTextBrowser*>()->anchorClicked(
+        QUrl(QStringLiteral("help:parameter/") + QString::fromStdString(kFloor.text())));
+    QCOMPARE(dialog()->current(), QStringLiteral("parameter/wall/floor/temperature"));
+    QVERIFY(dialog()->text().contains(QStringLiteral("Hot plate")));
+  }
+
+  /// Names are others' words: shown, not obeyed.
+  void namesAreNoMarkup() {
+    document().renameBody(document().project().bodies[0].id, QStringLiteral("<img src='file:///dev/zero'>"));
+    m_window->help().open(QStringLiteral("values"));
+    QVERIFY(dialog()->text().contains(QStringLiteral("<img src='file:///dev/zero'>")));
+  }
+
+  void searchFindsPages() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    m_window->palette()->field()->setText(QStringLiteral("ghost in the scene"));
+    QCOMPARE(m_window->palette()->currentTitle(), QStringLiteral("Time"));
+    QTest::keyClick(m_window->palette()->field(), Qt::Key_Return);
+    QCOMPARE(dialog()->current(), QStringLiteral("timeline"));
+  }
+
+  void theTourHasFiveStepsAndHoldsNothingUp() {
+    m_window->action(QStringLiteral("help.tour"))->trigger();
+    Tour& tour = m_window->tour();
+    QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    for (int step = 0; step < 5; ++step) {
+      QCOMPARE(tour.step(), step);
+      QVERIFY(card->isVisible() && m_window->rect().contains(card->geometry()));
+      picture(qPrintable(QStringLiteral("tour_%1").arg(step + 1)));
+      // The scene is still at hand.
+      QCOMPARE(m_window->childAt(view()->mapTo(m_window.get(), view()->rect().center())), view());
+      button(*card, step < 4 ? QStringLiteral("Next") : QStringLiteral("Done"))->click();
+    }
+    QVERIFY(!tour.running() && !card->isVisible());
+    m_window->startTour();
+    button(*card, QStringLiteral("Skip the tour"))->click();
+    QVERIFY(!tour.running());
+    m_window->startTour();
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY(!tour.running());
+  }
+
+ private:
+  HelpWindow* dialog() { return m_window->help().dialog(); }
+  void f1() {
+    QTest::keyClick(m_window.get(), Qt::Key_F1);
+    QVERIFY(dialog() && dialog()->isVisible());
+    QApplication::setActiveWindow(m_window.get());
+  }
+  QPushButton* button(const QWidget& in, const QString& text) {
+    for (QPushButton* each : in.findChildren<QPushButton*>()) {
+      if (each->text() == text) return each;
+    }
+    return nullptr;
+  }
+  void picture(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (folder.isEmpty()) return;
+    QTest::qWait(150);
+    QWidget* shown = dialog() && dialog()->isVisible() ? static_cast<QWidget*>(dialog()) : m_window.get();
+    shown->grab().save(folder + QStringLiteral("/tst_") + QString::fromLatin1(name) + QStringLiteral(".png"));
+  }
+};
+
+QTEST_MAIN(TestHelp)
+#include "tst_help.moc"

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+// The welcome page: when it shows, its cards, templates and recent projects, what can be restored, and pictures.
+#include "core/io/projectio.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/windowtesting.h"
+#include "ui/document/document.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
+#include "ui/theme/theme.h"
+#include "ui/viewport/viewport.h"
+#include "ui/welcome/cardgrid.h"
+#include "ui/welcome/thumbnails.h"
+#include "ui/welcome/welcomepage.h"
+#include "ui/window/dock.h"
+#include "ui/window/tour.h"
+#include "ui/window/welcome.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QSettings>
+#include <QtCore/QTemporaryDir>
+#include <QtGui/QAction>
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QLineEdit>
+
+using namespace ps;
+
+namespace {
+
+const QString kProjects = QStringLiteral(PS_SOURCE_DIR "/projects");
+const Address kFloor{Owner::Wall, "floor", "temperature"};
+
+}  // namespace
+
+class TestWelcome : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void init() {
+    QSettings().clear();
+    Theme::apply(*qApp, true);
+    m_directory = std::make_unique<QTemporaryDir>();
+  }
+  void cleanup() { m_window.reset(); }
+  void cleanupTestCase() { QSettings().clear(); }
+
+  void days_data() {
+    QTest::addColumn<QDateTime>("time");
+    QTest::addColumn<QString>("text");
+    const auto row = [](const char* time, const char* text) {
+      QTest::newRow(text) << QDateTime::fromString(QLatin1String(time), Qt::ISODate) << QString::fromLatin1(text);
+    };
+    row("2026-03-01T08:05:00", "Today, 08:05");
+    row("2026-02-28T23:59:00", "Yesterday, 23:59");
+    row("2026-02-27T23:59:00", "27 February");
+    row("2025-12-31T12:00:00", "31 December 2025");
+  }
+  void days() {
+    QFETCH(QDateTime, time);
+    QFETCH(QString, text);
+    QCOMPARE(dayText(time, QDateTime::fromString(QStringLiteral("2026-03-01T09:00:00"), Qt::ISODate)), text);
+  }
+
+  /// No project of the folders without a card, no card without its words and its picture.
+  void theGalleryIsWhole() {
+    Worker worker;
+    Gallery gallery(kProjects, worker);
+    QSignalSpy loaded(&gallery, &Gallery::loaded);
+    QVERIFY(loaded.wait(kLong));
+    const QStringList filter{QStringLiteral("*.json")};
+    QCOMPARE(gallery.samples().size(), static_cast<size_t>(QDir(kProjects).entryList(filter).size()));
+    QCOMPARE(gallery.templates().size(),
+             static_cast<size_t>(QDir(kProjects + QStringLiteral("/templates")).entryList(filter).size()));
+    for (const auto* list : {&gallery.samples(), &gallery.templates()}) {
+      for (const Sample& sample : *list) {
+        QVERIFY2(!sample.title.isEmpty() && !sample.summary.isEmpty() && !sample.picture.isNull(),
+                 qPrintable(sample.path));
+        QCOMPARE(sample.toTry.isEmpty(), list == &gallery.templates());
+        QCOMPARE(sample.tags.isEmpty(), list == &gallery.templates());
+      }
+    }
+    worker.wait();
+  }
+
+  void theFirstStartShowsTheSample() {
+    open();
+    QVERIFY(!m_window->welcome().shown());
+    QVERIFY(m_window->inspectorDock()->isVisible());
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->session().playing(), kLong);
+    // With a tour over it, once.
+    QTRY_VERIFY(m_window->tour().running());
+    m_window->tour().end();
+    m_window.reset();
+    open();
+    QTest::qWait(100);
+    QVERIFY(!m_window->tour().running());
+  }
+
+  void laterStartsShowThePage() {
+    startLater();
+    QVERIFY(m_window->welcome().shown());
+    QVERIFY(!m_window->inspectorDock()->isVisible());
+    QVERIFY(m_window->session().playing());  // what is open goes on behind it
+    picture("welcome_dark");
+    m_window->setDark(false);
+    picture("welcome_light");
+    m_window->setDark(true);
+    m_window->resize(1280, 800);
+    picture("welcome_small");
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
+    QVERIFY(!m_window->welcome().shown());
+    QVERIFY(m_window->inspectorDock()->isVisible());
+    QVERIFY(m_window->viewport()->hasFocus());
+  }
+
+  void somebodyPrefersItNotTo() {
+    preferences::setWelcomeAtStart(false);
+    startLater();
+    QVERIFY(!m_window->welcome().shown());
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QVERIFY(m_window->welcome().shown());
+  }
+
+  void aCardOpensItsSampleRunning() {
+    startLater();
+    Card* card = cardOf(page()->samples(), QStringLiteral("Candle"));
+    QVERIFY(card);
+    opens([card] { QTest::mouseClick(card, Qt::LeftButton); });
+    QCOMPARE(document().title(), QStringLiteral("Candle"));
+    QVERIFY(!m_window->welcome().shown());
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->session().playing(), kLong);
+    QVERIFY(m_window->session().files().isSample(document().path()));
+  }
+
+  void theKeyboardGoesFromCardToCard() {
+    startLater();
+    const std::vector<Card*> cards = page()->samples()->cards();
+    QVERIFY(cards.size() > 1);
+    QCOMPARE(QApplication::focusWidget(), cards[0]);
+    QTest::keyClick(cards[0], Qt::Key_Right);
+    QCOMPARE(QApplication::focusWidget(), cards[1]);
+    QTest::keyClick(cards[1], Qt::Key_Left);
+    QTest::keyClick(cards[0], Qt::Key_Down);
+    QVERIFY(QApplication::focusWidget()->y() > cards[0]->y());
+    const QString title = static_cast<Card*>(QApplication::focusWidget())->sample().title;
+    opens([] { QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return); });
+    QCOMPARE(document().title(), title);
+  }
+
+  void chipsChoose() {
+    startLater();
+    const auto all = page()->samples()->cards().size();
+    page()->samples()->setTag(QStringLiteral("Boiling"));
+    const auto some = page()->samples()->cards();
+    QVERIFY(!some.empty() && some.size() < all);
+    for (Card* card : some) QVERIFY(card->sample().tags.contains(QStringLiteral("Boiling")));
+  }
+
+  void aTemplateBeginsANewProject() {
+    startLater();
+    Card* card = cardOf(page()->templates(), QStringLiteral("Tap and bowl"));
+    QVERIFY(card);
+    opens([card] { QTest::mouseClick(card, Qt::LeftButton); });
+    QCOMPARE(document().path(), QString());
+    QVERIFY(!document().isDirty());
+    QCOMPARE(document().project().emitters.size(), size_t{1});
+  }
+
+  void searchFindsSamples() {
+    startLater();
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    m_window->palette()->field()->setText(QStringLiteral("candle"));
+    QCOMPARE(m_window->palette()->currentTitle(), QStringLiteral("Candle"));
+    m_window->palette()->field()->setText(QStringLiteral("sublimation without a liquid"));
+    QCOMPARE(m_window->palette()->shownCount(), 0);
+    m_window->palette()->field()->setText(QStringLiteral("gas without a liquid"));  // words of its card
+    QCOMPARE(m_window->palette()->currentTitle(), QStringLiteral("Dry ice in warm water"));
+    opens([this] { QTest::keyClick(m_window->palette()->field(), Qt::Key_Return); });
+    QCOMPARE(document().title(), QStringLiteral("Dry ice in warm water"));
+    QVERIFY(!m_window->welcome().shown());
+  }
+
+  /// Saved: drawn beside the interface, kept in the cache, shown with its title and its folder.
+  void whatIsSavedHasAPicture() {
+    startLater();
+    const QString path = m_directory->filePath(QStringLiteral("mine.json"));
+    QFile::remove(thumbnailPath(path));
+    m_window->saveTo(path);
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(thumbnailPath(path)), kLong);
+    const QImage image(thumbnailPath(path));
+    QCOMPARE(image.size(), Thumbnails::kSize);
+    std::set<QRgb> colours;
+    for (int x = 0; x < image.width(); x += 4) colours.insert(image.pixel(x, image.height() / 2));
+    QVERIFY2(colours.size() > 10, qPrintable(QString::number(colours.size())));  // no empty picture
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 1, kLong);
+    QVERIFY(recent().front()->accessibleDescription() == path);
+    m_window->session().files().newProject();
+    QVERIFY(!m_window->welcome().shown());
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 1, kLong);
+    picture("welcome_recent");
+    opens([this] { recent().front()->click(); });
+    QCOMPARE(document().path(), path);
+  }
+
+  /// Samples are in nobody's way: neither recent, nor drawn into the cache.
+  void samplesAreNotAmongTheRecent() {
+    startLater();
+    Card* card = cardOf(page()->samples(), QStringLiteral("Box tower"));
+    QVERIFY(card);
+    opens([card] { card->click(); });
+    m_window->welcome().keepPicture();
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QTest::qWait(300);
+    QCOMPARE(recent().size(), 0);
+    QVERIFY(!QFile::exists(thumbnailPath(document().path())));
+  }
+
+  void unsavedWorkIsRestoredFromThePage() {
+    startLater();
+    QCOMPARE(document().setParameter(kFloor, 351.0), QString());
+    m_window->session().files().newProject();  // a copy is kept of what it replaces
+    QTRY_VERIFY_WITH_TIMEOUT(restorable(), kLong);
+    m_window->action(QStringLiteral("file.restore"))->trigger();
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QPushButton* restore = button(QStringLiteral("Restore"));
+    QVERIFY(restore);
+    picture("welcome_restore");
+    opens([restore] { QTest::mouseClick(restore, Qt::LeftButton); });
+    QCOMPARE(std::get<double>(document().value(kFloor)), 351.0);
+    QVERIFY(document().isDirty());
+    QVERIFY(!m_window->welcome().shown());
+    QVERIFY(!button(QStringLiteral("Restore")));
+  }
+
+ private:
+  Document& document() { return m_window->session().document(); }
+  WelcomePage* page() { return m_window->welcome().page(); }
+  void open() {
+    MainWindow::Options options;
+    options.sample = kProjects + QStringLiteral("/ice-on-hot-plate.json");
+    options.samples = kProjects;
+    options.session.autosaveDirectory = m_directory->filePath(QStringLiteral("copies"));
+    m_window = std::make_unique<MainWindow>(options);
+    m_window->resize(1600, 1000);
+    m_window->show();
+    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    m_window->start();
+    QVERIFY(shown.wait(kLong));
+    QApplication::setActiveWindow(m_window.get());
+  }
+  /// Not for the first time.
+  void startLater() {
+    QSettings().setValue(QStringLiteral("window/geometry"), QByteArray());
+    open();
+    QTRY_VERIFY_WITH_TIMEOUT(!page()->samples()->cards().empty(), kLong);
+    if (m_window->welcome().shown()) page()->samples()->cards().front()->setFocus();
+  }
+  void opens(const std::function<void()>& act) {
+    QSignalSpy opened(&m_window->session().files(), &DocumentFiles::opened);
+    act();
+    QVERIFY(!opened.isEmpty() || opened.wait(kLong));
+  }
+  bool restorable() {
+    m_window->paletteEntries();  // looks what waits
+    return m_window->action(QStringLiteral("file.restore"))->isEnabled();
+  }
+  Card* cardOf(const CardGrid* grid, const QString& title) {
+    for (Card* card : grid->cards()) {
+      if (card->sample().title == title) return card;
+    }
+    return nullptr;
+  }
+  QList<RecentRow*> recent() {
+    QList<RecentRow*> rows;
+    for (RecentRow* row : page()->findChildren<RecentRow*>()) {
+      if (!row->isHidden()) rows << row;
+    }
+    return rows;
+  }
+  QPushButton* button(const QString& text) {
+    for (QPushButton* each : page()->findChildren<QPushButton*>()) {
+      if (each->text() == text && each->isVisibleTo(page())) return each;
+    }
+    return nullptr;
+  }
+  void picture(const char* name) {
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (folder.isEmpty()) return;
+    QTest::qWait(200);
+    m_window->grab().save(folder + QStringLiteral("/tst_") + QString::fromLatin1(name) + QStringLiteral(".png"));
+  }
+
+  std::unique_ptr<QTemporaryDir> m_directory;
+  std::unique_ptr<MainWindow> m_window;
+};
+
+QTEST_MAIN(TestWelcome)
+#include "tst_welcome.moc"

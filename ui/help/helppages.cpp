@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/help/helppages.h"
+
+#include <QtCore/QFile>
+
+// Q_INIT_RESOURCE cannot stand in a namespace; the call keeps the linker from dropping a static library's resources.
+static void initHelpResources() { Q_INIT_RESOURCE(help); }
+
+namespace ps {
+namespace {
+
+constexpr const char* kPages[] = {"first-steps", "scene",  "sketching", "tuning",
+                                  "timeline",    "graphs", "files",     "numerics"};
+
+/// Its first line is "# Title".
+HelpPage readPage(const QString& id) {
+  QFile file(QStringLiteral(":/help/") + id);
+  if (!file.open(QIODevice::ReadOnly)) return {id, id, {}};
+  const QString text = QString::fromUtf8(file.readAll());
+  return {id, text.section(QLatin1Char('\n'), 0, 0).mid(2), text};
+}
+
+}  // namespace
+
+const std::vector<HelpPage>& writtenHelp() {
+  static const std::vector<HelpPage> pages = [] {
+    initHelpResources();
+    std::vector<HelpPage> all;
+    for (const char* id : kPages) all.push_back(readPage(QString::fromLatin1(id)));
+    return all;
+  }();
+  return pages;
+}
+
+}  // namespace ps

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/welcome/buttons.h"
+
+#include "ui/theme/icon.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QEvent>
+#include <QtCore/QFileInfo>
+#include <QtGui/QAction>
+#include <QtGui/QPainter>
+#include <QtGui/QPainterPath>
+
+#include <cmath>
+#include <utility>
+
+namespace ps {
+namespace {
+
+constexpr double kRadius = 7, kShape = 0.8;  // of a picture: height over width
+constexpr int kWords = 54;                   // px below it
+
+/// Fills the rectangle with the middle of the picture; `scaled` keeps it for the next time.
+void paintPicture(QPainter& painter, const QRectF& rect, const QImage& picture, QPixmap& scaled) {
+  const double ratio = painter.device()->devicePixelRatioF();
+  const QSize size(static_cast<int>(std::ceil(rect.width() * ratio)),
+                   static_cast<int>(std::ceil(rect.height() * ratio)));
+  if (scaled.size() != size) {
+    const QImage filled = picture.scaled(size, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
+    const QPoint corner((filled.width() - size.width()) / 2, (filled.height() - size.height()) / 2);
+    scaled = QPixmap::fromImage(filled.copy(QRect(corner, size)));
+  }
+  painter.drawPixmap(rect, scaled, QRectF(scaled.rect()));
+}
+
+/// Its place while it is in the user's own folders.
+QString placeText(const QString& path) {
+  const QString folder = QFileInfo(path).path(), home = QDir::homePath();
+  return folder.startsWith(home) ? QLatin1Char('~') + folder.mid(home.size()) : folder;
+}
+
+}  // namespace
+
+PageButton::PageButton(QWidget* parent) : QAbstractButton(parent) {
+  setAttribute(Qt::WA_Hover);
+  setFocusPolicy(Qt::StrongFocus);
+  setCursor(Qt::PointingHandCursor);
+}
+
+bool PageButton::event(QEvent* event) {
+  if (event->type() == QEvent::HoverEnter || event->type() == QEvent::HoverLeave) update();
+  return QAbstractButton::event(event);
+}
+
+QColor PageButton::ground() const {
+  const Theme& theme = Theme::current();
+  if (isDown()) return theme[Token::Selection];
+  return underMouse() ? theme[Token::Hover] : QColor();
+}
+
+Card::Card(Sample sample, QWidget* parent) : PageButton(parent), m_sample(std::move(sample)) {
+  setAccessibleName(m_sample.title);
+  setAccessibleDescription(m_sample.summary);
+  setToolTip(m_sample.toTry.isEmpty() ? m_sample.summary : QStringLiteral("Try it: ") + m_sample.toTry);
+}
+
+void Card::setBadge(const QString& text) {
+  m_badge = text;
+  update();
+}
+
+QSize Card::sizeHint() const { return {232, heightForWidth(232)}; }
+int Card::heightForWidth(int width) const { return static_cast<int>(std::lround(width * kShape)) + kWords; }
+
+void Card::paintEvent(QPaintEvent*) {
+  const Theme& theme = Theme::current();
+  QPainter painter(this);
+  painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+  const QRectF card(rect());
+  const QColor under = ground();
+  paintBox(painter, card, under.isValid() ? under : theme[Token::Header], {}, kRadius);
+  const QRectF picture(0, 0, card.width(), card.height() - kWords);
+  QPainterPath round;
+  round.addRoundedRect(card, kRadius, kRadius);
+  painter.save();
+  painter.setClipPath(round);
+  if (m_sample.picture.isNull()) {
+    painter.fillRect(picture, theme[Token::Field]);
+    paintIcon(painter, QRectF(picture.center() - QPointF(12, 12), QSizeF(24, 24)), QStringLiteral("cube"),
+              theme[Token::Muted]);
+  } else {
+    paintPicture(painter, picture, m_sample.picture, m_scaled);
+  }
+  painter.restore();
+  if (!m_badge.isEmpty()) {
+    const QFont font = Theme::font(TextRole::Small);
+    const QRectF badge(8, 8, textWidth(m_badge, font) + 16, 20);
+    paintBox(painter, badge, theme[Token::Accent], {}, 10);
+    paintText(painter, badge, Qt::AlignCenter, m_badge, font, theme[Token::OnAccent]);
+  }
+  QFont bold = Theme::font(TextRole::Normal);
+  bold.setWeight(QFont::DemiBold);
+  const QRectF words(12, picture.bottom() + 8, card.width() - 24, 18);
+  paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_sample.title, bold, theme[Token::Text]);
+  paintText(painter, words.translated(0, 19), Qt::AlignLeft | Qt::AlignVCenter, m_sample.summary,
+            Theme::font(TextRole::Normal), theme[Token::Text2]);
+  if (hasFocus()) paintFocusRing(painter, card, kRadius);
+}
+
+RecentRow::RecentRow(RecentProject project, QWidget* parent) : PageButton(parent), m_project(std::move(project)) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setAccessibleName(m_project.title);
+  setAccessibleDescription(m_project.path);
+  setToolTip(QDir::toNativeSeparators(m_project.path));
+}
+
+void RecentRow::paintEvent(QPaintEvent*) {
+  const Theme& theme = Theme::current();
+  QPainter painter(this);
+  painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+  if (const QColor under = ground(); under.isValid()) paintBox(painter, QRectF(rect()), under, {}, 5);
+  const QRectF picture(6, 5, 56, height() - 10);
+  paintBox(painter, picture, theme[Token::Field], {}, 4);
+  if (m_project.picture.isNull()) {
+    paintIcon(painter, QRectF(picture.center() - QPointF(8, 8), QSizeF(16, 16)), QStringLiteral("folder"),
+              theme[Token::Muted]);
+  } else {
+    QPainterPath round;
+    round.addRoundedRect(picture, 4, 4);
+    painter.save();
+    painter.setClipPath(round);
+    QPixmap scaled;
+    paintPicture(painter, picture, m_project.picture, scaled);
+    painter.restore();
+  }
+  const QRectF words(picture.right() + 10, 7, width() - picture.right() - 16, 18);
+  paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_project.title, Theme::font(TextRole::Medium),
+            theme[Token::Text]);
+  const QString where =
+      placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
+  paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, where, Theme::font(TextRole::Small),
+            theme[underMouse() ? Token::Text2 : Token::Muted]);
+  if (hasFocus()) paintFocusRing(painter, QRectF(rect()), 5);
+}
+
+NavigationButton::NavigationButton(const QString& icon, const QString& text, QAction* action, QWidget* parent)
+    : PageButton(parent), m_icon(icon) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setText(text);
+  setAccessibleName(text);
+  if (!action) return;
+  m_keys = action->shortcut().toString(QKeySequence::NativeText);
+  connect(this, &QAbstractButton::clicked, action, &QAction::trigger);
+  const auto follow = [this, action] { setEnabled(action->isEnabled()); };
+  connect(action, &QAction::changed, this, follow);
+  follow();
+}
+
+void NavigationButton::setCurrent(bool on) {
+  m_current = on;
+  update();
+}
+
+void NavigationButton::paintEvent(QPaintEvent*) {
+  const Theme& theme = Theme::current();
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor under = m_current ? theme[Token::Selection] : ground();
+  if (under.isValid()) paintBox(painter, QRectF(rect()), under, {}, 5);
+  const Token words = !isEnabled() ? Token::Disabled : under.isValid() ? Token::Text : Token::Text2;
+  paintIcon(painter, QRectF(12, (height() - 16) / 2.0, 16, 16), m_icon, theme[words]);
+  const QFont small = Theme::font(TextRole::Small);
+  const double keys = m_keys.isEmpty() ? 0 : textWidth(m_keys, small) + 12;
+  paintText(painter, QRectF(38, 0, width() - 50 - keys, height()), Qt::AlignLeft | Qt::AlignVCenter, text(),
+            Theme::font(TextRole::Normal), theme[words]);
+  if (keys > 0) {
+    const QRectF box(width() - keys - 10, (height() - 18) / 2.0, keys, 18);
+    paintBox(painter, box, {}, theme[Token::Line2], 3);
+    paintText(painter, box, Qt::AlignCenter, m_keys, small, theme[isEnabled() ? Token::Text2 : Token::Disabled]);
+  }
+  if (hasFocus()) paintFocusRing(painter, QRectF(rect()), 5);
+}
+
+}  // namespace ps

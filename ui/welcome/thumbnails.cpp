@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/welcome/thumbnails.h"
+
+#include "core/base/error.h"
+#include "core/io/outputfile.h"
+#include "ui/document/document.h"
+#include "ui/render/camera.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/session.h"
+
+#include <QtCore/QBuffer>
+#include <QtCore/QCryptographicHash>
+#include <QtCore/QDir>
+#include <QtCore/QFileInfo>
+#include <QtCore/QStandardPaths>
+
+namespace ps {
+namespace {
+
+constexpr int kQuality = 85;
+
+/// A picture that cannot be drawn or kept is no loss: the list shows an icon instead.
+bool keep(const SceneShot& shot, const QString& path) {
+  try {
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    drawShot(shot, Thumbnails::kSize).save(&buffer, "JPEG", kQuality);
+    QDir().mkpath(QFileInfo(path).path());
+    writeFileAtomically(path.toStdString(), {bytes.constData(), static_cast<size_t>(bytes.size())});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+QString thumbnailPath(const QString& project) {
+  const QByteArray hash = QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha1).toHex();
+  return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/thumbnails/") +
+         QString::fromLatin1(hash) + QStringLiteral(".jpg");
+}
+
+QImage drawShot(const SceneShot& shot, const QSize& size) {
+  HeadlessContext context;
+  context.makeCurrent();
+  Renderer renderer;
+  const PictureSize picture{size.width(), size.height(), true};
+  renderer.prepare(*shot.snapshot, nullptr, 1, shot.scene, shot.look);
+  const std::vector<uint8_t> pixels = renderImage(renderer, eyeOf(shot.camera, picture.width, picture.height), picture);
+  return QImage(pixels.data(), picture.width, picture.height, 4 * picture.width, QImage::Format_RGBA8888)
+      .convertToFormat(QImage::Format_RGB32);
+}
+
+Thumbnails::Thumbnails(Session& session, std::function<std::optional<SceneShot>()> shot, QObject* parent)
+    : QObject(parent), m_session(session), m_shot(std::move(shot)) {
+  m_settle.setSingleShot(true);
+  m_settle.setInterval(kSettle);
+  connect(&session, &Session::projectShown, &m_settle, qOverload<>(&QTimer::start));
+  connect(&m_settle, &QTimer::timeout, this, [this] {
+    if (!QFileInfo::exists(thumbnailPath(m_session.document().path()))) take();
+  });
+  connect(&session.files(), &DocumentFiles::saved, this, [this](const QString&, bool present) {
+    if (present) take();
+  });
+}
+
+void Thumbnails::take() {
+  const QString project = m_session.document().path();
+  if (project.isEmpty() || m_session.files().isSample(project)) return;
+  std::optional<SceneShot> shot = m_shot();
+  if (!shot) return;
+  m_worker.run([this, project, shot = std::move(*shot)] {
+    if (!keep(shot, thumbnailPath(project))) return;
+    QMetaObject::invokeMethod(this, [this, project] { Q_EMIT taken(project); });
+  });
+}
+
+}  // namespace ps

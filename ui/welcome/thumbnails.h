@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture is drawn by a thread and a context of its own: reading one back from the view would hold up the interface,
+// and at close nobody waits for it.
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/session/worker.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QSize>
+#include <QtCore/QString>
+#include <QtCore/QTimer>
+#include <QtGui/QImage>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace ps {
+
+class Session;
+
+/// Where the picture of a project's file is kept, in the user's cache.
+QString thumbnailPath(const QString& project);
+
+/// A scene as a view shows it.
+struct SceneShot {
+  SnapshotPtr snapshot;
+  RenderScene scene;
+  Look look;
+  Camera camera;
+};
+/// Draws it without a display, on any thread. Throws Error where there is no OpenGL.
+QImage drawShot(const SceneShot& shot, const QSize& size);
+
+/// Keeps pictures of the projects that a window has open: when one is saved, some seconds after it was opened where
+/// there is none yet, and when it is asked to. Not of samples, which have theirs.
+class Thumbnails : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr QSize kSize{320, 256};
+  static constexpr int kSettle = 4000;  ///< ms after a project has shown, for matter to move a little
+  /// `shot`: what the view shows now; nothing: no matter, or no view.
+  Thumbnails(Session& session, std::function<std::optional<SceneShot>()> shot, QObject* parent = nullptr);
+  void take();                     ///< of the document as it is shown now
+  void end() { m_worker.wait(); }  ///< what is being drawn is drawn: before the session goes
+
+ Q_SIGNALS:
+  void taken(const QString& project);
+
+ private:
+  Session& m_session;
+  std::function<std::optional<SceneShot>()> m_shot;
+  QTimer m_settle;
+  Worker m_worker;  // ends first
+};
+
+}  // namespace ps
