@@ -2,6 +2,10 @@
 // The dialog of preferences: each choice acts at once, and stands there the next time.
 #include "core/simulation/runrecord.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphview.h"
+#include "ui/panels/inspector.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/session/preferences.h"
 
 #include <QtCore/QDir>
@@ -10,6 +14,8 @@
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QPlainTextEdit>
 #include <QtWidgets/QPushButton>
 
 using namespace ps;
@@ -42,6 +48,33 @@ class TestPreferences : public SampleWindowTest {
     QCOMPARE(field<QComboBox>("Copy it")->currentText(), QStringLiteral("Every minute"));
     QCOMPARE(field<QComboBox>("In memory, at most")->currentText(), QStringLiteral("512 MiB"));
     QCOMPARE(field<QComboBox>("On the disk, at most")->currentText(), QStringLiteral("Nothing"));
+  }
+
+  /// In rows, graphs, legend and outliner, and typed values; the document stays in kelvin.
+  void temperaturesAreShownAsPreferred() {
+    const Address floor{Owner::Wall, "floor", "temperature"};
+    QVERIFY(m_window->revealParameter(floor));
+    const auto row = [this, &floor] {
+      return m_window->inspector().panelFor(floor)->row(QString::fromStdString(floor.text()));
+    };
+    QCOMPARE(row()->valueText(), QStringLiteral("146.9 °C"));
+    openDialog();
+    pick("Temperatures", "Degrees Fahrenheit, °F");
+    QCOMPARE(row()->valueText(), QStringLiteral("296.3 °F"));
+    QVERIFY(row()->enter(QStringLiteral("212")));
+    QVERIFY(std::abs(std::get<double>(document().value(floor)) - 373.15) < 1e-9);
+    QVERIFY(row()->enter(QStringLiteral("100 °C")));
+    QCOMPARE(row()->valueText(), QStringLiteral("212.0 °F"));
+    QVERIFY(m_window->graphs()->valuesIn("K"));
+    QCOMPARE(m_window->graphs()->valuesIn("K")->axes().front().unit, QStringLiteral("°F"));
+    picture(QStringLiteral("tst_preferences_fahrenheit.png"));
+    pick("Temperatures", "Kelvin, K");
+    QCOMPARE(row()->valueText(), QStringLiteral("373.2 K"));
+    QCOMPARE(temperatureText(300, 1), QStringLiteral("300.0 K"));
+    QCOMPARE(preferences::temperatures(), TemperatureUnit::Kelvin);
+    pick("Temperatures", "Degrees Celsius, °C");
+    QCOMPARE(row()->valueText(), QStringLiteral("100.0 °C"));
+    while (document().undoStack().canUndo()) document().undoStack().undo();
   }
 
   /// A value that is none of those offered is shown, and stays.
@@ -88,6 +121,33 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(session().engine()->recording().extent().frames > 1);
   }
 
+  /// What the project says of itself: typed, taken when the field is left, one step each, and undone.
+  void theProjectIsDescribed() {
+    m_window->action(QStringLiteral("edit.project"))->trigger();
+    auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+    QVERIFY(about && QTest::qWaitForWindowExposed(about));
+    auto* title = about->findChild<QLineEdit*>();
+    auto* text = about->findChild<QPlainTextEdit*>();
+    const ProjectAbout before = document().about();
+    QCOMPARE(title->text().toStdString(), before.title);
+    QCOMPARE(text->toPlainText().toStdString(), before.description);
+    title->setText(QStringLiteral("Puddle"));
+    QTest::keyClick(title, Qt::Key_Tab);
+    QCOMPARE(document().about().title, std::string("Puddle"));
+    QVERIFY(m_window->windowTitle().contains(QStringLiteral("Puddle")));
+    text->setPlainText(QStringLiteral("It melts.\nTry it."));
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) about->grab().save(folder + QStringLiteral("/tst_project_properties.png"));
+    about->close();
+    QCOMPARE(document().about().description, std::string("It melts.\nTry it."));
+    QCOMPARE(document().undoStack().count(), 2);
+    document().undoStack().undo();
+    QCOMPARE(document().about().description, before.description);
+    document().undoStack().undo();
+    QVERIFY(document().about() == before);
+    QVERIFY(m_window->windowTitle().contains(QString::fromStdString(before.title)));
+  }
+
   /// From field to field by Tab, to the next choice by an arrow.
   void theKeyboardReachesAll() {
     openDialog();
@@ -118,7 +178,7 @@ class TestPreferences : public SampleWindowTest {
   }
   void pick(const char* label, const char* text) {
     auto* box = field<QComboBox>(label);
-    const int index = box->findText(QLatin1String(text));
+    const int index = box->findText(QString::fromUtf8(text));
     QVERIFY2(index >= 0, text);
     box->setCurrentIndex(index);
     Q_EMIT box->activated(index);

@@ -22,9 +22,9 @@ double squareOf(const QPointF& way) { return QPointF::dotProduct(way, way); }
 /// Of the axis' level over the value; 0 where a logarithmic axis shows nothing.
 double CurveView::levelSlope(double value) const {
   const api::ParameterDeclaration& declaration = m_target.declaration();
-  if (!logarithmic()) return declaration.displayScale;
+  if (!logarithmic()) return displayFactor(declaration);
   const double shown = toDisplay(declaration, value);
-  return shown > 0 ? declaration.displayScale / (shown * std::log(10.0)) : 0;
+  return shown > 0 ? displayFactor(declaration) / (shown * std::log(10.0)) : 0;
 }
 
 std::optional<QPointF> CurveView::handleAt(bool after) const {

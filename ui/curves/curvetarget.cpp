@@ -108,7 +108,7 @@ std::optional<Response> CurveTarget::ghost() const {
 }
 
 double CurveTarget::shownSlope(double value, double slope) const {
-  const double shown = slope * declaration().displayScale;
+  const double shown = slope * displayFactor(declaration());
   if (declaration().scale != api::Scale::Logarithmic) return shown;
   const double here = toDisplay(declaration(), value);
   return here > 0 ? shown / (here * std::log(10.0)) : 0;

@@ -69,12 +69,15 @@ struct OrderChanged {};
 struct MarkersChanged {};
 /// The project holds another state to open at, or none; the scene that runs stays what it is.
 struct StateChanged {};
+/// The project has another title or description.
+struct AboutChanged {};
 /// The file, its name or whether it holds everything changed.
 struct FileChanged {};
 
 /// What happened to a document, as one value: receivers visit it.
-using ChangeEvent = std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged,
-                                 MaterialsChanged, StrokeChanged, ViewChanged, PinsChanged, TracksChanged,
-                                 ProbesChanged, GraphsChanged, OrderChanged, MarkersChanged, StateChanged, FileChanged>;
+using ChangeEvent =
+    std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged, MaterialsChanged,
+                 StrokeChanged, ViewChanged, PinsChanged, TracksChanged, ProbesChanged, GraphsChanged, OrderChanged,
+                 MarkersChanged, StateChanged, AboutChanged, FileChanged>;
 
 }  // namespace ps

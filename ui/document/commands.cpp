@@ -235,6 +235,12 @@ bool ProbeCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
+AboutCommand::AboutCommand(Document& document, ProjectAbout before, ProjectAbout after, const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void AboutCommand::undo() { m_document.applyAbout(m_before); }
+void AboutCommand::redo() { m_document.applyAbout(m_after); }
+
 PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
                          const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

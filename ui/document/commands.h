@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/document/about.h"
 #include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
@@ -220,6 +221,18 @@ class ProbeCommand : public QUndoCommand {
   Document& m_document;
   ProbeEdit m_edit;
   int m_gesture;
+};
+
+/// What the project says of itself, before and after.
+class AboutCommand : public QUndoCommand {
+ public:
+  AboutCommand(Document& document, ProjectAbout before, ProjectAbout after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  ProjectAbout m_before, m_after;
 };
 
 /// The rows of "Try these".

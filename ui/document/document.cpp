@@ -255,6 +255,10 @@ void Document::removeState() {
     m_undo.push(new StateCommand(*this, m_project.state, nullptr, QStringLiteral("removal of the saved state")));
 }
 
+void Document::setAbout(ProjectAbout about, const QString& text) {
+  if (about != this->about()) m_undo.push(new AboutCommand(*this, this->about(), std::move(about), text));
+}
+
 void Document::setColour(const std::string& colour) {
   if (m_project.view.colour == colour) return;
   m_project.view.colour = colour;
@@ -301,6 +305,13 @@ void Document::applyState(const std::shared_ptr<const ProjectState>& state) {
   m_project.state = state;
   ++m_changes;
   notify(StateChanged{});
+}
+
+void Document::applyAbout(const ProjectAbout& about) {
+  m_project.title = about.title;
+  m_project.description = about.description;
+  ++m_changes;
+  notify(AboutChanged{});
 }
 
 void Document::applyPins(const std::vector<std::string>& pins) {

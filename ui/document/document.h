@@ -2,6 +2,7 @@
 #pragma once
 #include "core/io/filestamp.h"
 #include "core/scene/project.h"
+#include "ui/document/about.h"
 #include "ui/document/changeevent.h"
 #include "ui/document/placement.h"
 #include "ui/document/port.h"
@@ -55,6 +56,9 @@ class Document : public QObject {
   bool had(uint64_t changeCount) const { return changeCount >= m_opened; }
   /// Rises with every change of the project, and when another takes its place.
   uint64_t changeCount() const { return m_changes; }
+
+  ProjectAbout about() const { return {m_project.title, m_project.description}; }
+  void setAbout(ProjectAbout about, const QString& text);
 
   // Parameters
   Value value(const Address& address) const;
@@ -209,6 +213,7 @@ class Document : public QObject {
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyState(const std::shared_ptr<const ProjectState>& state);
   void applyPins(const std::vector<std::string>& pins);
+  void applyAbout(const ProjectAbout& about);
   void applyTrack(const TrackEdit& edit, bool forward);
   void applyOrder(const SceneOrder& order);
   void applyGraphs(const std::optional<std::vector<Graph>>& graphs);

@@ -137,6 +137,13 @@ void GraphsPanel::fit() {
   for (const Shown& shown : m_shown) shown.plot->fit();
 }
 
+void GraphsPanel::remake() {
+  for (const Shown& gone : std::exchange(m_shown, {})) {
+    if (gone.plot) gone.plot->deleteLater(), gone.plot->hide();
+  }
+  rebuild();
+}
+
 /// Views stay where the graph is of the same kind: what is zoomed stays so.
 void GraphsPanel::rebuild() {
   std::vector<Shown> before = std::exchange(m_shown, {});

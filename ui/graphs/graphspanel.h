@@ -34,6 +34,7 @@ class GraphsPanel : public QWidget {
   GraphView* valuesIn(const std::string& unit) const;
   PhaseStackView* phases() const;  ///< the first of its kind; nullptr: none
   void fit();                      ///< all, up to now
+  void remake();                   ///< all anew: units are shown otherwise
   /// The menu of a graph; "": of the place where none is. The caller owns it.
   QMenu* makeMenu(const std::string& id);
   /// A graph as a file: "png", "svg" or "csv".

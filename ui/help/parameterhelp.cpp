@@ -8,6 +8,7 @@
 #include "ui/rows/parameterrow.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,8 +167,8 @@ QString figureTable(const RowModel& row, const std::vector<KnownFigure>& figures
     rows += line(figures[i].label, figures[i].value, "name");
   }
   if (at >= last) rows += line(QStringLiteral("this value"), value, "here");
-  return QStringLiteral("<h3>Among the installed materials, at %1 °C</h3><table>%2</table>")
-      .arg(formatFixed(row.temperature - 273.15), rows);
+  return QStringLiteral("<h3>Among the installed materials, at %1</h3><table>%2</table>")
+      .arg(temperatureText(row.temperature, 0), rows);
 }
 
 }  // namespace
@@ -191,8 +192,8 @@ QStringList explainedValue(const RowModel& row, const Document& document) {
   const Declaration& d = row.declaration;
   QStringList said;
   if (isCurve(row.value)) {
-    said << QStringLiteral("It is a curve over temperature; at %1 °C, where its matter stands now, it is %2.")
-                .arg(formatFixed(row.temperature - 273.15, 1), valueText(row, row.value));
+    said << QStringLiteral("It is a curve over temperature; at %1, where its matter stands now, it is %2.")
+                .arg(temperatureText(row.temperature, 1), valueText(row, row.value));
   } else {
     said << QStringLiteral("It is %1.").arg(valueText(row, row.value));
   }

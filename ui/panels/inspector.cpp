@@ -13,6 +13,7 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/units.h"
 
 #include <algorithm>
 
@@ -249,7 +250,7 @@ void Inspector::showMaterialHeader() {
 }
 
 QString Inspector::materialDetail() const {
-  const QString at = QStringLiteral("At %1 °C").arg(formatFixed(temperatureOf(m_materialId) - 273.15, 1));
+  const QString at = QStringLiteral("At ") + temperatureText(temperatureOf(m_materialId), 1);
   return m_grade.isEmpty() ? at : at + QStringLiteral(" · ") + m_grade;
 }
 

@@ -14,6 +14,7 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/units.h"
 
 #include <QtGui/QColor>
 #include <QtWidgets/QLabel>
@@ -30,7 +31,7 @@ namespace {
 QString probeText(double value, const Quantity* quantity) {
   if (!std::isfinite(value) || !quantity) return QStringLiteral("—");
   const std::string& unit = quantity->unit;
-  if (unit == "K") return formatFixed(value - 273.15, 1) + QStringLiteral(" °C");
+  if (unit == "K") return temperatureText(value, 1);
   if (unit == "kg") return formatPrefixed(value * 1e3, QStringLiteral("g"));
   if (unit == "J") return formatPrefixed(value, QStringLiteral("J"));
   // Particles are counted; shares keep their digits when they happen to be whole.
@@ -224,7 +225,7 @@ void Outliner::refreshSurroundings() {
   const Environment now = m_session.surroundings();
   const auto show = [](QStandardItem* item, const ParameterSet& set, api::ParameterList list, const char* key) {
     const double shown = toDisplay(*findDeclaration(list, key), numberOf(set, list, key));
-    if (item) item->setData(formatQuantity(shown, QStringLiteral("°C"), 3), outline::kDetail);
+    if (item) item->setData(formatQuantity(shown, temperatureSymbol(), 3), outline::kDetail);
   };
   for (const SceneWall& wall : now.walls) {
     if (hasTemperature(wall)) show(find(OutlineKind::Wall, wall.id), wall.parameters, wallParameters(), "temperature");

@@ -4,6 +4,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/theme/units.h"
 
 #include <QtCore/QMetaMethod>
 #include <QtCore/QPointer>
@@ -45,7 +46,7 @@ QString ParameterRow::Private::toolTipText() const {
   if (!isCurve(model.defaultValue) && isNumeric()) {
     text += line("Default", formatValue(p, numberOfValue(p, model.defaultValue, model.temperature)));
   }
-  if (showsCurve()) text += line("Shown at", formatFixed(model.temperature - 273.15, 1) + QStringLiteral(" °C"));
+  if (showsCurve()) text += line("Shown at", temperatureText(model.temperature, 1));
   if (showsCurve() && isEditable()) {
     text += line("", QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its place, *2 "
                                     "doubles it."));

@@ -34,7 +34,7 @@ double roundStep(double step) {
   return decade * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
 }
 
-double displayedRange(const ParameterDeclaration& d) { return std::abs((d.maximum - d.minimum) * d.displayScale); }
+double displayedRange(const ParameterDeclaration& d) { return std::abs((d.maximum - d.minimum) * displayFactor(d)); }
 
 double withinSlider(const ParameterDeclaration& d, double value) { return std::clamp(value, d.minimum, d.maximum); }
 

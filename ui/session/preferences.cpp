@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
                      *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
-                     *kTour = "welcome/tourDone";
+                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures";
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
@@ -62,6 +62,9 @@ RecordBudget recordBudget(size_t onDisk) {
 
 int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }
 void setAutosaveInterval(int seconds) { set(kAutosave, seconds); }
+
+TemperatureUnit temperatures() { return static_cast<TemperatureUnit>(number(kTemperatures, 0, 0, 2)); }
+void setTemperatures(TemperatureUnit unit) { set(kTemperatures, static_cast<int>(unit)); }
 
 bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
 bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }

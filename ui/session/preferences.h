@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/runrecord.h"
+#include "ui/theme/units.h"
 
 #include <QtCore/QString>
 
@@ -26,6 +27,9 @@ RecordBudget recordBudget(size_t onDisk = 0);
 /// s between copies of unsaved work.
 int autosaveInterval();
 void setAutosaveInterval(int seconds);
+
+TemperatureUnit temperatures();
+void setTemperatures(TemperatureUnit unit);
 
 /// Whether no window has been closed in order yet.
 bool isFirstStart();

@@ -3,6 +3,7 @@
 
 #include "core/simulation/events.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/units.h"
 
 #include <algorithm>
 #include <array>
@@ -105,12 +106,11 @@ namespace {
 
 /// "above 412 °C"
 QString whereText(const std::array<double, 2>& kelvin) {
-  const auto celsius = [](double t) { return formatFixed(t - 273.15, 0) + QStringLiteral(" °C"); };
+  const auto shown = [](double t) { return temperatureText(t, 0); };
   const auto [from, to] = kelvin;
-  if (!(from > 0))
-    return std::isfinite(to) ? QStringLiteral("below %1").arg(celsius(to)) : QStringLiteral("everywhere");
-  if (!std::isfinite(to)) return QStringLiteral("above %1").arg(celsius(from));
-  return QStringLiteral("between %1 and %2").arg(celsius(from), celsius(to));
+  if (!(from > 0)) return std::isfinite(to) ? QStringLiteral("below %1").arg(shown(to)) : QStringLiteral("everywhere");
+  if (!std::isfinite(to)) return QStringLiteral("above %1").arg(shown(from));
+  return QStringLiteral("between %1 and %2").arg(shown(from), shown(to));
 }
 
 }  // namespace

@@ -287,15 +287,31 @@ QString formatQuantity(double value, const QString& unit, int significant) {
   return unit.isEmpty() ? number : number + QLatin1Char(' ') + unit;
 }
 
+namespace {
+
+/// A temperature, which people see in the unit that they prefer; a difference of temperatures has K.
+bool isTemperature(const api::ParameterDeclaration& d) {
+  return d.displayUnit && std::string_view(d.displayUnit) == "°C";
+}
+
+}  // namespace
+
 double toDisplay(const api::ParameterDeclaration& d, double stored) {
+  if (isTemperature(d)) return shownTemperature(stored);
   return stored * d.displayScale + d.displayOffset;
 }
 
 double fromDisplay(const api::ParameterDeclaration& d, double shown) {
+  if (isTemperature(d)) return kelvinOf(shown);
   return (shown - d.displayOffset) / d.displayScale;
 }
 
+double displayFactor(const api::ParameterDeclaration& d) {
+  return isTemperature(d) ? degreesPerKelvin() : d.displayScale;
+}
+
 QString displayUnit(const api::ParameterDeclaration& d) {
+  if (isTemperature(d)) return temperatureSymbol();
   return QString::fromUtf8(d.displayUnit && *d.displayUnit ? d.displayUnit : d.unit ? d.unit : "");
 }
 

@@ -39,7 +39,9 @@ QString formatError(double relative);
 /// Stored (SI) value as people see it, and back.
 double toDisplay(const api::ParameterDeclaration& declaration, double stored);
 double fromDisplay(const api::ParameterDeclaration& declaration, double shown);
-/// The unit that people see: displayUnit, or unit where it is empty.
+/// Of a difference: shown per stored.
+double displayFactor(const api::ParameterDeclaration& declaration);
+/// The unit that people see, of temperatures the one that they prefer: displayUnit, or unit where it is empty.
 QString displayUnit(const api::ParameterDeclaration& declaration);
 /// Whether a value is left out: a material that never boils has its boiling point at absolute zero, a tap that never
 /// closes does so after 1e9 s, a rope that never tears does so at 0. Shown and typed as "none", "never" or the

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/theme/units.h"
 
+#include "ui/theme/numbers.h"
+
 #include <QtCore/QStringList>
 #include <QtCore/QStringView>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace ps {
@@ -162,6 +165,29 @@ std::optional<Unit> parseUnit(const QString& text) {
   }
   if (factors > 1) result.offset = 0;
   return result;
+}
+
+namespace {
+
+struct ShownScale {
+  const char16_t* symbol;
+  double scale, offset;  ///< shown = kelvin * scale + offset
+};
+constexpr ShownScale kScales[] = {{u"°C", 1, -273.15}, {u"K", 1, 0}, {u"°F", 1.8, -459.67}};
+std::atomic<TemperatureUnit> shownUnit{TemperatureUnit::Celsius};
+
+const ShownScale& scale() { return kScales[static_cast<size_t>(shownUnit.load())]; }
+
+}  // namespace
+
+TemperatureUnit temperatureUnit() { return shownUnit; }
+void setTemperatureUnit(TemperatureUnit unit) { shownUnit = unit; }
+QString temperatureSymbol() { return QString::fromUtf16(scale().symbol); }
+double shownTemperature(double kelvin) { return kelvin * scale().scale + scale().offset; }
+double kelvinOf(double shown) { return (shown - scale().offset) / scale().scale; }
+double degreesPerKelvin() { return scale().scale; }
+QString temperatureText(double kelvin, int decimals) {
+  return formatFixed(shownTemperature(kelvin), decimals) + QLatin1Char(' ') + temperatureSymbol();
 }
 
 }  // namespace ps

@@ -18,4 +18,15 @@ struct Unit {
 /// "". nullopt for what is no unit. Only a lone temperature (°C, °F) has an offset.
 std::optional<Unit> parseUnit(const QString& text);
 
+/// How people want to see temperatures, everywhere in the program; inside and in files they stay in kelvin.
+enum class TemperatureUnit { Celsius, Kelvin, Fahrenheit };
+TemperatureUnit temperatureUnit();  ///< any thread
+void setTemperatureUnit(TemperatureUnit unit);
+QString temperatureSymbol();             ///< "°C"
+double shownTemperature(double kelvin);  ///< in that unit
+double kelvinOf(double shown);           ///< and back
+double degreesPerKelvin();               ///< of a difference
+/// "20.5 °C"
+QString temperatureText(double kelvin, int decimals);
+
 }  // namespace ps

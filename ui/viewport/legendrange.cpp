@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/viewport/legendrange.h"
 
+#include "ui/theme/units.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace ps {
 namespace {
-
-constexpr double kZero = 273.15;  // K
 
 /// The next of 1, 2, 5 times a power of ten.
 double roundUp(double value) {
@@ -23,10 +23,10 @@ double roundUp(double value) {
 void LegendRange::moveEnd(bool upper, double share) {
   if (!m_valid) return;
   const double width = m_range.second - m_range.first;
-  const double step = roundUp(width / 200);
+  // Temperatures are round in the unit in which they are shown.
+  const double degrees = m_kelvin ? degreesPerKelvin() : 1, zero = m_kelvin ? kelvinOf(0) : 0;
+  const double step = roundUp(width * degrees / 200) / degrees;
   double& end = upper ? m_range.second : m_range.first;
-  // Temperatures are round in degrees Celsius.
-  const double zero = m_kelvin ? kZero : 0;
   end = zero + step * std::round((end + share * width - zero) / step);
   if (upper)
     end = std::max(end, m_range.first + 5 * step);

@@ -5,6 +5,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
+#include "ui/theme/units.h"
 #include "ui/tools/brushsettings.h"
 
 #include <QtCore/QStringList>
@@ -18,7 +19,6 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kPadding = 8, kLine = 22;
-constexpr double kZero = 273.15;  // K
 
 void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
   const Theme& theme = Theme::current();
@@ -58,14 +58,14 @@ void paintScaleBar(QPainter& painter, const OverlayState& state) {
             Qt::AlignLeft | Qt::AlignVCenter, text, font, Theme::current()[Token::Text]);
 }
 
-/// Range and text of a legend, as people read the field: °C for kelvin, shares in %, else with the prefix of its unit
-/// that keeps numbers short.
+/// Range and text of a legend, as people read the field: temperatures as people prefer them, shares in %, else with the
+/// prefix of its unit that keeps numbers short.
 LegendText legendText(const ParticleField& field, std::pair<double, double>& range) {
   LegendText text{QString::fromStdString(field.label), QString::fromStdString(field.unit)};
   const double largest = std::max(std::abs(range.first), std::abs(range.second));
   if (field.unit == "K") {
-    text.unit = QStringLiteral("°C");
-    if (largest > 0) range = {range.first - kZero, range.second - kZero};
+    text.unit = temperatureSymbol();
+    if (largest > 0) range = {shownTemperature(range.first), shownTemperature(range.second)};
   } else if (field.unit == "1") {
     const bool share = field.hasScale() && field.minimum >= -1 && field.maximum <= 1;
     text.unit = share ? QStringLiteral("%") : QString();
@@ -91,9 +91,10 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
   std::vector<LegendMark> marks;
   double pivot = 0;
   if (state.field->name == "temperature") {
-    pivot = state.meltingPoint - kZero;
+    pivot = shownTemperature(state.meltingPoint);
     if (state.meltingPoint > 0) marks.push_back({pivot, QStringLiteral("melts")});
-    if (std::isfinite(state.boilingPoint)) marks.push_back({state.boilingPoint - kZero, QStringLiteral("boils")});
+    if (std::isfinite(state.boilingPoint))
+      marks.push_back({shownTemperature(state.boilingPoint), QStringLiteral("boils")});
   }
   const QSizeF size = legendSize(map, text.title, marks);
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),

@@ -13,6 +13,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/theme/units.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/gizmopainter.h"
@@ -285,8 +286,7 @@ std::optional<SceneTag> Viewport::tag() const {
   const Body* body =
       m_now->bodyIds && index < m_now->bodyIds->size() ? m_document.body((*m_now->bodyIds)[index]) : nullptr;
   if (body) tag.name = nameOf(*body);
-  constexpr double kZero = 273.15;
-  tag.value = formatFixed(static_cast<double>(m_now->temperature[row]) - kZero, 1) + QStringLiteral(" °C  ") +
+  tag.value = temperatureText(static_cast<double>(m_now->temperature[row]), 1) + QStringLiteral("  ") +
               phaseName(m_now->phase[row]);
   return tag;
 }

@@ -12,10 +12,12 @@
 #include "ui/panels/pluginpage.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
+#include "ui/theme/units.h"
 #include "ui/timeline/keyrows.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
@@ -31,6 +33,7 @@
 #include "ui/window/paletteentries.h"
 #include "ui/window/paneltable.h"
 #include "ui/window/preferenceswindow.h"
+#include "ui/window/projectwindow.h"
 #include "ui/window/restoreoffer.h"
 #include "ui/window/shortcutswindow.h"
 #include "ui/window/sketchactions.h"
@@ -67,6 +70,7 @@ MainWindow::MainWindow(const Options& options)
       m_selection(std::make_unique<Selection>(m_session->document())),
       m_tools(std::make_unique<Toolbox>(m_session->document(), *m_selection)) {
   setObjectName(QStringLiteral("psWindow"));
+  if (options.restore) setTemperatureUnit(preferences::temperatures());
   setAcceptDrops(true);
   setContextMenuPolicy(Qt::NoContextMenu);
   connect(m_session.get(), &Session::ready, this, &MainWindow::onReady);  // before the first file is opened
@@ -199,6 +203,8 @@ void MainWindow::makeMenus() {
       std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
   m_things->makeMenu(edit);
   m_things->makeArrangeMenu(edit->addMenu(QStringLiteral("Arrange")));
+  m_actions.add(edit, QStringLiteral("edit.project"), QStringLiteral("Project properties…"), {},
+                [this] { openProjectProperties(*this); });
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
                 {QKeySequence(QStringLiteral("Ctrl+,"))}, [this] { openPreferences(*this); });
   m_bodies->makeMenu(bar->addMenu(QStringLiteral("Add")));
@@ -262,7 +268,10 @@ void MainWindow::addGraphButton() {
 }
 
 void MainWindow::connectParts() {
-  connect(&m_session->document(), &Document::changed, this, &MainWindow::updateTitle);
+  connect(&m_session->document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    updateTitle();
+    if (std::holds_alternative<AboutChanged>(event)) outliner()->rebuild();
+  });
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
   connect(&m_session->files(), &DocumentFiles::saved, this, &MainWindow::updateTitle);
   connect(m_session.get(), &Session::projectShown, this, [this] {

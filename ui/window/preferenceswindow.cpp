@@ -3,10 +3,15 @@
 
 #include "core/base/memory.h"
 #include "core/simulation/enginethread.h"
+#include "ui/curves/curvetarget.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"
+#include "ui/theme/units.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
@@ -34,6 +39,17 @@ QString bytesText(double bytes) { return QString::fromStdString(memoryText(bytes
 QString mebibytes(int count) {
   return count >= 1024 && count % 1024 == 0 ? QStringLiteral("%1 GiB").arg(count / 1024)
                                             : QStringLiteral("%1 MiB").arg(count);
+}
+
+/// From now on, in all sessions.
+void showTemperatures(MainWindow& window, TemperatureUnit unit) {
+  preferences::setTemperatures(unit);
+  setTemperatureUnit(unit);
+  window.inspector().rebuild();
+  window.outliner()->rebuild();
+  window.graphs()->remake();
+  Q_EMIT window.curves().responseChanged();
+  for (QWidget* widget : window.findChildren<QWidget*>()) widget->update();
 }
 
 /// The rows of the dialog, one below the other.
@@ -122,6 +138,19 @@ void Preferences::addTheme() {
       [this](int isDark) {
         m_window.action(isDark ? QStringLiteral("view.dark") : QStringLiteral("view.light"))->trigger();
       });
+  using enum TemperatureUnit;
+  choice(
+      QStringLiteral("Temperatures"),
+      QStringLiteral("How they are shown and typed without a unit; files and exports of particles have kelvin."),
+      {{QStringLiteral("Degrees Celsius, °C"), static_cast<int>(Celsius)},
+       {QStringLiteral("Kelvin, K"), static_cast<int>(Kelvin)},
+       {QStringLiteral("Degrees Fahrenheit, °F"), static_cast<int>(Fahrenheit)}},
+      static_cast<int>(temperatureUnit()), [](int) { return QString(); },
+      [this](int unit) { showTemperatures(m_window, static_cast<TemperatureUnit>(unit)); });
+  choice(
+      QStringLiteral("At the start"), QStringLiteral("What the window begins with."),
+      {{QStringLiteral("Welcome page"), 1}, {QStringLiteral("Last scene"), 0}}, preferences::welcomeAtStart() ? 1 : 0,
+      [](int) { return QString(); }, [](int shown) { preferences::setWelcomeAtStart(shown == 1); });
 }
 
 void Preferences::addAutosave() {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+namespace ps {
+
+/// What a project says of itself.
+struct ProjectAbout {
+  std::string title, description;
+  bool operator==(const ProjectAbout&) const = default;
+};
+
+}  // namespace ps
