@@ -15,9 +15,9 @@ using View = std::string_view;
 constexpr std::array<View, 14> kCoreRooms = {"base",       "math",  "parameters", "particles",   "matter",
                                              "solver",     "scene", "sketch",     "plugin_host", "geometry",
                                              "simulation", "io",    "export",     "experiments"};
-constexpr std::array<View, 17> kUiRooms = {"theme",    "render", "film",   "document", "session", "tools",
+constexpr std::array<View, 18> kUiRooms = {"theme",    "render", "film",   "document", "session", "tools",
                                            "rows",     "panels", "graphs", "fitting",  "curves",  "timeline",
-                                           "viewport", "vr",     "help",   "welcome",  "window"};
+                                           "viewport", "vr",     "help",   "library",  "welcome", "window"};
 // Behind the face of the solver: private headers, likewise in order.
 constexpr std::array<View, 6> kSolverRooms = {"structure", "contact", "fluid", "heat", "frame", "gpu"};
 

@@ -27,6 +27,7 @@
 #include "ui/window/editactions.h"
 #include "ui/window/fileactions.h"
 #include "ui/window/keyroute.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/pagechooser.h"
@@ -207,7 +208,11 @@ void MainWindow::makeMenus() {
                 [this] { openProjectProperties(*this); });
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
                 {QKeySequence(QStringLiteral("Ctrl+,"))}, [this] { openPreferences(*this); });
-  m_bodies->makeMenu(bar->addMenu(QStringLiteral("Add")));
+  QMenu* adding = bar->addMenu(QStringLiteral("Add"));
+  m_bodies->makeMenu(adding);
+  m_library =
+      new LibraryActions(*m_session, *m_selection, m_actions, *m_notices, *m_centre, *m_pane, m_options.presets, this);
+  m_library->addTo(adding);
   m_views->makeMenu(bar->addMenu(QStringLiteral("View")));
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
@@ -416,7 +421,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     return;
   } else if (m_welcome->shown()) {
     m_welcome->leave();
-  } else if (showsPlugins()) {
+  } else if (m_centre->currentWidget() != m_pane) {
     m_centre->setCurrentWidget(m_pane);
   } else if (m_layout->fullViewport()) {
     m_layout->setFullViewport(false);

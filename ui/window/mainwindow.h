@@ -21,6 +21,7 @@ class FileActions;
 class GraphsPanel;
 class Help;
 class Inspector;
+class LibraryActions;
 class NoticeBar;
 class Notices;
 class Outliner;
@@ -49,6 +50,7 @@ class MainWindow : public QMainWindow {
     Session::Options session;
     QString project;                ///< to open first; "": the last session, else the sample
     QString sample;                 ///< path of the first sample; "": an empty scene
+    QString presets;                ///< folder of the user's materials; "": the usual one
     QString samples;                ///< folder of all samples, with their pictures and templates; "": none
     bool restore = true;            ///< last session, window state and theme of the user's settings
     bool exitOnBadProject = false;  ///< for pictures by command: startFailed() instead of a notice
@@ -80,6 +82,7 @@ class MainWindow : public QMainWindow {
   NoticeBar* notice() const;
   bool showsPlugins() const;
   Welcome& welcome() const { return *m_welcome; }
+  LibraryActions& library() const { return *m_library; }
   Help& help() const { return *m_help; }
   Tour& tour() const { return *m_tour; }
   void startTour();  ///< of five steps over the scene
@@ -137,6 +140,7 @@ class MainWindow : public QMainWindow {
   FileActions* m_files = nullptr;
   PageChooser* m_pages = nullptr;
   Welcome* m_welcome = nullptr;
+  LibraryActions* m_library = nullptr;
   Help* m_help = nullptr;
   Tour* m_tour = nullptr;
   std::unique_ptr<EditActions> m_edit;

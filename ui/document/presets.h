@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <string>
+
+namespace ps {
+
+class Document;
+
+/// Brings a material with values of its own into the scene, beside those that are there; its id gets a number when it
+/// is taken. One undo step. Returns the id.
+std::string addPreset(Document& document, SceneMaterial preset);
+
+}  // namespace ps

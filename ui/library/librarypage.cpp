@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/library/librarypage.h"
+
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/document/presets.h"
+#include "ui/library/materialcard.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/plaintext.h"
+#include "ui/theme/theme.h"
+
+#include <QtCore/QEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QButtonGroup>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QListWidget>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QTreeWidget>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kRoom = 293.15;  // K, at which properties are listed
+constexpr double kDiffers = 1.1;  // factor from which two values are marked as different
+
+}  // namespace
+
+LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      m_library(library),
+      m_session(session),
+      m_selection(selection),
+      m_search(new QLineEdit),
+      m_name(new QLineEdit),
+      m_cards(new QListWidget),
+      m_table(new QTreeWidget),
+      m_title(new QLabel),
+      m_about(new QLabel),
+      m_of(new QLabel),
+      m_add(new QPushButton(QStringLiteral("Add to the scene"))),
+      m_export(new QPushButton(QStringLiteral("Export…"))),
+      m_remove(new QPushButton(QStringLiteral("Remove preset"))),
+      m_save(new QPushButton(QStringLiteral("Save as preset"))) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(16, 12, 16, 12);
+  row->setSpacing(16);
+  row->addWidget(makeLeft(), 1);
+  row->addWidget(makeRight(), 1);
+  connect(&library, &MaterialLibrary::changed, this, &LibraryPage::refresh);
+  connect(&selection, &Selection::materialChanged, this, &LibraryPage::showScene);
+  refresh();
+  showScene();
+}
+
+QWidget* LibraryPage::makeLeft() {
+  auto* left = new QWidget;
+  auto* column = new QVBoxLayout(left);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(10);
+  auto* head = new QHBoxLayout;
+  auto* title = new QLabel(QStringLiteral("Materials"));
+  title->setFont(Theme::font(TextRole::Title));
+  head->addWidget(title);
+  head->addStretch(1);
+  m_search->setObjectName(QStringLiteral("psFilter"));
+  m_search->setPlaceholderText(QStringLiteral("Name, or what it is"));
+  m_search->setAccessibleName(QStringLiteral("Search materials"));
+  m_search->setFixedWidth(190);
+  head->addWidget(m_search);
+  column->addLayout(head);
+  auto* choices = new QHBoxLayout;
+  m_chips = new QHBoxLayout;
+  m_chips->setSpacing(6);
+  choices->addLayout(m_chips);
+  choices->addStretch(1);
+  column->addLayout(choices);
+  m_cards->setItemDelegate(new MaterialCard(m_library, m_cards));
+  m_cards->setViewMode(QListView::IconMode);
+  m_cards->setResizeMode(QListView::Adjust);
+  m_cards->setMovement(QListView::Static);
+  m_cards->setUniformItemSizes(true);
+  m_cards->setMouseTracking(true);
+  m_cards->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  m_cards->setAccessibleName(QStringLiteral("Materials"));
+  column->addWidget(m_cards, 1);
+  auto* hint =
+      new QLabel(QStringLiteral("The bar shows solid, liquid and gas from −223 to 3,700 °C under the air's "
+                                "usual pressure; its line is at 20 °C. Ctrl+click compares two."));
+  hint->setProperty("role", "muted");
+  hint->setWordWrap(true);
+  column->addWidget(hint);
+  connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
+  connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
+  connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
+  return left;
+}
+
+QWidget* LibraryPage::makeRight() {
+  auto* right = new QWidget;
+  auto* column = new QVBoxLayout(right);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  auto* head = new QHBoxLayout;
+  m_title->setFont(Theme::font(TextRole::Heading));
+  auto* import = new QPushButton(QStringLiteral("Import…"));
+  auto* back = new QPushButton(QStringLiteral("Back to the scene"));
+  head->addWidget(m_title, 1);
+  head->addWidget(import);
+  head->addWidget(back);
+  column->addLayout(head);
+  m_about->setWordWrap(true);
+  m_about->setProperty("role", "text2");
+  column->addWidget(m_about);
+  m_table->setRootIsDecorated(false);
+  m_table->setSelectionMode(QAbstractItemView::NoSelection);
+  m_table->setAccessibleName(QStringLiteral("Properties"));
+  column->addWidget(m_table, 1);
+  auto* act = new QHBoxLayout;
+  m_add->setProperty("primary", true);
+  for (QPushButton* button : {m_add, m_export, m_remove}) act->addWidget(button);
+  act->addStretch(1);
+  column->addLayout(act);
+  auto* keep = new QHBoxLayout;
+  m_name->setPlaceholderText(QStringLiteral("Name of the preset"));
+  m_name->setAccessibleName(m_name->placeholderText());
+  keep->addWidget(m_of);
+  keep->addWidget(m_name, 1);
+  keep->addWidget(m_save);
+  column->addLayout(keep);
+  connect(import, &QPushButton::clicked, this, &LibraryPage::importWanted);
+  connect(back, &QPushButton::clicked, this, &LibraryPage::closeRequested);
+  connect(m_add, &QPushButton::clicked, this, &LibraryPage::addToScene);
+  connect(m_export, &QPushButton::clicked, this, [this] {
+    if (const auto some = chosen(); !some.empty()) Q_EMIT exportWanted(*some.front());
+  });
+  connect(m_remove, &QPushButton::clicked, this, [this] {
+    if (const auto some = chosen(); !some.empty()) m_library.removePreset(*some.front());
+  });
+  const auto save = [this] {
+    for (const SceneMaterial& material : m_session.document().project().materials)
+      if (material.id == m_selection.material()) return m_library.savePreset(material, m_name->text());
+  };
+  connect(m_save, &QPushButton::clicked, this, save);
+  connect(m_name, &QLineEdit::returnPressed, this, save);
+  return right;
+}
+
+/// Cards anew; what was chosen stays chosen.
+void LibraryPage::refresh() {
+  const QStringList before = compared();
+  m_cards->clear();
+  for (size_t i = 0; i < m_library.entries().size(); ++i) {
+    const LibraryEntry& entry = m_library.entries()[i];
+    auto* item = new QListWidgetItem(entry.label, m_cards);
+    item->setData(kEntryRole, static_cast<int>(i));
+    item->setToolTip(entry.about);
+    item->setSelected(before.contains(entry.label));
+  }
+  if (before.isEmpty() && m_cards->count() > 0) m_cards->setCurrentRow(0);
+  delete m_tags;
+  m_tags = new QButtonGroup(this);
+  while (QLayoutItem* item = m_chips->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  const QString all = QStringLiteral("All %1").arg(m_library.entries().size());
+  const QStringList tags = m_library.tags();
+  if (!tags.contains(m_tag)) m_tag.clear();
+  for (const QString& tag : QStringList(all) + tags) {
+    auto* chip = new QPushButton(asButtonText(tag));
+    chip->setObjectName(QStringLiteral("psChip"));
+    chip->setCheckable(true);
+    chip->setChecked(tag == (m_tag.isEmpty() ? all : m_tag));
+    m_tags->addButton(chip);
+    connect(chip, &QPushButton::clicked, this, [this, tag, all] { setTag(tag == all ? QString() : tag); });
+    m_chips->addWidget(chip);
+  }
+  filter();
+  showChosen();
+}
+
+void LibraryPage::setTag(const QString& tag) {
+  m_tag = tag;
+  filter();
+}
+
+void LibraryPage::filter() {
+  for (int i = 0; i < m_cards->count(); ++i) {
+    QListWidgetItem* item = m_cards->item(i);
+    const LibraryEntry& entry = m_library.entries()[static_cast<size_t>(item->data(kEntryRole).toInt())];
+    const QString all = entry.label + QLatin1Char(' ') + entry.about + QLatin1Char(' ') + entry.tags.join(u' ');
+    item->setHidden(!all.contains(m_search->text().trimmed(), Qt::CaseInsensitive) ||
+                    (!m_tag.isEmpty() && !entry.tags.contains(m_tag)));
+  }
+}
+
+QStringList LibraryPage::shown() const {
+  QStringList labels;
+  for (int i = 0; i < m_cards->count(); ++i)
+    if (!m_cards->item(i)->isHidden()) labels << m_cards->item(i)->text();
+  return labels;
+}
+
+std::vector<const LibraryEntry*> LibraryPage::chosen() const {
+  std::vector<const LibraryEntry*> some;
+  for (const QListWidgetItem* item : m_cards->selectedItems()) {
+    const auto index = static_cast<size_t>(item->data(kEntryRole).toInt());
+    if (some.size() < 2 && index < m_library.entries().size()) some.push_back(&m_library.entries()[index]);
+  }
+  return some;
+}
+
+QStringList LibraryPage::compared() const {
+  QStringList labels;
+  for (const QListWidgetItem* item : m_cards->selectedItems().mid(0, 2)) labels << item->text();
+  return labels;
+}
+
+void LibraryPage::choose(const QString& label, bool beside) {
+  if (!beside) m_cards->clearSelection();
+  for (QListWidgetItem* item : m_cards->findItems(label, Qt::MatchExactly)) item->setSelected(true);
+}
+
+/// Properties of one, or of two: what differs by a tenth and more is marked.
+void LibraryPage::showChosen() {
+  const std::vector<const LibraryEntry*> some = chosen();
+  m_table->clear();
+  m_table->setColumnCount(static_cast<int>(some.size()) + 1);
+  QStringList head{QStringLiteral("At 20 °C")};
+  for (const LibraryEntry* entry : some) head << entry->label;
+  m_table->setHeaderLabels(head);
+  m_title->setText(head.mid(1).join(QStringLiteral(" and ")));
+  m_about->setText(some.size() == 1 ? some.front()->about : QString());
+  for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
+  m_remove->setVisible(!some.empty() && !some.front()->file.isEmpty());
+  const api::ParameterList catalogue = propertyCatalogue();
+  for (size_t at = 0; at < catalogue.count; ++at) {
+    const api::ParameterDeclaration& declaration = catalogue[at];
+    if (std::none_of(some.begin(), some.end(),
+                     [&](const LibraryEntry* entry) { return entry->values.properties.contains(declaration.key); }))
+      continue;
+    QStringList cells{QString::fromUtf8(declaration.label)};
+    std::vector<double> numbers;
+    for (const LibraryEntry* entry : some) {
+      numbers.push_back(valueOf(entry->values, declaration.key, kRoom));
+      cells << formatValue(declaration, numbers.back());
+    }
+    auto* row = new QTreeWidgetItem(m_table, cells);
+    row->setToolTip(0, QString::fromUtf8(declaration.help));
+    const bool differs =
+        numbers.size() == 2 && numbers[0] != numbers[1] &&
+        !(numbers[0] * numbers[1] > 0 && std::max(numbers[0] / numbers[1], numbers[1] / numbers[0]) < kDiffers);
+    for (int k = 1; differs && k < 3; ++k) row->setForeground(k, Theme::current()[Token::Accent]);
+  }
+  m_table->header()->setStretchLastSection(false);
+  m_table->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  for (int k = 1; k < m_table->columnCount(); ++k)
+    m_table->header()->setSectionResizeMode(k, QHeaderView::ResizeToContents);
+}
+
+/// The scene's material that would become a preset.
+void LibraryPage::showScene() {
+  const std::string id = m_selection.material();
+  m_of->setText(id.empty() ? QStringLiteral("The scene has no material")
+                           : QStringLiteral("“%1” of the scene as")
+                                 .arg(ownerLabel(m_session.document().project(), {Owner::Material, id, {}})));
+  m_save->setEnabled(!id.empty());
+  m_name->setEnabled(!id.empty());
+}
+
+void LibraryPage::addToScene() {
+  std::string last;
+  for (const LibraryEntry* entry : chosen()) {
+    Document& document = m_session.document();
+    last = entry->file.isEmpty() ? document.addMaterial(entry->material.base) : addPreset(document, entry->material);
+  }
+  if (!last.empty()) m_selection.pickMaterial(last);
+}
+
+void LibraryPage::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), Theme::current()[Token::Panel]);
+}
+
+void LibraryPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) showChosen();
+}
+
+}  // namespace ps

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/library/materiallibrary.h"
+
+#include <QtWidgets/QWidget>
+
+class QButtonGroup;
+class QHBoxLayout;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+class QTreeWidget;
+
+namespace ps {
+
+class Selection;
+
+/// All materials that can be had: cards to search in, with a swatch and the phases over temperature at a glance, and
+/// the properties of one, or of two side by side (Ctrl+click). From here they come into the scene; the scene's own
+/// become presets.
+class LibraryPage : public QWidget {
+  Q_OBJECT
+ public:
+  LibraryPage(MaterialLibrary& library, Session& session, Selection& selection, QWidget* parent = nullptr);
+  QStringList shown() const;     ///< labels of the cards that search and tag leave
+  QStringList compared() const;  ///< labels of the one or two whose properties are listed
+  QListWidget* cards() const { return m_cards; }
+  QTreeWidget* table() const { return m_table; }
+  void setTag(const QString& tag);  ///< "": all
+  void choose(const QString& label, bool beside = false);
+
+ Q_SIGNALS:
+  void closeRequested();
+  void importWanted();
+  void exportWanted(const ps::LibraryEntry& entry);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  QWidget* makeLeft();
+  QWidget* makeRight();
+  void refresh();
+  void filter();
+  void showChosen();
+  void showScene();
+  void addToScene();
+  std::vector<const LibraryEntry*> chosen() const;
+  MaterialLibrary& m_library;
+  Session& m_session;
+  Selection& m_selection;
+  QLineEdit *m_search, *m_name;
+  QHBoxLayout* m_chips = nullptr;
+  QButtonGroup* m_tags = nullptr;
+  QListWidget* m_cards;
+  QTreeWidget* m_table;
+  QLabel *m_title, *m_about, *m_of;
+  QPushButton *m_add, *m_export, *m_remove, *m_save;
+  QString m_tag;
+};
+
+}  // namespace ps

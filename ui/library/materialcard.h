@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/library/materiallibrary.h"
+
+#include <QtWidgets/QStyledItemDelegate>
+
+namespace ps {
+
+inline constexpr int kEntryRole = Qt::UserRole + 1;  ///< index into MaterialLibrary::entries()
+
+/// Paints an entry of the library: a ball as its matter looks, its name, when it melts and boils, and a bar of its
+/// phases over temperature, which has one scale for all.
+class MaterialCard : public QStyledItemDelegate {
+  Q_OBJECT
+ public:
+  MaterialCard(const MaterialLibrary& library, QObject* parent);
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+
+ private:
+  const MaterialLibrary& m_library;
+};
+
+/// "melts at 0 °C, boils at 100 °C"
+QString transitionsText(const LibraryEntry& entry);
+
+}  // namespace ps

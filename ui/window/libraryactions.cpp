@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/libraryactions.h"
+
+#include "ui/session/messagelog.h"
+#include "ui/session/session.h"
+#include "ui/window/actions.h"
+#include "ui/window/filenames.h"
+#include "ui/window/notices.h"
+
+#include <QtGui/QAction>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMainWindow>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QStackedWidget>
+
+namespace ps {
+
+LibraryActions::LibraryActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
+                               QStackedWidget& centre, QWidget& scene, const QString& presets, QObject* parent)
+    : QObject(parent),
+      m_actions(actions),
+      m_centre(centre),
+      m_library(session, presets),
+      m_page(new LibraryPage(m_library, session, selection)) {
+  centre.addWidget(m_page);
+  connect(m_page, &LibraryPage::closeRequested, this, [&centre, &scene] { centre.setCurrentWidget(&scene); });
+  connect(m_page, &LibraryPage::importWanted, this, &LibraryActions::chooseImport);
+  connect(m_page, &LibraryPage::exportWanted, this, &LibraryActions::chooseExport);
+  connect(&m_library, &MaterialLibrary::said, this, [&notices](bool failed, const QString& text) {
+    notices.message(failed ? MessageLevel::Warning : MessageLevel::Ok, QStringLiteral("Materials"), text);
+  });
+}
+
+void LibraryActions::addTo(QMenu* menu) {
+  m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {},
+                [this] { m_centre.setCurrentWidget(m_page); });
+}
+
+void LibraryActions::chooseImport() {
+  const QString path =
+      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Import the materials of a preset or a project"),
+                                   m_library.folder(), QStringLiteral("Presets and projects (*.json);;All files (*)"));
+  if (!path.isEmpty()) m_library.importFrom(path);
+}
+
+void LibraryActions::chooseExport(const LibraryEntry& entry) {
+  const LibraryEntry kept = entry;  // the list may be read again meanwhile
+  const QString path =
+      fileToWrite(&m_actions.window(), QStringLiteral("Export the material"),
+                  fileNameFor(kept.label) + QStringLiteral(".json"), QStringLiteral("PhaseSketch projects (*.json)"));
+  if (!path.isEmpty()) m_library.exportTo(kept, path);
+}
+
+}  // namespace ps

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/library/librarypage.h"
+
+#include <QtCore/QObject>
+
+class QMenu;
+class QStackedWidget;
+
+namespace ps {
+
+class Actions;
+class Notices;
+class Selection;
+class Session;
+
+/// The material library in the middle of the window, and the files that it reads and writes.
+class LibraryActions : public QObject {
+  Q_OBJECT
+ public:
+  /// `presets`: their folder; "": the user's. `scene`: what of `centre` shows without it.
+  LibraryActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
+                 QStackedWidget& centre, QWidget& scene, const QString& presets, QObject* parent = nullptr);
+  void addTo(QMenu* menu);
+  LibraryPage* page() const { return m_page; }
+  MaterialLibrary& library() { return m_library; }
+
+ private:
+  void chooseImport();
+  void chooseExport(const LibraryEntry& entry);
+  const Actions& m_actions;
+  QStackedWidget& m_centre;
+  MaterialLibrary m_library;
+  LibraryPage* m_page;
+};
+
+}  // namespace ps
