@@ -89,6 +89,8 @@ const char* whenText(const Declaration& d) {
       return "at the next start (Home), and on what is drawn from now on";
     case api::ActsAt::NextFrameIfFixed:
       return "on the next frame for a body that is fixed, at the next start (Home) for any other";
+    case api::ActsAt::WithItsMatter:
+      return "on the next frame: the body's matter is carried along";
     case api::ActsAt::NextFrame:
       break;
   }
