@@ -400,7 +400,7 @@ class TestContentWindow : public SampleWindowTest {
       QVERIFY2(entry->toolTip().endsWith(QLatin1Char('.')), qPrintable(entry->text()));
       ++tips;
     }
-    QCOMPARE(tips, 15);
+    QCOMPARE(tips, 19);
   }
 
   void matterOfTapsAndDrainsIsInTheLedger() {
