@@ -83,13 +83,15 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
   const auto address = Address::parse(key.toStdString());
   if (!address) return;
   if (edit == Edit::Begin) {
+    m_editedAt = now();
     m_document.beginGesture();
     return;
   }
   if (edit == Edit::End) {
     // Every value has come as Live; an undo may have happened since, so that the row asks what holds now.
     m_document.endGesture();
-    for (ParameterPanel* panel : panels()) panel->setValue(key, m_document.value(*address));
+    m_editedAt.reset();
+    for (ParameterPanel* panel : panels()) panel->setValue(key, m_session.valueNow(*address));
     return;
   }
   const QString problem = setAll(*address, value);

@@ -81,6 +81,7 @@ class Inspector : public QObject {
   bool showBodiesHeader();  ///< false: one is shown
   void refreshMixed(const Address& changed);
   QString setAll(const Address& address, const Value& value);
+  QString setOne(const Address& address, const Value& value);
   QString titleOfAll(const Address& address, size_t count) const;
   void showPlace(const std::string& id);
   void refreshProperties(const std::string& material);
@@ -105,6 +106,7 @@ class Inspector : public QObject {
   QString m_grade;                       ///< of the material's sources, as the header says it
   std::set<std::string> m_tracked;       ///< addresses of what has keys, as rows show it
   double m_shownAt = -1;                 ///< s, for which rows show what keys give
+  std::optional<double> m_editedAt;      ///< s of the scene, when the drag of a row began
   double m_sceneMean = 293.15;           ///< K
   std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
 };

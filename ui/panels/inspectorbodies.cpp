@@ -77,7 +77,7 @@ void Inspector::refreshMixed(const Address& changed) {
 
 QString Inspector::setAll(const Address& address, const Value& value) {
   const std::vector<Address> all = addressesOf(address);
-  if (all.size() == 1) return m_document.setParameter(address, value);
+  if (all.size() == 1) return setOne(address, value);
   std::vector<std::pair<Address, Value>> values;
   for (const Address& one : all) values.emplace_back(one, value);
   return m_document.setParameters(values, titleOfAll(address, all.size()));

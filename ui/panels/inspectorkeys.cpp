@@ -40,6 +40,14 @@ void Inspector::onKey(const QString& key, const Value& shown) {
   if (!problem.isEmpty()) Q_EMIT keyRefused(problem);
 }
 
+/// What has keys over time gets one at the time that is shown, or where a drag began: its own value would be hidden by
+/// the next frame.
+QString Inspector::setOne(const Address& address, const Value& value) {
+  const api::ParameterDeclaration* declaration = m_document.track(address) ? m_document.declaration(address) : nullptr;
+  if (!declaration) return m_document.setParameter(address, value);
+  return m_document.putKey(address, m_editedAt.value_or(now()), numberOfValue(*declaration, value, 293.15));
+}
+
 void Inspector::onWay(const QString& key, ToNext way) {
   const auto address = Address::parse(key.toStdString());
   const Track* track = address ? m_document.track(*address) : nullptr;
