@@ -33,23 +33,12 @@ constexpr OptionSpec kOptions[] = {
     kQuiet,
 };
 
-std::vector<std::string> fieldsOf(const Arguments& arguments) {
-  std::vector<std::string> names;
-  const std::string text = arguments.text("--fields");
-  for (size_t first = 0; first < text.size();) {
-    const size_t end = std::min(text.find(',', first), text.size());
-    if (end > first) names.push_back(text.substr(first, end - first));
-    first = end + 1;
-  }
-  return names;
-}
-
 /// Writes frames of one run, and says at the end how many.
 class Export {
  public:
   Export(const Arguments& arguments, const Project& project, const PluginRegistry& plugins)
       : m_format(exportFormat(arguments.text("--format"))), m_out(arguments.text("--out")) {
-    m_choices = {m_out, fieldsOf(arguments), temperatureColours(lookOf(project, plugins, "temperature"))};
+    m_choices = {m_out, fieldNames(arguments), temperatureColours(lookOf(project, plugins, "temperature"))};
   }
   const std::vector<std::string>& fields() const { return m_choices.fields; }
   /// `like`: has the fields that all frames have.

@@ -22,7 +22,6 @@
 #include <cstdio>
 #include <optional>
 #include <span>
-#include <sstream>
 
 namespace ps::cli {
 namespace {
@@ -85,12 +84,9 @@ std::vector<std::string> recordedFields(const Arguments& arguments, const Engine
   const std::vector<std::string> all = engine.fields().names();
   if (!arguments.has("--fields")) return all;
   if (!arguments.has("--record")) throw InputError("--fields says what --record keeps, which is not there");
-  std::vector<std::string> names;
-  if (arguments.text("--fields") == "none") return names;
-  std::istringstream words(arguments.text("--fields"));
-  for (std::string name; std::getline(words, name, ',');) {
+  std::vector<std::string> names = fieldNames(arguments);
+  for (const std::string& name : names) {
     if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError("--fields " + mustBeOneOf(name, all));
-    names.push_back(std::move(name));
   }
   return names;
 }
@@ -136,6 +132,13 @@ void keepingParts(std::optional<ProbeTable>& probes, std::optional<FramesAndStat
     throw Error(problem.what() + (rows.empty() ? "" : "; the rows until now are in " + rows) +
                 (frames.empty() ? "" : "; the frames until now are in " + frames));
   }
+}
+
+void requireNoFlags(const std::string& path, const RunReport& report) {
+  if (!report.flags()) return;
+  std::string names;
+  for (const std::string& name : flagNames(report.flags())) names += (names.empty() ? "" : ", ") + name;
+  throw Error(path + ": the run set flags: " + names + (report.message().empty() ? "" : ": " + report.message()));
 }
 
 void summarise(const RunReport& report, const FrameStats& begin, Engine& engine, double wall) {
@@ -224,11 +227,7 @@ int simulateCommand(CommandArguments list) {
     writeReport(arguments, std::move(content), project, begin);
   }
   if (!quiet) summarise(report, begin, engine, wall);
-  if (report.flags()) {
-    std::string names;
-    for (const std::string& name : flagNames(report.flags())) names += (names.empty() ? "" : ", ") + name;
-    throw Error(path + ": the run set flags: " + names + (report.message().empty() ? "" : ": " + report.message()));
-  }
+  requireNoFlags(path, report);
   if (!whole)
     throw Error("stopped after " + std::to_string(report.frames()) + " of " + std::to_string(frames) + " frames");
   return kFine;

@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <thread>
 #include <unistd.h>
 
@@ -78,6 +79,14 @@ Project loadFor(const Arguments& arguments, const std::string& path, const Plugi
 Project parseFor(const Arguments& arguments, const std::string& text, const std::string& name,
                  const PluginRegistry& plugins) {
   return warned(arguments, parseProject(text, name, plugins, arguments.all("--set")));
+}
+
+std::vector<std::string> fieldNames(const Arguments& arguments) {
+  std::vector<std::string> names;
+  if (arguments.text("--fields") == "none") return names;
+  std::istringstream words(arguments.text("--fields"));
+  for (std::string name; std::getline(words, name, ',');) names.push_back(std::move(name));
+  return names;
 }
 
 std::string counted(size_t count, const std::string& noun) {

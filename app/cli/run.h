@@ -45,6 +45,8 @@ Engine makeEngine(const Arguments& arguments, const Project& project, PluginRegi
 /// Frames of a run that begins `begun` s after the start: --frames, --seconds (mechanical time), or what is left of the
 /// project's duration.
 long frameCount(const Arguments& arguments, const Project& project, double begun = 0);
+/// What --fields names, with commas between; nothing for "none".
+std::vector<std::string> fieldNames(const Arguments& arguments);
 /// "1 picture", "2 pictures".
 std::string counted(size_t count, const std::string& noun);
 /// s since a fixed point.

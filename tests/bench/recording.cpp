@@ -59,24 +59,13 @@ void runLong(const std::string& path, double minutes, size_t budget, std::option
     std::fflush(stdout);
   }
 }
-}  // namespace
+using Clock = std::chrono::steady_clock;
+double milliseconds(Clock::time_point from) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+}
 
-int main(int argc, char** argv) {
-  if (argc > 3 && std::string_view(argv[1]).ends_with(".json")) {
-    const auto budget = static_cast<size_t>(std::atof(argv[3]) * kMebibyte);
-    runLong(argv[1], std::atof(argv[2]), budget, argc > 4 ? std::optional(std::atof(argv[4])) : std::nullopt);
-    return 0;
-  }
-  using Clock = std::chrono::steady_clock;
-  const auto milliseconds = [](Clock::time_point from) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
-  };
-  const auto number = [&](int at, int usual) { return argc > at ? std::atoi(argv[at]) : usual; };
-  const int particles = number(1, 100000), frames = number(2, 30), turns = number(3, 6);
-  ps::PluginRegistry plugins;
-  ps::Engine engine(ps::tank(particles), plugins);
-  ps::RunRecord record(ps::RunRecord::usualBudget());
-  record.begin(engine.revision());
+/// Turn by turn with and without; what goes on in the record's thread after a turn is not measured.
+void runTurns(ps::Engine& engine, ps::RunRecord& record, int frames, int turns) {
   double sum[2]{}, states = 0;
   int count[2]{}, kept = 0;
   for (int warmUp = 0; warmUp < 5; ++warmUp) engine.step();
@@ -86,45 +75,59 @@ int main(int argc, char** argv) {
       const auto start = Clock::now();
       engine.step();
       ps::SnapshotPtr snapshot = engine.snapshot();
-      if (with) {
-        record.add(std::move(snapshot));
-        if (record.wantsState(engine.solver().time())) {
-          record.keepState(engine);
-          states += record.cost().stateSeconds * 1000;
-          ++kept;
-        }
+      if (with) record.add(std::move(snapshot));
+      if (with && record.wantsState(engine.solver().time())) {
+        record.keepState(engine);
+        states += record.cost().stateSeconds * 1000;
+        ++kept;
       }
       sum[with] += milliseconds(start);
       ++count[with];
     }
-    if (with) record.settle();  // outside of what is measured: the next turn is without
+    if (with) record.settle();
   }
-  const auto [first, last, begin, end, size] = record.extent();
+  const size_t size = record.extent().frames;
   const auto cost = record.cost();
-  const size_t shown = record.frame(last)->position.size();
-  // Any frame, from memory and from the disk.
-  const auto seeks = [&](const char* from) {
-    std::mt19937 random(1);
-    std::vector<double> took;
-    for (int seek = 0; seek < kSeeks; ++seek) {
-      const double time = begin + (end - begin) * static_cast<double>(random()) / 4294967296.0;
-      const auto start = Clock::now();
-      (void)record.frame(record.frameAt(time).value());
-      took.push_back(milliseconds(start));
-    }
-    std::sort(took.begin(), took.end());
-    std::printf("%d frames shown from %s: %.1f ms in the median, %.1f at most\n", kSeeks, from, took[kSeeks / 2],
-                took.back());
-  };
-  std::printf("%zu particles: %.2f ms a frame without, %.2f ms with (%+.1f %%)\n", shown, sum[0] / count[0],
-              sum[1] / count[1], 100 * ((sum[1] / count[1]) / (sum[0] / count[0]) - 1));
+  std::printf("%zu particles: %.2f ms a frame without, %.2f ms with (%+.1f %%)\n", engine.particles().size(),
+              sum[0] / count[0], sum[1] / count[1], 100 * ((sum[1] / count[1]) / (sum[0] / count[0]) - 1));
   std::printf("packed in %.1f ms a frame by a thread of its own; %zu of %d frames kept, %llu left out\n",
               1000 * cost.packSeconds / static_cast<double>(size), size, count[1],
               static_cast<unsigned long long>(cost.leftOut));
   std::printf("%d states in %.1f ms each; %.1f MB in all\n", kept, kept ? states / kept : 0,
               static_cast<double>(cost.bytes) / 1e6);
-  seeks("memory");
+}
+
+/// Any frame, from memory or from the disk.
+void seek(const ps::RunRecord& record, const char* from) {
+  const auto extent = record.extent();
+  std::mt19937 random(1);
+  std::vector<double> took;
+  for (int seek = 0; seek < kSeeks; ++seek) {
+    const double time = extent.from + (extent.to - extent.from) * static_cast<double>(random()) / 4294967296.0;
+    const auto start = Clock::now();
+    (void)record.frame(record.frameAt(time).value());
+    took.push_back(milliseconds(start));
+  }
+  std::sort(took.begin(), took.end());
+  std::printf("%d frames shown from %s: %.1f ms in the median, %.1f at most\n", kSeeks, from, took[kSeeks / 2],
+              took.back());
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 3 && std::string_view(argv[1]).ends_with(".json")) {
+    const auto budget = static_cast<size_t>(std::atof(argv[3]) * kMebibyte);
+    runLong(argv[1], std::atof(argv[2]), budget, argc > 4 ? std::optional(std::atof(argv[4])) : std::nullopt);
+    return 0;
+  }
+  const auto number = [&](int at, int usual) { return argc > at ? std::atoi(argv[at]) : usual; };
+  ps::PluginRegistry plugins;
+  ps::Engine engine(ps::tank(number(1, 100000)), plugins);
+  ps::RunRecord record(ps::RunRecord::usualBudget());
+  record.begin(engine.revision());
+  runTurns(engine, record, number(2, 30), number(3, 6));
+  seek(record, "memory");
   record.setBudget({1, size_t{64} << 30, std::filesystem::temp_directory_path().string()});
   record.settle();
-  seeks("the disk");
+  seek(record, "the disk");
 }

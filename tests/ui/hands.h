@@ -30,9 +30,16 @@ inline void move(QWidget& on, const QPointF& to, Qt::KeyboardModifiers modifiers
   QApplication::sendEvent(&on, &event);
 }
 
+/// Without letting go.
+inline void press(QWidget& on, const QPoint& from, const QPoint& way, Qt::KeyboardModifiers first,
+                  Qt::KeyboardModifiers then) {
+  constexpr int kSteps = 6;
+  QTest::mousePress(&on, Qt::LeftButton, first, from);
+  for (int k = 1; k <= kSteps; ++k) move(on, from + QPointF(way) * k / kSteps, then);
+}
+
 inline void pull(QWidget& on, const QPoint& from, const QPoint& way, Qt::KeyboardModifiers modifiers = {}) {
-  QTest::mousePress(&on, Qt::LeftButton, {}, from);
-  for (int k = 1; k <= 4; ++k) move(on, from + QPointF(way) * k / 4, modifiers);
+  press(on, from, way, {}, modifiers);
   QTest::mouseRelease(&on, Qt::LeftButton, modifiers, from + way);
 }
 

@@ -29,15 +29,7 @@ inline std::unique_ptr<MainWindow> sampleWindow(const QSize& size, const std::ve
   options.restore = false;
   options.session.autosave = false;
   options.session.pluginPaths = pluginPaths;
-  auto window = std::make_unique<MainWindow>(options);
-  window->resize(size);
-  window->show();
-  QSignalSpy shown(window.get(), &MainWindow::projectShown);
-  if (!QTest::qWaitForWindowExposed(window.get())) return nullptr;
-  window->start();
-  if (!shown.wait(kLong)) return nullptr;
-  QApplication::setActiveWindow(window.get());
-  return window;
+  return shownWindow(options, size);
 }
 
 /// Asks between two frames, and waits for the answer.

@@ -31,6 +31,25 @@ using namespace ps;
 
 namespace {
 constexpr uint64_t kFrames = 24;
+/// Before the real one, as long as it is there.
+class OtherFfmpeg {
+ public:
+  explicit OtherFfmpeg(const char* script) : m_before(qgetenv("PATH")) {
+    QFile file(m_folder.filePath(QStringLiteral("ffmpeg")));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("no place for a program");
+    file.write(QByteArray("#!/bin/sh\n") + script);
+    file.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    qputenv("PATH", m_folder.path().toUtf8() + ':' + m_before);
+  }
+  ~OtherFfmpeg() { qputenv("PATH", m_before); }
+  OtherFfmpeg(const OtherFfmpeg&) = delete;
+  OtherFfmpeg& operator=(const OtherFfmpeg&) = delete;
+
+ private:
+  QTemporaryDir m_folder;
+  QByteArray m_before;
+};
+
 }  // namespace
 
 class TestExportWindow : public SampleWindowTest {
@@ -106,14 +125,7 @@ class TestExportWindow : public SampleWindowTest {
 
   /// By a program of that name, which shows what it is given: the frames, whole and in order.
   void filmsGoThroughFfmpeg() {
-    const QTemporaryDir programs;
-    QFile ffmpeg(programs.filePath(QStringLiteral("ffmpeg")));
-    QVERIFY(ffmpeg.open(QIODevice::WriteOnly));
-    ffmpeg.write("#!/bin/sh\nfor last; do :; done\ncat > \"$last\"\n");
-    ffmpeg.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
-    ffmpeg.close();
-    const QByteArray before = qgetenv("PATH");
-    qputenv("PATH", programs.path().toUtf8() + ':' + before);
+    const OtherFfmpeg ffmpeg("for last; do :; done\ncat > \"$last\"\n");
     QVERIFY(openDialog<FilmDialog>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     field<QComboBox>("Size")->setCurrentIndex(0);
@@ -123,30 +135,19 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(anyLabelBegins("3 pictures, 0.6 s"));
     QSignalSpy written(&session().work(), &RunWork::done);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
-    const bool came = written.wait(kLong);
-    qputenv("PATH", before);
-    QVERIFY(came);
+    QVERIFY(written.wait(kLong));
     QCOMPARE(QFileInfo(film).size(), qint64{3} * 1280 * 720 * 4);
     QCOMPARE(QDir(m_folder.path()).entryList({QStringLiteral("film*")}, QDir::Files), QStringList{"film.mp4"});
   }
 
   void aFilmThatFailsLeavesNothing() {
-    const QTemporaryDir programs;
-    QFile ffmpeg(programs.filePath(QStringLiteral("ffmpeg")));
-    QVERIFY(ffmpeg.open(QIODevice::WriteOnly));
-    ffmpeg.write("#!/bin/sh\necho no such encoder >&2\nexit 1\n");
-    ffmpeg.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
-    ffmpeg.close();
-    const QByteArray before = qgetenv("PATH");
-    qputenv("PATH", programs.path().toUtf8() + ':' + before);
+    const OtherFfmpeg ffmpeg("echo no such encoder >&2\nexit 1\n");
     QVERIFY(openDialog<FilmDialog>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     place(m_folder.filePath(QStringLiteral("none.mp4")));
     QSignalSpy failed(&session().work(), &RunWork::failed);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
-    const bool came = failed.wait(kLong);
-    qputenv("PATH", before);
-    QVERIFY(came);
+    QVERIFY(failed.wait(kLong));
     QVERIFY2(failed.front().at(1).toString().endsWith(QStringLiteral("ffmpeg made no film: no such encoder")),
              qPrintable(failed.front().at(1).toString()));
     QVERIFY(QDir(m_folder.path()).entryList({QStringLiteral("none*")}, QDir::Files).isEmpty());

@@ -3,6 +3,7 @@
 // goes along while it runs.
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -320,12 +321,7 @@ class TestHandles : public SampleWindowTest {
     if (!release) QVERIFY(m_window->tools().tool().picture().gizmo->active == part);
   }
   void drag(const QPoint& from, const QPoint& way, bool release, Qt::KeyboardModifiers modifiers) {
-    QTest::mousePress(view(), Qt::LeftButton, modifiers, from);
-    for (int k = 1; k <= 6; ++k) {
-      const QPointF at = from + way * k / 6;
-      QMouseEvent move(QEvent::MouseMove, at, view()->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
-      QApplication::sendEvent(view(), &move);
-    }
+    hands::press(*view(), from, way, modifiers, modifiers);
     if (release) QTest::mouseRelease(view(), Qt::LeftButton, modifiers, from + way);
   }
 };

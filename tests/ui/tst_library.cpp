@@ -39,14 +39,8 @@ class TestLibrary : public SampleWindowTest {
     options.restore = false;
     options.session.autosave = false;
     options.presets = m_folder.filePath(QStringLiteral("presets"));
-    m_window = std::make_unique<MainWindow>(options);
-    m_window->resize(1600, 1000);
-    m_window->show();
-    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
-    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    m_window->start();
-    QVERIFY(shown.wait(kLong));
-    QApplication::setActiveWindow(m_window.get());
+    m_window = shownWindow(options, {1600, 1000});
+    QVERIFY(m_window);
     QTRY_VERIFY_WITH_TIMEOUT(!library().entries().empty(), kLong);
     m_window->action(QStringLiteral("add.library"))->trigger();
     QVERIFY(page()->isVisible());

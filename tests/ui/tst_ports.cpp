@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Taps and drains by hands in the real window: placed, selected, dragged, renamed, copied, deleted.
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -274,12 +275,7 @@ class TestPorts : public QObject {
     return project().emitters.at(0);
   }
   void drag(const QPoint& from, const QPoint& way, bool release, Qt::KeyboardModifiers modifiers = {}) {
-    QTest::mousePress(view(), Qt::LeftButton, modifiers, from);
-    for (int k = 1; k <= 6; ++k) {
-      const QPointF at = from + way * k / 6;
-      QMouseEvent move(QEvent::MouseMove, at, view()->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, modifiers);
-      QApplication::sendEvent(view(), &move);
-    }
+    hands::press(*view(), from, way, modifiers, modifiers);
     if (release) QTest::mouseRelease(view(), Qt::LeftButton, modifiers, from + way);
   }
 

@@ -242,14 +242,8 @@ class TestWelcome : public QObject {
     options.sample = kProjects + QStringLiteral("/ice-on-hot-plate.json");
     options.samples = kProjects;
     options.session.autosaveDirectory = m_directory->filePath(QStringLiteral("copies"));
-    m_window = std::make_unique<MainWindow>(options);
-    m_window->resize(1600, 1000);
-    m_window->show();
-    QSignalSpy shown(m_window.get(), &MainWindow::projectShown);
-    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    m_window->start();
-    QVERIFY(shown.wait(kLong));
-    QApplication::setActiveWindow(m_window.get());
+    m_window = shownWindow(options, {1600, 1000});
+    QVERIFY(m_window);
   }
   /// Not for the first time.
   void startLater() {

@@ -12,6 +12,7 @@
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/units.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
@@ -60,7 +61,6 @@ class Preferences : public QDialog {
  private:
   using Choices = std::vector<std::pair<QString, int>>;
   void heading(const QString& text);
-  void row(const QString& label, QWidget* field, const QString& tip);
   /// One of `choices`; a value that is none of them is shown as `text` has it.
   QComboBox* choice(const QString& label, const QString& tip, Choices choices, int value,
                     const std::function<QString(int)>& text, const std::function<void(int)>& set);
@@ -105,18 +105,6 @@ void Preferences::heading(const QString& text) {
   m_grid->addWidget(label, m_grid->rowCount(), 0, 1, 2);
 }
 
-void Preferences::row(const QString& label, QWidget* field, const QString& tip) {
-  auto* words = new QLabel(label);
-  words->setTextFormat(Qt::PlainText);
-  words->setBuddy(field);
-  words->setToolTip(tip);
-  field->setToolTip(tip);
-  field->setAccessibleName(label);
-  const int line = m_grid->rowCount();
-  m_grid->addWidget(words, line, 0);
-  m_grid->addWidget(field, line, 1);
-}
-
 QComboBox* Preferences::choice(const QString& label, const QString& tip, Choices choices, int value,
                                const std::function<QString(int)>& text, const std::function<void(int)>& set) {
   auto* box = new QComboBox;
@@ -125,7 +113,7 @@ QComboBox* Preferences::choice(const QString& label, const QString& tip, Choices
   for (const auto& [words, number] : choices) box->addItem(words, number);
   box->setCurrentIndex(box->findData(value));
   connect(box, &QComboBox::activated, this, [box, set] { set(box->currentData().toInt()); });
-  row(label, box, tip);
+  addDialogRow(*m_grid, label, box, tip);
   return box;
 }
 
@@ -192,12 +180,13 @@ void Preferences::addRecording() {
          });
   m_folder = new QPushButton;
   connect(m_folder, &QPushButton::clicked, this, &Preferences::chooseFolder);
-  row(QStringLiteral("Folder"), m_folder,
+  addDialogRow(
+      *m_grid, QStringLiteral("Folder"), m_folder,
       QStringLiteral(
           "Where it lies on the disk, from the next start on. It goes when the program ends, also by a crash."));
   m_used = new QLabel;
   m_used->setTextFormat(Qt::PlainText);
-  row(QStringLiteral("Used now"), m_used, QStringLiteral("By the run of this window."));
+  addDialogRow(*m_grid, QStringLiteral("Used now"), m_used, QStringLiteral("By the run of this window."));
   m_empty = new QPushButton(QStringLiteral("Empty the disk"));
   m_empty->setAutoDefault(false);
   m_empty->setToolTip(QStringLiteral(

@@ -10,6 +10,7 @@
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/filenames.h"
 
 #include <QtCore/QDir>
@@ -41,28 +42,16 @@ RunDialog::RunDialog(Session& session, const QString& title, QWidget* window)
   setMinimumWidth(kWidth);
 }
 
-void RunDialog::addRow(const QString& label, QWidget* field, const QString& tip) {
-  auto* words = new QLabel(label);
-  words->setTextFormat(Qt::PlainText);
-  words->setBuddy(field);
-  words->setToolTip(tip);
-  field->setToolTip(tip);
-  field->setAccessibleName(label);
-  const int line = m_grid->rowCount();
-  m_grid->addWidget(words, line, 0);
-  m_grid->addWidget(field, line, 1);
-}
-
 QComboBox* RunDialog::addChoice(const QString& label, const QString& tip) {
   auto* box = new QComboBox;
-  addRow(label, box, tip);
+  addDialogRow(*m_grid, label, box, tip);
   connect(box, &QComboBox::currentIndexChanged, this, &RunDialog::refresh);
   return box;
 }
 
 QLineEdit* RunDialog::addTime(const QString& label, const QString& tip, double seconds) {
   auto* line = new QLineEdit(formatShort(seconds, 6));
-  addRow(label, line, tip);
+  addDialogRow(*m_grid, label, line, tip);
   connect(line, &QLineEdit::textChanged, this, &RunDialog::refresh);
   return line;
 }
@@ -80,7 +69,7 @@ void RunDialog::addRange() {
   }
   m_where = new QPushButton;
   m_where->setAutoDefault(false);
-  addRow(QStringLiteral("Where"), m_where, QStringLiteral("A click chooses another place."));
+  addDialogRow(*m_grid, QStringLiteral("Where"), m_where, QStringLiteral("A click chooses another place."));
   connect(m_where, &QPushButton::clicked, this, [this] {
     if (const QString chosen = choosePlace(); !chosen.isEmpty()) setPlace(chosen);
   });

@@ -49,7 +49,6 @@ class RunDialog : public QDialog {
   static QString writtenText(size_t frames, const QString& where);
 
  private:
-  void addRow(const QString& label, QWidget* field, const QString& tip);
   QLineEdit* addTime(const QString& label, const QString& tip, double seconds);
 
   Session& m_session;
