@@ -331,15 +331,7 @@ bool isRecording(const std::string& path) {
 bool sameScene(const Project& a, const Project& b) {
   const auto sceneOf = [](Project project) {
     project.state = nullptr;
-    project.view = {};
-    project.graphs = {};
-    project.probes = {};
-    project.title = project.description = {};
-    project.markers = {};
-    project.end = {};
-    project.thumbnail = {};
-    project.groups = {};
-    return writeProject(project);
+    return sceneHash(project);
   };
   return sceneOf(a) == sceneOf(b);
 }

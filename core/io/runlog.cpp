@@ -281,8 +281,7 @@ void takeMesh(std::shared_ptr<const Body>& placed, const Project* document) {
         std::find_if(meshes.begin(), meshes.end(), [&](const auto& one) { return one->id == solid->meshId; });
     if (mesh != meshes.end()) solid->mesh = *mesh;
   }
-  if (!solid->mesh)
-    throw InputError("a body came or moved whose mesh '" + solid->meshId + "' is in no document before");
+  if (!solid->mesh) throw InputError("a body came back whose mesh '" + solid->meshId + "' is in no document before");
   placed = std::move(body);
 }
 
@@ -309,7 +308,6 @@ std::vector<FrameEdit> readLog(json list, const Documents& documents, const std:
     fields::LogEntry one;
     fields::entryFields().read(one, entry, plugins);
     if (auto* back = std::get_if<ReturnBody>(&one.edit); back && back->body) takeMesh(back->body, newest);
-    if (auto* moved = std::get_if<MoveBody>(&one.edit)) takeMesh(moved->body, newest);
     edits.push_back({one.frame, recorded(std::move(one.edit), documents)});
     if (const Project* document = documentOf(edits.back())) newest = document;
   }

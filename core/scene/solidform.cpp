@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <string_view>
 
 namespace ps {
@@ -129,8 +128,14 @@ bool SolidForm::holds(const Vector3& own) const {
 Vector3 SolidForm::centroid() const {
   if (m_kind == Kind::Cone) return {0, -m_size[1] / 4, 0};
   if (m_kind == Kind::Rope) {
-    const Vector3 sum = std::accumulate(m_points.begin(), m_points.end(), Vector3(0, 0, 0));
-    return sum / static_cast<double>(m_points.size());
+    Vector3 moment;
+    double length = 0;
+    for (size_t k = 1; k < m_points.size(); ++k) {
+      const double piece = (m_points[k] - m_points[k - 1]).norm();
+      moment += piece / 2 * (m_points[k] + m_points[k - 1]);
+      length += piece;
+    }
+    return length > 0 ? Vector3(moment / length) : m_points.front();
   }
   if (m_kind != Kind::Mesh || !m_mesh) return Vector3::Zero();
   const MeshBounds bounds = boundsOf(*m_mesh);

@@ -53,8 +53,7 @@ class CommandQueue {
       return;
     }
     if (std::holds_alternative<UpdateProject>(command)) {  // it says what those before it would have said
-      while (!empty() && (std::holds_alternative<ParameterBatch>(m_entries.back()) || waitsLast<UpdateProject>() ||
-                          waitsLast<SetTracks>()))
+      while (!empty() && (waitsValuesAlone() || waitsLast<UpdateProject>() || waitsLast<SetTracks>()))
         m_entries.pop_back();
     }
     if (auto* moved = std::get_if<MoveBody>(&command); moved && joinsMove(*moved)) return;
@@ -75,6 +74,12 @@ class CommandQueue {
   }
 
  private:
+  /// Values that carry matter along do more than a project says.
+  bool waitsValuesAlone() const {
+    const auto* batch = std::get_if<ParameterBatch>(&m_entries.back());
+    return batch && std::none_of(batch->begin(), batch->end(),
+                                 [](const SetParameter& one) { return one.address.owner == Owner::Shape; });
+  }
   template <class Kind>
   bool waitsLast() const {
     const auto* command = empty() ? nullptr : std::get_if<Command>(&m_entries.back());

@@ -7,6 +7,7 @@
 #include "core/math/vector.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/scene/shownname.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
@@ -56,15 +57,12 @@ void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMateri
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
-/// Mean of the places of all particles.
+/// Mean of the places of all particles; of a solid its own centre.
 Vector3 centreOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) return box->center;
+  if (std::holds_alternative<SolidShape>(body.shape)) return centroidOf(body);
   Vector3 sum;
   size_t count = 0;
-  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-    for (const api::Double3& p : solidMatter(*solid, spacing).places) sum += vectorOf(p), ++count;
-    return sum / static_cast<double>(count);
-  }
   const auto& voxels = std::get<VoxelShape>(body.shape);
   for (size_t palette = 0; palette < voxels.palette.size(); ++palette) {
     for (const api::Double3& p : cellCentres(voxels, spacing, cellsOf(voxels, static_cast<int>(palette)))) {

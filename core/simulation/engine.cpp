@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/base/progress.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
 #include "core/simulation/compile.h"
@@ -12,7 +13,6 @@
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "core/simulation/sceneproblem.h"
-#include "core/simulation/truesurface.h"
 
 #include <algorithm>
 #include <atomic>
@@ -236,7 +236,6 @@ void Engine::Impl::lead() {
     const auto body = std::find_if(project.bodies.begin(), project.bodies.end(),
                                    [&](const Body& b) { return b.id == (*bodyIds)[index]; });
     solver->setMotion(index, body == project.bodies.end() ? BodyMotion{} : compileMotion(*body, spacing));
-    if (body != project.bodies.end() && !hasTrueSurface(*body)) forgetTrueSurface(solver->particles(), index);
   }
 }
 
@@ -263,6 +262,7 @@ Engine::~Engine() = default;
 void Engine::measureBalance(bool on) { m->measuresBalance = on; }
 
 StepReport Engine::step() {
+  const ProgressScope unwatched(nullptr);  // who watches a run counts frames, and stops it between two
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
   const uint64_t before = m->solver->frame();
   m->watchForces();

@@ -24,8 +24,13 @@ void Engine::moveBody(const Body& body, const RigidMove& move) {
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
   if (known == bodies.end()) return;
+  Body placed = body;
+  // A log names the mesh alone, which is the body's own.
+  auto* solid = std::get_if<SolidShape>(&placed.shape);
+  const auto* was = std::get_if<SolidShape>(&known->shape);
+  if (solid && was && !solid->mesh) solid->mesh = was->mesh;
   m->overlay.lift(m->project);
-  const Body from = std::exchange(*known, body);
+  const Body from = std::exchange(*known, std::move(placed));
   m->overlay.lay(m->project);
   m->recompile({{Owner::Body}});
   m->carry(from, move);

@@ -37,11 +37,4 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
   });
 }
 
-void forgetTrueSurface(ParticleStore& store, uint32_t body) {
-  api::Float4* noted = fieldOf(store);
-  for (size_t i = 0; noted && i < store.size(); ++i) {
-    if (store.body()[i] == body) noted[i] = {0, 0, 0, 0};
-  }
-}
-
 }  // namespace ps

@@ -12,7 +12,5 @@ namespace ps {
 bool hasTrueSurface(const Body& body);
 /// Writes field::kTrueSurface of a body's particles that lie within a spacing of its surface.
 void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);
-/// Of a body, by the index that its particles carry, which has begun to move.
-void forgetTrueSurface(ParticleStore& store, uint32_t body);
 
 }  // namespace ps

@@ -4,6 +4,8 @@
 #include "core/solver/frame/solverimpl.h"
 #include "core/solver/truesurface.h"
 
+#include <optional>
+
 namespace ps {
 namespace {
 
@@ -19,16 +21,21 @@ Vector3 meanVelocity(const ParticleStore& store, std::span<const uint8_t> goes) 
   return mass > 0 ? Vector3(momentum / mass) : Vector3(Vector3::Zero());
 }
 
-/// m, of those that go.
+/// m, of those that go: each in the image that is nearest to the first of them.
 Vector3 centreOf(const ParticleStore& store, std::span<const uint8_t> goes) {
+  std::optional<Vector3> first;
   Vector3 moment;
   double mass = 0;
   for (size_t i = 0; i < store.size(); ++i) {
     if (goes[i] == 0) continue;
-    moment += double{store.mass()[i]} * vectorOf(store.position()[i]);
+    const Vector3 place = vectorOf(store.position()[i]);
+    if (!first) first = place;
+    api::Float4 way = float4Of(place - *first, 0);
+    store.period().shorten(way.x, way.y, way.z);
+    moment += double{store.mass()[i]} * vectorOf(way);
     mass += double{store.mass()[i]};
   }
-  return mass > 0 ? Vector3(moment / mass) : Vector3(Vector3::Zero());
+  return mass > 0 ? Vector3(*first + moment / mass) : Vector3(Vector3::Zero());
 }
 
 }  // namespace
@@ -39,7 +46,15 @@ void Solver::carry(uint32_t body, const Quaternion& turn, const Vector3& way) {
   std::vector<uint8_t> goes(store.size());
   for (size_t i = 0; i < store.size(); ++i) goes[i] = store.body()[i] == body ? 1 : 0;
   RigidMove move{turn, way};
-  if (move.turns()) move.shift += centreOf(store, goes) - turn * centreOf(store, goes);
+  const Vector3 centre = centreOf(store, goes);
+  if (move.turns()) move.shift += centre - turn * centre;
+  // What lies across a face of a periodic box turns as one.
+  const auto nearest = [&](api::Float4& place) {
+    if (!move.turns() || !store.period().any()) return;
+    api::Float4 from = float4Of(vectorOf(place) - centre, 0);
+    store.period().shorten(from.x, from.y, from.z);
+    assignTo(place, centre + vectorOf(from));
+  };
   if (move.isNothing()) return;
   m->constraints.takeAlong(store, goes);
   const Vector3 mean = meanVelocity(store, goes), push = mean - move.turn * mean;
@@ -47,6 +62,7 @@ void Solver::carry(uint32_t body, const Quaternion& turn, const Vector3& way) {
   for (size_t i = 0; i < store.size(); ++i) {
     if (goes[i] == 0) continue;
     api::Float4 &place = store.position()[i], &previous = store.previous()[i], &velocity = store.velocity()[i];
+    nearest(place), nearest(previous);
     assignTo(place, move.of(vectorOf(place)));
     assignTo(previous, move.of(vectorOf(previous)));
     if (move.turns()) assignTo(velocity, move.turn * vectorOf(velocity) + (velocity.w > 0 ? push : Vector3::Zero()));

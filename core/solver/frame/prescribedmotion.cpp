@@ -2,6 +2,7 @@
 #include "core/solver/frame/prescribedmotion.h"
 
 #include "core/base/statestream.h"
+#include "core/solver/truesurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +56,11 @@ void PrescribedMotion::set(uint32_t body, const BodyMotion& motion, ParticleStor
   frame.centre = frame.origin = vectorOf(motion.centre);
   frame.axes = frame.turn.toRotationMatrix();
   frame.exists = true;
+  auto* surface = static_cast<api::Float4*>(store.find(field::kTrueSurface, api::FieldType::Float4));
   for (size_t i = 0; i < store.size(); ++i) {
-    if (store.body()[i] == body) adopt(store, i, i + 1, -1);
+    if (store.body()[i] != body) continue;
+    adopt(store, i, i + 1, -1);
+    if (surface) surface[i] = {0, 0, 0, 0};  // it is of shapes that stand
   }
 }
 
