@@ -2,6 +2,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/run.h"
 #include "core/base/error.h"
+#include "core/base/shorttext.h"
 #include "core/experiments/caserun.h"
 #include "core/plugin_host/registry.h"
 

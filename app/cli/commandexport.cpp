@@ -54,8 +54,19 @@ class Export {
     m_exporter->add(snapshot);
     ++m_files;
   }
+  /// What was written until a run or a file failed is a series too.
+  ~Export() {
+    try {
+      if (m_exporter) m_exporter->finish();
+    } catch (const std::exception&) {
+      // What stopped it is being said.
+    }
+  }
+  Export(const Export&) = delete;
+  Export& operator=(const Export&) = delete;
   void finish(bool quiet) {
-    m_exporter->finish();
+    const auto exporter = std::move(m_exporter);
+    exporter->finish();
     if (!quiet)
       std::printf("%s in %s\n", counted(m_files, std::string(m_format.ending) + " file").c_str(), m_out.c_str());
   }
@@ -86,8 +97,9 @@ int exportProject(const Arguments& arguments, const std::string& path) {
     Progress progress(frames, arguments.has("--quiet"));
     for (long frame = 1; frame <= frames && !interrupted(); ++frame) {
       StepReport step = engine.step();
+      const bool stands = step.flags & kTakenBack;  // nothing moves any more
       if (step.flags && !failed.flags) failed = std::move(step);
-      if (failed.flags & kTakenBack) break;  // nothing moves any more
+      if (stands) break;
       if (frame % every == 0) out.add(*engine.snapshot());
       progress.show(frame, engine.stats());
     }

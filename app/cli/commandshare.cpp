@@ -87,6 +87,8 @@ int shareCommand(CommandArguments list) {
   const std::string path = onlyFile(arguments, "project");
   if (arguments.has("--check") == arguments.has("--out"))
     throw InputError("give --out FILE.json for the copy, or --check to check one");
+  if (arguments.has("--check") && (arguments.has("--seconds") || arguments.has("--frames")))
+    throw InputError("--check runs to the end that the copy notes: leave out --seconds and --frames");
   applyMachineOptions(arguments);
   return arguments.has("--check") ? check(arguments, path) : write(arguments, path);
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/base/utf8.h"
 
+#include <cstdio>
 #include <string>
 
 namespace ps {
@@ -11,6 +12,13 @@ namespace ps {
 inline std::string shortText(std::string text, size_t most = 500) {
   if (text.size() <= most) return text;
   return cutText(text, most) + " (" + std::to_string(text.size()) + " bytes)";
+}
+
+/// "0.123457": six digits of a number, for people.
+inline std::string sixDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
 }
 
 }  // namespace ps

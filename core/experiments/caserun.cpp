@@ -2,6 +2,7 @@
 #include "core/experiments/caserun.h"
 
 #include "core/base/error.h"
+#include "core/base/shorttext.h"
 #include "core/experiments/casefunctions.h"
 #include "core/experiments/casemeasure.h"
 #include "core/experiments/probetable.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ps {
 namespace {
@@ -167,12 +167,6 @@ bool concerns(const CaseCheck& check, const std::string& limit) {
     return limit == name || limit.starts_with(name + ".") || limit.ends_with("." + name);
   };
   return check.limits.empty() || std::any_of(check.limits.begin(), check.limits.end(), names);
-}
-
-std::string sixDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 CaseVerdict verdictOf(const Case& what, const std::string& name, const CaseCheck& check, std::optional<double> expected,

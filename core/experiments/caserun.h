@@ -34,7 +34,4 @@ bool concerns(const CaseCheck& check, const std::string& limit);
 void runCase(const Case& what, const ProjectEdits& more, PluginRegistry& plugins, const StopTest& stop,
              const VerdictVisitor& each);
 
-/// Six digits, as tables show numbers.
-std::string sixDigits(double value);
-
 }  // namespace ps

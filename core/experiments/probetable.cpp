@@ -2,6 +2,7 @@
 #include "core/experiments/probetable.h"
 
 #include "core/base/error.h"
+#include "core/simulation/particlefield.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::string cell(double value) {
 
 std::vector<std::string> columnTitles(const std::vector<std::string>& probeNames) {
   std::vector<std::string> titles{"time_s", "thermal_time_s"}, ours(std::begin(kHeatTitles), std::end(kHeatTitles));
-  for (const char* phase : {"solid", "melting", "liquid", "boiling", "gas"}) {
+  for (const char* phase : kPhaseNames) {
     ours.push_back(std::string(phase) + ".mass[kg]");
   }
   ours.emplace_back("all.temperature[K]");

@@ -3,6 +3,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
+#include "core/simulation/particlefield.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
@@ -110,9 +111,8 @@ nlohmann::json RunReport::json(Engine& engine, double wallSeconds) const {
     if (limit.body >= 0) limits.back()["body"] = engine.bodyIds()[static_cast<size_t>(limit.body)];
   }
   nlohmann::json phases;
-  static constexpr const char* kPhases[] = {"solid", "melting", "liquid", "boiling", "gas"};
-  for (size_t p = 0; p < 5; ++p) {
-    phases[kPhases[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
+  for (size_t p = 0; p < kPhaseNames.size(); ++p) {
+    phases[kPhaseNames[p]] = {{"count", m_last.phases[p].count}, {"mass", m_last.phases[p].mass}};
   }
   nlohmann::json momentum{
       {"start", jsonOf(m_momentum.start)}, {"end", jsonOf(m_momentum.end)}, {"external", jsonOf(m_momentum.external)}};

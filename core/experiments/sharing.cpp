@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/progress.h"
+#include "core/base/shorttext.h"
 #include "core/experiments/run.h"
 #include "core/io/projectio.h"
 #include "core/matter/material.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ps {
 namespace {
@@ -85,12 +85,6 @@ Engine made(const Project& project, PluginRegistry& plugins) {
   Listening making(t_progress);
   const ProgressScope scope(&making);
   return Engine(project, plugins);
-}
-
-std::string sixDigits(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<Source> sourcesOf(const Snapshot& s) {
   all.push_back({.name = "material", .whole = [&s](size_t i) { return s.material[i]; }, .names = s.materialIds});
   all.push_back({.name = "phase",
                  .whole = [&s](size_t i) { return static_cast<uint32_t>(s.phase[i]); },
-                 .names = {"solid", "melting", "liquid", "boiling", "gas"}});
+                 .names = {kPhaseNames.begin(), kPhaseNames.end()}});
   all.push_back({.name = "motion",
                  .whole = [&s](size_t i) { return static_cast<uint32_t>(s.motion[i]); },
                  .names = {"solid", "liquid", "gas", "fixed"}});

@@ -36,8 +36,12 @@ size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& 
       exporter.add(*unpacker.snapshot(*run.frames.at(number), 1));
       advance(1);
     }
-  } catch (const Cancelled&) {
-    exporter.finish();
+  } catch (const std::exception&) {
+    try {
+      exporter.finish();
+    } catch (const Error&) {
+      // What stopped it before is what to say.
+    }
     throw;
   }
   exporter.finish();

@@ -23,7 +23,7 @@ std::vector<RangeFrame> framesIn(const KeptRun& run, const FrameRange& range);
 std::vector<uint64_t> keptIn(const KeptRun& run, const FrameRange& range);
 
 /// Writes each kept one, as one stage of the thread's progress, and returns how many; the series is whole as far as it
-/// goes when it is cancelled too. Throws Cancelled and what the exporter throws.
+/// goes when it is cancelled or fails too. Throws Cancelled and what the exporter throws.
 size_t exportFrames(const KeptRun& run, const FrameRange& range, FrameExporter& exporter);
 
 }  // namespace ps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <phasesketch/types.h>
 
 #include <cstddef>
@@ -72,6 +73,9 @@ class ParticleFields {
 
 /// Whether a quantity is one of force or torque: on a body or a wall as a whole.
 bool isForce(std::string_view quantity);
+
+/// Phases as files name them, by api::Phase.
+inline constexpr std::array<const char*, 5> kPhaseNames{"solid", "melting", "liquid", "boiling", "gas"};
 
 /// What colours may mean: the matter itself ("material"), and each field.
 inline constexpr const char* kMatterColour = "material";

@@ -2,6 +2,7 @@
 // What probes read off the particles: sums in the order of the store, the same for any number of threads.
 #include "core/math/vector.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/particlefield.h"
 
 #include <Eigen/Geometry>
 
@@ -21,11 +22,6 @@ constexpr size_t kSpray = 2;
 
 /// Particles that make a piece: fewer do not fill a volume.
 constexpr size_t kLeastPiece = 4;
-
-const char* phaseName(api::Phase phase) {
-  static constexpr const char* kNames[] = {"solid", "melting", "liquid", "boiling", "gas"};
-  return kNames[static_cast<size_t>(phase)];
-}
 
 /// x, y or z of a vector.
 double part(const api::Float4& v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -116,7 +112,7 @@ class Measurement {
     const auto material =
         static_cast<size_t>(std::find(materials.begin(), materials.end(), m_probe.material) - materials.begin());
     std::array<bool, kPhases> wanted{};  // names are compared once, not for each particle
-    for (size_t k = 0; k < kPhases; ++k) wanted[k] = phase == phaseName(static_cast<api::Phase>(k));
+    for (size_t k = 0; k < kPhases; ++k) wanted[k] = phase == kPhaseNames[k];
     for (size_t i = 0; i < m_store.size(); ++i) {
       if (m_store.velocity()[i].w == 0 && !still) continue;
       if (ofBody && m_store.body()[i] != body) continue;

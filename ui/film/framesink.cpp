@@ -104,7 +104,7 @@ class Film final : public FrameSink {
       const ssize_t count = ::send(m_socket, data, left, MSG_NOSIGNAL);
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) {
-        finish();  // says why it has ended
+        end();  // says why it has ended
         throw Error(m_path + ": ffmpeg ended before the film did");
       }
       data += count;
@@ -112,16 +112,22 @@ class Film final : public FrameSink {
     }
   }
   void finish() override {
-    ::close(std::exchange(m_socket, -1));
-    int status = 0;
-    ::waitpid(std::exchange(m_process, -1), &status, 0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(m_path + ": ffmpeg made no film" + lastWords());
+    end();
     if (std::rename(m_part.c_str(), m_target.c_str()) != 0)
       throw Error(m_path + ": not saved: " + std::strerror(errno) + "; save elsewhere");
     m_part.clear();
   }
 
  private:
+  /// Waits for ffmpeg. Throws Error where it failed.
+  void end() {
+    ::close(std::exchange(m_socket, -1));
+    int status = 0;
+    while (::waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
+    }
+    m_process = -1;
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(m_path + ": ffmpeg made no film" + lastWords());
+  }
   void makePart() {
     requireWritable(m_path);
     m_target = std::filesystem::weakly_canonical(m_path).string();  // behind links

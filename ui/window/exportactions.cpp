@@ -34,14 +34,17 @@ ExportActions::ExportActions(Session& session, const Actions& actions, Notices& 
     m_notices.bar().close(kTopic);
   });
   connect(&work, &RunWork::done, this, [this](const QString& what, const QString& text, MessageLevel level) {
-    m_notices.message(level, what, text);
+    m_session.log().add(level, what, text);
+    m_notices.bar().show(kTopic, level == MessageLevel::Info ? MessageLevel::Ok : level, what, text);
   });
   connect(&work, &RunWork::cancelled, this, [this](const QString& what, const QString& where) {
     const QString left =
-        QFileInfo::exists(where)
+        QFileInfo(where).isDir()
             ? QStringLiteral("what was written until then is whole, in %1").arg(QDir::toNativeSeparators(where))
             : QStringLiteral("nothing was written");
-    m_notices.message(MessageLevel::Info, what, QStringLiteral("Given up: %1.").arg(left));
+    const QString text = QStringLiteral("Given up: %1.").arg(left);
+    m_session.log().add(MessageLevel::Info, what, text);
+    m_notices.bar().show(kTopic, MessageLevel::Info, what, text);
   });
   connect(&work, &RunWork::failed, this, [this](const QString& what, const QString& problem) {
     m_session.log().add(MessageLevel::Error, what, sentence(problem));

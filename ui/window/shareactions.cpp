@@ -70,7 +70,6 @@ RunWork::Result write(SharedCopy copy, PluginRegistry& plugins, const QString& p
 ShareActions::ShareActions(Session& session, const Actions& actions, Notices& notices, QObject* parent)
     : QObject(parent), m_session(session), m_actions(actions), m_notices(notices) {
   connect(&session.files(), &DocumentFiles::opened, this, &ShareActions::onOpened);
-  connect(&session.work(), &RunWork::done, this, &ShareActions::onDone);
 }
 
 void ShareActions::addTo(QMenu* menu, Viewport* view) {
@@ -151,11 +150,6 @@ void ShareActions::check() {
          return RunWork::Result{QStringLiteral("Not reproduced: %1.").arg(QString::fromStdString(differs)),
                                 MessageLevel::Warning};
        }});
-}
-
-void ShareActions::onDone(const QString& what, const QString& text) {
-  if (what == kCheck && text.startsWith(QStringLiteral("Reproduced")))
-    m_notices.bar().show(kTopic, MessageLevel::Ok, kCheck, text);
 }
 
 }  // namespace ps

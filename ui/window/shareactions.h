@@ -29,7 +29,6 @@ class ShareActions : public QObject {
   void chooseCopy();
   void check();
   void onOpened();
-  void onDone(const QString& what, const QString& text);
 
   Session& m_session;
   const Actions& m_actions;
