@@ -61,6 +61,10 @@ std::vector<SceneMaterial> withMaterials(const std::vector<SceneMaterial>& here,
       names[material.id] = same->id;
     }
   }
+  for (size_t k = here.size(); k < all.size(); ++k) {
+    if (!all[k].adheresTo) continue;
+    for (std::string& partner : *all[k].adheresTo) follow(names, partner);
+  }
   return all;
 }
 
@@ -121,7 +125,9 @@ SceneOrder Document::order() const {
 }
 
 void Document::setOrder(SceneOrder after, const QString& title) {
-  m_undo.push(new OrderCommand(*this, order(), std::move(after), title));
+  SceneOrder before = order();
+  before.groups = m_project.groups;  // with those that are out of the scene, which may come back into them
+  m_undo.push(new OrderCommand(*this, std::move(before), std::move(after), title));
 }
 
 std::string Document::addGroup(std::vector<std::string> members) {

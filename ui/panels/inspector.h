@@ -82,6 +82,7 @@ class Inspector : public QObject {
   void refreshMixed(const Address& changed);
   QString setAll(const Address& address, const Value& value);
   QString setOne(const Address& address, const Value& value);
+  QString whyKeyed(const std::vector<Address>& all) const;
   QString titleOfAll(const Address& address, size_t count) const;
   void showPlace(const std::string& id);
   void refreshProperties(const std::string& material);

@@ -78,9 +78,22 @@ void Inspector::refreshMixed(const Address& changed) {
 QString Inspector::setAll(const Address& address, const Value& value) {
   const std::vector<Address> all = addressesOf(address);
   if (all.size() == 1) return setOne(address, value);
+  if (const QString keyed = whyKeyed(all); !keyed.isEmpty()) return keyed;
   std::vector<std::pair<Address, Value>> values;
   for (const Address& one : all) values.emplace_back(one, value);
   return m_document.setParameters(values, titleOfAll(address, all.size()));
+}
+
+/// Their own values are hidden by keys; "" where none has any.
+QString Inspector::whyKeyed(const std::vector<Address>& all) const {
+  QStringList names;
+  for (const Address& one : all) {
+    const Body* body = m_document.track(one) ? m_document.body(one.id) : nullptr;
+    if (body) names << nameOf(*body);
+  }
+  return names.isEmpty()
+             ? QString()
+             : QStringLiteral("%1 has keys over time here: select it alone.").arg(names.join(QStringLiteral(", ")));
 }
 
 QString Inspector::titleOfAll(const Address& address, size_t count) const {
@@ -101,7 +114,8 @@ void Inspector::onScaled(const QString& key, double factor) {
       values.emplace_back(one, scaledValue(*declaration, *number, factor));
   }
   if (values.empty()) return;
-  const QString problem = m_document.setParameters(values, titleOfAll(*address, values.size()));
+  QString problem = whyKeyed(addressesOf(*address));
+  if (problem.isEmpty()) problem = m_document.setParameters(values, titleOfAll(*address, values.size()));
   for (ParameterPanel* panel : panels()) panel->setError(key, problem);
 }
 

@@ -67,7 +67,6 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   m_view->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
   m_view->setMouseTracking(true);
   m_view->setDragDropMode(QAbstractItemView::DragDrop);
-  m_view->setDefaultDropAction(Qt::MoveAction);
   m_view->setDropIndicatorShown(true);
   m_view->setSelectionMode(QAbstractItemView::ExtendedSelection);
   m_view->setAccessibleName(QStringLiteral("Outliner"));

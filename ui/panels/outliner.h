@@ -64,7 +64,7 @@ class Outliner : public QWidget {
   bool holdsAll(const SceneGroup& group) const;
   QLayout* makeSearch();
   void filter();
-  void moveRows(const std::vector<SelectedItem>& rows, const QModelIndex& parent, int row);
+  void moveRows(std::vector<SelectedItem> rows, const QModelIndex& parent, int row);
   static void moveGroup(SceneOrder& order, const std::string& id, const std::string& before);
   void readValues();  ///< counts, probe values
   void refreshSurroundings();

@@ -14,7 +14,8 @@ class OutlinerModel : public QStandardItemModel {
   Q_OBJECT
  public:
   using QStandardItemModel::QStandardItemModel;
-  Qt::DropActions supportedDropActions() const override { return Qt::MoveAction | Qt::CopyAction; }
+  /// The document moves them: a view that thinks it has moved rows takes them away.
+  Qt::DropActions supportedDropActions() const override { return Qt::CopyAction; }
   QStringList mimeTypes() const override;
   QMimeData* mimeData(const QModelIndexList& indexes) const override;
   bool canDropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,

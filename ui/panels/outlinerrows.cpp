@@ -173,9 +173,20 @@ void Outliner::filter() {
 }
 
 /// To another place in its list, into a group or out of it.
-void Outliner::moveRows(const std::vector<SelectedItem>& rows, const QModelIndex& parent, int row) {
+void Outliner::moveRows(std::vector<SelectedItem> rows, const QModelIndex& parent, int row) {
   SceneOrder order = m_document.order();
   const SelectedItem target = itemOf(parent);
+  // A group goes with all that is in it.
+  const std::vector<SelectedItem> all = rows;
+  const auto goesWithItsGroup = [&](const SelectedItem& item) {
+    const auto owner = ownerOf(item.kind);
+    return owner && std::any_of(order.groups.begin(), order.groups.end(), [&](const SceneGroup& group) {
+             const auto& members = group.members;
+             return std::find(all.begin(), all.end(), SelectedItem{OutlineKind::Group, group.id}) != all.end() &&
+                    std::find(members.begin(), members.end(), memberOf(*owner, item.id)) != members.end();
+           });
+  };
+  if (target.kind != OutlineKind::Group) std::erase_if(rows, goesWithItsGroup);
   for (const SelectedItem& item : rows) {
     std::string before;
     for (int k = std::max(0, row); row >= 0 && k < m_model->rowCount(parent) && before.empty(); ++k) {

@@ -36,6 +36,10 @@ std::set<std::string> materialsOf(const Project& things) {
 
 Project excerptOf(const Project& project, const std::vector<SelectedItem>& items) {
   Project excerpt;
+  // Read alone they are judged by the room that they are of, and by its particles.
+  excerpt.environment.boundsMinimum = project.environment.boundsMinimum;
+  excerpt.environment.boundsMaximum = project.environment.boundsMaximum;
+  excerpt.solver.parameters = project.solver.parameters;
   excerpt.environment.walls.clear();
   for (const SelectedItem& item : items) {
     if (item.kind == OutlineKind::Body) take(project.bodies, item.id, excerpt.bodies);

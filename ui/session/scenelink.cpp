@@ -94,6 +94,10 @@ void SceneLink::showFields() {
 }
 
 void SceneLink::onBody(const BodyChanged& event) {
+  for (KnownStroke& known : m_strokes) {
+    const auto stroke = event.move ? known.stroke.lock() : nullptr;
+    if (stroke && stroke->body == event.id) known.way += event.move->shift;
+  }
   if (isBroken()) {
     rebuild(m_play);
     return;
@@ -101,10 +105,6 @@ void SceneLink::onBody(const BodyChanged& event) {
   const Body* body = m_document.body(event.id);
   if (event.move && body) {
     m_engine.apply(MoveBody{std::make_shared<const Body>(*body), *event.move});
-    for (KnownStroke& known : m_strokes) {
-      const auto stroke = known.stroke.lock();
-      if (stroke && stroke->body == event.id) known.way += event.move->shift;
-    }
     return;
   }
   if (event.matter && !body) m_engine.apply(TakeBody{event.id, keyOf(event.matter)});

@@ -103,7 +103,7 @@ void Selection::onChanged(const ChangeEvent& event) {
   std::vector<SelectedItem> left;
   std::copy_if(m_items.begin(), m_items.end(), std::back_inserter(left),
                [&](const SelectedItem& item) { return !opened && isThere(item); });
-  if (left.size() < m_items.size()) selectAll(std::move(left));
+  if (opened || left.size() < m_items.size()) selectAll(std::move(left));
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
   const std::vector<SceneMaterial>& materials = m_document.project().materials;
   const bool known = std::any_of(materials.begin(), materials.end(),

@@ -79,7 +79,7 @@ void stretch(Box& box, const Vector3& factors) {
 
 MatterPlaces matterOf(const Snapshot* scene, const std::vector<std::string>& bodies) {
   MatterPlaces places;
-  if (!scene || !scene->bodyIds) return places;
+  if (!scene || !scene->bodyIds || bodies.empty()) return places;
   std::vector<Vector3> sums(scene->bodyIds->size());
   std::vector<double> counts(sums.size());
   std::vector<uint8_t> wanted(sums.size());
