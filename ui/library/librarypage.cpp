@@ -10,6 +10,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/theme/units.h"
 
 #include <QtCore/QEvent>
 #include <QtGui/QPainter>
@@ -29,8 +30,9 @@
 namespace ps {
 namespace {
 
-constexpr double kRoom = 293.15;  // K, at which properties are listed
-constexpr double kDiffers = 1.1;  // factor from which two values are marked as different
+constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
+constexpr double kRoom = 293.15;          // K, at which properties are listed
+constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
 
 }  // namespace
 
@@ -46,6 +48,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_title(new QLabel),
       m_about(new QLabel),
       m_of(new QLabel),
+      m_hint(new QLabel),
       m_add(new QPushButton(QStringLiteral("Add to the scene"))),
       m_export(new QPushButton(QStringLiteral("Export…"))),
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
@@ -93,12 +96,9 @@ QWidget* LibraryPage::makeLeft() {
   m_cards->setSelectionMode(QAbstractItemView::ExtendedSelection);
   m_cards->setAccessibleName(QStringLiteral("Materials"));
   column->addWidget(m_cards, 1);
-  auto* hint =
-      new QLabel(QStringLiteral("The bar shows solid, liquid and gas from −223 to 3,700 °C under the air's "
-                                "usual pressure; its line is at 20 °C. Ctrl+click compares two."));
-  hint->setProperty("role", "muted");
-  hint->setWordWrap(true);
-  column->addWidget(hint);
+  m_hint->setProperty("role", "muted");
+  m_hint->setWordWrap(true);
+  column->addWidget(m_hint);
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
@@ -157,14 +157,21 @@ QWidget* LibraryPage::makeRight() {
 
 /// Cards anew; what was chosen stays chosen.
 void LibraryPage::refresh() {
-  const QStringList before = compared();
+  QStringList before;
+  for (const QListWidgetItem* item : m_cards->selectedItems()) before << item->data(kKeyRole).toString();
+  m_hint->setText(
+      QStringLiteral("The bar shows solid, liquid and gas from %1 to %2 under the air's usual pressure; its "
+                     "line is at %3. Ctrl+click compares two.")
+          .arg(temperatureText(kColdest, 0), temperatureText(kHottest, 0), temperatureText(kRoom, 0)));
   m_cards->clear();
   for (size_t i = 0; i < m_library.entries().size(); ++i) {
     const LibraryEntry& entry = m_library.entries()[i];
     auto* item = new QListWidgetItem(entry.label, m_cards);
     item->setData(kEntryRole, static_cast<int>(i));
     item->setToolTip(entry.about);
-    item->setSelected(before.contains(entry.label));
+    const QString key = entry.file + QLatin1Char('|') + QString::fromStdString(entry.material.id);
+    item->setData(kKeyRole, key);
+    item->setSelected(before.contains(key));
   }
   if (before.isEmpty() && m_cards->count() > 0) m_cards->setCurrentRow(0);
   delete m_tags;
@@ -236,13 +243,13 @@ void LibraryPage::showChosen() {
   const std::vector<const LibraryEntry*> some = chosen();
   m_table->clear();
   m_table->setColumnCount(static_cast<int>(some.size()) + 1);
-  QStringList head{QStringLiteral("At 20 °C")};
+  QStringList head{QStringLiteral("At ") + temperatureText(kRoom, 0)};
   for (const LibraryEntry* entry : some) head << entry->label;
   m_table->setHeaderLabels(head);
   m_title->setText(head.mid(1).join(QStringLiteral(" and ")));
   m_about->setText(some.size() == 1 ? some.front()->about : QString());
   for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
-  m_remove->setVisible(!some.empty() && !some.front()->file.isEmpty());
+  m_remove->setVisible(some.size() == 1 && !some.front()->file.isEmpty());
   const api::ParameterList catalogue = propertyCatalogue();
   for (size_t at = 0; at < catalogue.count; ++at) {
     const api::ParameterDeclaration& declaration = catalogue[at];

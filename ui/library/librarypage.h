@@ -29,6 +29,7 @@ class LibraryPage : public QWidget {
   QTreeWidget* table() const { return m_table; }
   void setTag(const QString& tag);  ///< "": all
   void choose(const QString& label, bool beside = false);
+  void refresh();  ///< cards and table anew, in the unit that people prefer
 
  Q_SIGNALS:
   void closeRequested();
@@ -42,7 +43,6 @@ class LibraryPage : public QWidget {
  private:
   QWidget* makeLeft();
   QWidget* makeRight();
-  void refresh();
   void filter();
   void showChosen();
   void showScene();
@@ -56,7 +56,7 @@ class LibraryPage : public QWidget {
   QButtonGroup* m_tags = nullptr;
   QListWidget* m_cards;
   QTreeWidget* m_table;
-  QLabel *m_title, *m_about, *m_of;
+  QLabel *m_title, *m_about, *m_of, *m_hint;
   QPushButton *m_add, *m_export, *m_remove, *m_save;
   QString m_tag;
 };

@@ -16,7 +16,7 @@ namespace ps {
 namespace {
 
 constexpr QSize kCard{222, 84};
-constexpr double kColdest = 50, kHottest = 4000, kRoom = 293.15;  // K, ends of the bar
+constexpr double kRoom = 293.15;  // K
 
 /// Place on the bar, 0 to 1: its ways are factors of the absolute temperature.
 double placeOf(double kelvin) {

@@ -6,7 +6,8 @@
 
 namespace ps {
 
-inline constexpr int kEntryRole = Qt::UserRole + 1;  ///< index into MaterialLibrary::entries()
+inline constexpr double kColdest = 50, kHottest = 4000;  ///< K, ends of the bar
+inline constexpr int kEntryRole = Qt::UserRole + 1;      ///< index into MaterialLibrary::entries()
 
 /// Paints an entry of the library: a ball as its matter looks, its name, when it melts and boils, and a bar of its
 /// phases over temperature, which has one scale for all.

@@ -179,17 +179,37 @@ void MaterialLibrary::write(const SceneMaterial& material, const QString& path, 
   });
 }
 
-void MaterialLibrary::savePreset(SceneMaterial material, const QString& name) {
-  const QString label = name.trimmed();
-  if (label.isEmpty()) return Q_EMIT said(true, QStringLiteral("A preset needs a name."));
+/// Of a preset of that name, which it replaces; a new file where there is none.
+QString MaterialLibrary::placeOf(const QString& label, bool replaces, const QStringList& taken) const {
   QString stem = label.toLower();
   for (QChar& letter : stem) {
     if (!letter.isLetterOrNumber() || letter.unicode() > 127) letter = QLatin1Char('-');
   }
+  for (const LibraryEntry& entry : m_entries) {
+    if (replaces && entry.label == label && entry.file.startsWith(m_folder) && isAlone(entry)) return entry.file;
+  }
+  for (int number = 1;; ++number) {
+    const QString path =
+        QStringLiteral("%1/%2%3.json").arg(m_folder, stem, number > 1 ? QStringLiteral("-%1").arg(number) : QString());
+    if (!QFile::exists(path) && !taken.contains(path)) return path;
+  }
+}
+
+bool MaterialLibrary::isAlone(const LibraryEntry& entry) const {
+  return std::count_if(m_entries.begin(), m_entries.end(),
+                       [&](const LibraryEntry& other) { return other.file == entry.file; }) == 1;
+}
+
+void MaterialLibrary::keep(SceneMaterial material, const QString& label, const QString& path) {
   material.label = label.toStdString();
   material.id = material.base;
-  write(material, m_folder + QLatin1Char('/') + stem + QStringLiteral(".json"),
-        QStringLiteral("“%1” is kept among your presets.").arg(label));
+  write(material, path, QStringLiteral("“%1” is kept among your presets.").arg(label));
+}
+
+void MaterialLibrary::savePreset(const SceneMaterial& material, const QString& name) {
+  const QString label = name.trimmed();
+  if (label.isEmpty()) return Q_EMIT said(true, QStringLiteral("A preset needs a name."));
+  keep(material, label, placeOf(label, true, {}));
 }
 
 void MaterialLibrary::importFrom(const QString& path) {
@@ -203,7 +223,12 @@ void MaterialLibrary::importFrom(const QString& path) {
     }
     QMetaObject::invokeMethod(this, [this, materials, problem, name = QFileInfo(path).fileName()] {
       if (!problem.isEmpty()) return Q_EMIT said(true, problem);
-      for (const SceneMaterial& material : materials) savePreset(material, QString::fromStdString(material.label));
+      QStringList taken;
+      for (const SceneMaterial& material : materials) {
+        const QString label = QString::fromStdString(material.label.empty() ? material.base : material.label);
+        taken << placeOf(label, false, taken);
+        keep(material, label, taken.back());
+      }
       if (materials.empty()) Q_EMIT said(true, QStringLiteral("“%1” holds no material.").arg(name));
     });
   });
@@ -215,6 +240,9 @@ void MaterialLibrary::exportTo(const LibraryEntry& entry, const QString& path) {
 
 void MaterialLibrary::removePreset(const LibraryEntry& entry) {
   if (entry.file.isEmpty()) return;
+  if (!isAlone(entry))
+    return Q_EMIT said(
+        true, QStringLiteral("“%1” shares its file with others, which would go too: %2").arg(entry.label, entry.file));
   const bool gone = QFile::moveToTrash(entry.file) || QFile::remove(entry.file);
   Q_EMIT said(!gone, gone ? QStringLiteral("“%1” is no preset any more.").arg(entry.label)
                           : QStringLiteral("“%1” cannot be removed: its folder is read-only.").arg(entry.label));

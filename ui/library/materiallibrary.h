@@ -48,7 +48,7 @@ class MaterialLibrary : public QObject {
   QStringList tags() const;
   void read();
   /// A material with the values that it has now, under a name of its own.
-  void savePreset(SceneMaterial material, const QString& name);
+  void savePreset(const SceneMaterial& material, const QString& name);
   /// All materials of a project or preset become presets.
   void importFrom(const QString& path);
   void exportTo(const LibraryEntry& entry, const QString& path);
@@ -61,6 +61,9 @@ class MaterialLibrary : public QObject {
  private:
   struct Found;
   void adopt(std::vector<Found> found);
+  QString placeOf(const QString& label, bool replaces, const QStringList& taken) const;
+  bool isAlone(const LibraryEntry& entry) const;  ///< in its file
+  void keep(SceneMaterial material, const QString& label, const QString& path);
   void write(const SceneMaterial& material, const QString& path, const QString& done);
   Session& m_session;
   QString m_folder;

@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/graphs/graphspanel.h"
+#include "ui/library/librarypage.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
@@ -49,6 +50,7 @@ void showTemperatures(MainWindow& window, TemperatureUnit unit) {
   window.inspector().rebuild();
   window.outliner()->rebuild();
   window.graphs()->remake();
+  window.findChild<LibraryPage*>()->refresh();
   Q_EMIT window.curves().responseChanged();
   for (QWidget* widget : window.findChildren<QWidget*>()) widget->update();
 }
