@@ -29,7 +29,6 @@ void CardGrid::setSamples(const std::vector<Sample>& samples) {
 }
 
 void CardGrid::setTag(const QString& tag) {
-  m_tag = tag;
   for (Card* card : m_cards) card->setVisible(tag.isEmpty() || card->sample().tags.contains(tag));
   updateGeometry();
   place();

@@ -35,7 +35,6 @@ class CardGrid : public QWidget {
   int cardWidth(int width) const;
   void place();
   std::vector<Card*> m_cards;
-  QString m_tag;
 };
 
 }  // namespace ps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture is drawn by a thread and a context of its own: reading one back from the view would hold up the interface,
-// and at close nobody waits for it.
+// A picture is drawn by a thread and a context of its own: reading one back from the view would hold up the interface.
+// At close the one that has begun is waited for.
 #pragma once
 #include "ui/render/renderer.h"
 #include "ui/session/worker.h"

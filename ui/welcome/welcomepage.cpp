@@ -144,7 +144,7 @@ QWidget* WelcomePage::makeMiddle() {
   m_chips->setSpacing(8);
   head->addLayout(m_chips);
   column->addLayout(head);
-  column->addWidget(words(QStringLiteral("Each opens running and has two or three values marked “Try these”. Nothing "
+  column->addWidget(words(QStringLiteral("Each opens running and has a few values marked “Try these”. Nothing "
                                          "that you change touches the sample."),
                           TextRole::Normal, "text2"));
   column->addSpacing(12);

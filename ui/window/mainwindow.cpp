@@ -338,7 +338,7 @@ void MainWindow::onReady() {
   m_tools->attach(m_session->link());
   m_sketch->addBrushes();
   showPluginProblems();
-  if (Viewport* view = viewport()) view->setFocus(Qt::OtherFocusReason);
+  if (Viewport* view = viewport(); view && !m_welcome->shown()) view->setFocus(Qt::OtherFocusReason);
 }
 
 void MainWindow::showPluginProblems() {
@@ -417,12 +417,12 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     m_tour->end();
   } else if (Viewport* view = viewport(); view && view->cancelGesture()) {
     return;
-  } else if (m_session->work().cancel()) {
-    return;
   } else if (m_welcome->shown()) {
     m_welcome->leave();
   } else if (m_centre->currentWidget() != m_pane) {
     m_centre->setCurrentWidget(m_pane);
+  } else if (m_session->work().cancel()) {
+    return;
   } else if (m_layout->fullViewport()) {
     m_layout->setFullViewport(false);
   } else {

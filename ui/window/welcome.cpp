@@ -7,6 +7,7 @@
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/theme/plaintext.h"
+#include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/viewport.h"
 #include "ui/welcome/cardgrid.h"
 #include "ui/welcome/welcomepage.h"
@@ -22,21 +23,16 @@
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QTabBar>
 
-#include <tuple>
-
 namespace ps {
 namespace {
-
-constexpr double kIceMelts = 273.15;  // K: the pivot of the map where nothing in the scene melts
 
 std::optional<SceneShot> shotOf(Session& session, const Viewport* view) {
   const SnapshotPtr snapshot = session.snapshot();
   if (!view || !snapshot || snapshot->position.empty()) return std::nullopt;
-  Look look;
-  look.colour = view->colour();
-  std::tie(look.rangeMinimum, look.rangeMaximum) = view->legendRange();
-  look.meltingPoint = session.transitions().meltsOr(kIceMelts);
-  return SceneShot{snapshot, {session.surroundings()}, look, view->navigator().camera()};
+  return SceneShot{withoutBodies(snapshot, view->hiddenBodies()),
+                   {session.surroundings()},
+                   view->shownLook(),
+                   view->navigator().camera()};
 }
 
 }  // namespace
@@ -49,6 +45,9 @@ Welcome::Welcome(const Parts& parts, const QString& samples, QObject* parent)
   makePage();
   connectPage();
   connect(&m_gallery, &Gallery::loaded, this, &Welcome::fillMenu);
+  connect(&m_gallery, &Gallery::loaded, this, [this] {
+    if (shown()) focusFirst();
+  });
 }
 
 void Welcome::makePage() {
@@ -122,6 +121,10 @@ bool Welcome::shown() const { return m_parts.centre.currentWidget() == m_page; }
 void Welcome::show() {
   if (shown()) return;
   m_parts.centre.setCurrentWidget(m_page);
+  focusFirst();
+}
+
+void Welcome::focusFirst() {
   if (const auto cards = m_page->samples()->cards(); !cards.empty()) cards.front()->setFocus(Qt::OtherFocusReason);
 }
 

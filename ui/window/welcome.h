@@ -55,6 +55,7 @@ class Welcome : public QObject {
   void makePage();
   void connectPage();
   void fillMenu();
+  void focusFirst();
   void onPage();
   void showOffer();
 
