@@ -363,9 +363,11 @@ void GraphView::paintLabels(QPainter& painter) {
   };
   for (size_t i = 0; i < d->series.size(); ++i) {
     const Series& s = d->series[i];
-    if (!s.samples.empty()) add(i, s.name, s.samples, s.axis, s.samples.lastValue(), s.samples.lastTime());
+    if (s.samples.empty()) continue;
+    const double now = labelTime(s.samples.lastTime());
+    add(i, s.name, s.samples, s.axis, s.samples.valueAt(now), now);
     if (!d->showsDifference() || s.difference.empty() || s.other.empty()) continue;
-    const double end = std::min(s.samples.lastTime(), s.other.lastTime());
+    const double end = std::min(now, s.other.lastTime());
     add(i, QStringLiteral("Δ ") + s.name, s.difference, d->units + s.axis, s.difference.valueAt(end), end);
   }
   // From the top down, each label at its line's end or as little below it as keeps the texts apart.

@@ -152,7 +152,7 @@ void StackView::paintLabels(QPainter& painter) {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
   const QFont font = Theme::font(TextRole::Small);
-  const double end = std::min(lastTime(), range().second);
+  const double end = std::min(labelTime(lastTime()), range().second);
   paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignRight | Qt::AlignVCenter,
             axisTitle(), font, theme[Token::Muted]);
   struct Label {

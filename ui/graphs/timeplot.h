@@ -16,6 +16,8 @@ class TimePlot : public Plot {
   /// Line of the present time; NaN hides it.
   void setPresentTime(double seconds);
   double presentTime() const { return m_present; }
+  /// Where labels say what a curve is: at the present time, or where it ends before that.
+  double labelTime(double last) const { return m_present < last ? m_present : last; }
   /// Thin lines with names: times in s.
   void setMarkers(std::vector<std::pair<double, QString>> markers);
   const std::vector<std::pair<double, QString>>& markers() const { return m_markers; }
