@@ -124,15 +124,14 @@ class KnownFills {
   std::deque<Known> m_known;
 };
 
-/// The same solid, upright in the middle of the scene: what fills it hangs on nothing else.
+}  // namespace
+
 SolidShape withoutPose(SolidShape shape) {
   std::erase_if(shape.parameters.values, [](const auto& value) {
     return value.first.starts_with("position_") || value.first.starts_with("rotation_");
   });
   return shape;
 }
-
-}  // namespace
 
 SolidInside::SolidInside(const SolidShape& shape) : m_form(std::make_unique<const SolidForm>(shape)) {
   if (m_form->kind() != SolidForm::Kind::Mesh || !shape.mesh) return;

@@ -50,6 +50,8 @@ struct SolidMatter {
 /// As its parameter `fill` says: on the lattice of fillSolid(), stretched, or packed (packSolid()) from there. What was
 /// filled last is kept, wherever it stands. Tells its steps to the thread's Progress.
 SolidMatter solidMatter(const SolidShape& shape, double spacing);
+/// The same solid, upright in the middle of the scene: what fills it hangs on nothing else.
+SolidShape withoutPose(SolidShape shape);
 /// Whether it is packed.
 bool isPacked(const SolidShape& shape);
 /// Places of the lattice, whatever `fill` says.

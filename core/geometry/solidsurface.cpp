@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geometry/solidsurface.h"
 
-#include "core/geometry/meshnearest.h"
 #include "core/geometry/meshrepair.h"
+#include "core/geometry/solidfacets.h"
+#include "core/math/meshnearest.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace ps {
 namespace {
 
 using Kind = SolidForm::Kind;
-constexpr double kPi = std::numbers::pi;
 constexpr int kAround = 96, kArc = 48;  ///< facets of an oval solid: round its axis, and round its rim or caps
 constexpr double kStraight = 0.999999;  ///< of a cosine
 constexpr double kOnSurface = 1e-9;  ///< of the solid's size: nearer than that, the surface itself says where it faces
@@ -20,78 +19,6 @@ constexpr double kOnSurface = 1e-9;  ///< of the solid's size: nearer than that,
 bool isRound(const SolidForm& form) {
   const Vector3& size = form.size();
   return std::abs(size[0] - size[2]) <= kOnSurface * size[0];
-}
-
-/// A capsule or torus so low, or so thick, that nothing straight or hollow is left.
-bool isEllipsoid(const SolidForm& form) {
-  const Vector3& size = form.size();
-  switch (form.kind()) {
-    case Kind::Ellipsoid:
-      return true;
-    case Kind::Capsule:
-      return size[1] <= std::min(size[0], size[2]);
-    case Kind::Torus:
-      return size[1] >= size[0];
-    default:
-      return false;
-  }
-}
-
-/// A point of an oval solid's outline: where it crosses the x and the z axis, and its height; m.
-struct Rim {
-  double x, y, z;
-};
-
-/// In the order of SolidSurface::Segment; closed where its ends do not lie on the axis.
-std::vector<Rim> outlineOf(const SolidForm& form) {
-  const double x = form.size()[0] / 2, y = form.size()[1] / 2, z = form.size()[2] / 2;
-  switch (form.kind()) {
-    case Kind::Cone:
-      return {{0, y, 0}, {x, -y, z}, {0, -y, 0}};
-    case Kind::Tube:
-      if (const double wall = form.wall(); wall < std::min(x, z))
-        return {{x - wall, y, z - wall}, {x, y, z}, {x, -y, z}, {x - wall, -y, z - wall}, {x - wall, y, z - wall}};
-      break;
-    case Kind::Capsule: {
-      const double cap = std::min({x, y, z});
-      std::vector<Rim> outline;
-      for (int k = 0; k <= kArc; ++k) {
-        const double angle = kPi * k / kArc, out = std::sin(angle), up = cap * std::cos(angle);
-        outline.push_back({x * out, up + (2 * k < kArc ? y - cap : cap - y), z * out});
-      }
-      return outline;
-    }
-    case Kind::Torus: {
-      const double ring = x - y;  // the tube is as thick as it is high
-      std::vector<Rim> outline;
-      for (int k = 0; k <= kArc; ++k) {
-        const double angle = -2 * kPi * k / kArc, out = ring + y * std::cos(angle);
-        outline.push_back({out, y * std::sin(angle), out * z / x});
-      }
-      return outline;
-    }
-    default:
-      break;
-  }
-  return {{0, y, 0}, {x, y, z}, {x, -y, z}, {0, -y, 0}};
-}
-
-std::vector<MeshNearest::Triangle> trianglesOf(const SceneMesh& mesh, const Vector3& size) {
-  const MeshBounds bounds = boundsOf(mesh);
-  const Vector3 extent = bounds.maximum - bounds.minimum, middle = (bounds.minimum + bounds.maximum) / 2;
-  Vector3 scale;
-  for (size_t a = 0; a < 3; ++a) scale[a] = extent[a] > 0 ? size[a] / extent[a] : 0;
-  std::vector<MeshNearest::Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& corners : mesh.triangles) {
-    MeshNearest::Triangle triangle;
-    for (size_t k = 0; k < 3; ++k) {
-      const auto& p = mesh.points[corners[k]];
-      triangle[k] = scale.cwiseProduct(Vector3(p[0], p[1], p[2]) - middle);
-    }
-    triangles.push_back(triangle);
-  }
-  return triangles;
 }
 
 }  // namespace
@@ -105,7 +32,7 @@ SolidSurface::SolidSurface(const SolidShape& shape) : m_inside(shape) {
     m_way = Way::Mesh;
     if (!shape.mesh || shape.mesh->triangles.empty()) return;
     m_closed = factsOf(*shape.mesh).closed();
-    m_mesh = std::make_shared<const MeshNearest>(trianglesOf(*shape.mesh, form().size()));
+    m_mesh = std::make_shared<const MeshNearest>(facetsOf(*shape.mesh, form().size()));
   } else if (isRound(form())) {
     m_way = Way::Round;
     takeRound();
@@ -126,29 +53,13 @@ void SolidSurface::takeRound() {
     m_profile.push_back({{radius - half, 0}, {radius - half, 0}});
     m_swell = half;
   } else {
-    const std::vector<Rim> outline = outlineOf(form());
+    const std::vector<SolidRim> outline = outlineOf(form(), kArc);
     for (size_t k = 0; k + 1 < outline.size(); ++k)
       m_profile.push_back({{outline[k].x, outline[k].y}, {outline[k + 1].x, outline[k + 1].y}});
   }
 }
 
-void SolidSurface::takeOval() {
-  const std::vector<Rim> outline = outlineOf(form());
-  std::vector<MeshNearest::Triangle> triangles;
-  const auto at = [&](const Rim& rim, int turn) {
-    const double angle = 2 * kPi * (turn % kAround) / kAround;
-    return Vector3(rim.x * std::cos(angle), rim.y, rim.z * std::sin(angle));
-  };
-  for (size_t k = 0; k + 1 < outline.size(); ++k) {
-    const Rim &from = outline[k], &to = outline[k + 1];
-    for (int turn = 0; turn < kAround; ++turn) {
-      const Vector3 a = at(from, turn), b = at(from, turn + 1), c = at(to, turn), d = at(to, turn + 1);
-      if (from.x > 0) triangles.push_back({a, b, c});
-      if (to.x > 0) triangles.push_back({b, d, c});
-    }
-  }
-  m_mesh = std::make_shared<const MeshNearest>(std::move(triangles));
-}
+void SolidSurface::takeOval() { m_mesh = std::make_shared<const MeshNearest>(facetsAround(form(), kAround, kArc)); }
 
 SolidSurface::Near SolidSurface::at(const Vector3& own) const {
   switch (m_way) {

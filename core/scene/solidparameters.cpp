@@ -62,7 +62,8 @@ constexpr api::ParameterDeclaration kSolid[] = {
                        {"Shape",
                         "How particles lie in it at the start: on a lattice along its own axes, whose outermost cells "
                         "make steps of a round surface, or packed against that surface, as even as they can lie. "
-                        "On a packed one that is held in place and stands, other solids slide as on the shape itself.",
+                        "On a packed one that is held in place and stands, other solids slide as on the shape itself; "
+                        "liquid does so on either kind, however thin.",
                         "relaxed for a smooth ball or mould, lattice for a crystal", ""}))),
     place({"position_x", "Position x", "", "m"}, "Where the middle of the shape is."),
     place({"position_y", "Position y", "", "m"}, "How high the middle of the shape is."),

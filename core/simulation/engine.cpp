@@ -208,10 +208,22 @@ void Engine::Impl::recompile(const Touched& touched) {
   if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::HeatSource, Owner::Body})) setThermal();
   if (any({Owner::Body})) {
     lead();
+    setShapes();
     fill = fillLimit(project, spacing);
     solver->setHeating(compileHeating(project, *bodyIds));
   }
   if (any({Owner::Constraint})) setConstraints();
+}
+
+void Engine::Impl::setShapes() {
+  std::vector<FixedShape> shapes;
+  for (const Body& body : project.bodies) {
+    const auto found = std::find(bodyIds->begin(), bodyIds->end(), body.id);
+    if (found == bodyIds->end()) continue;
+    const auto index = static_cast<uint32_t>(found - bodyIds->begin());
+    if (std::optional<FixedShape> shape = surfaces.of(body, index, spacing)) shapes.push_back(std::move(*shape));
+  }
+  solver->setShapes(std::move(shapes));
 }
 
 void Engine::Impl::setConstraints() {

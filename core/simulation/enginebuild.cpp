@@ -75,8 +75,10 @@ void Engine::Impl::build() {
     const bool isPacked = spawn.packed;
     const std::vector<uint32_t> ids = born(std::move(spawn), *body);
     if (isPacked) packed.insert(packed.end(), ids.begin(), ids.end());
+    surfaces.note(solver->particles(), ids, *body, spacing);
     if (hasTrueSurface(*body)) noteTrueSurface(solver->particles(), ids, *body, spacing);
   }
+  setShapes();
   solver->settle(packed);
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices

@@ -9,6 +9,7 @@
 #include "core/simulation/particlefield.h"
 #include "core/simulation/scenestate.h"
 #include "core/simulation/tracks.h"
+#include "core/simulation/truesurface.h"
 #include "core/solver/solver.h"
 
 #include <map>
@@ -45,6 +46,8 @@ struct Engine::Impl {
   std::unique_ptr<Impl> rebuilt(const Project& source) const;
   /// Index of a body for its particles: a body keeps it as long as particles live, whatever comes and goes before it.
   uint32_t bodyIndex(const std::string& id);
+  /// Tells the solver on which surfaces of fixed bodies fluids go.
+  void setShapes();
   bool isFixed(const std::string& body) const;  ///< whether it was born fixed
   void recompile(const Touched& touched);
   void recompileAll();
@@ -90,6 +93,7 @@ struct Engine::Impl {
   std::vector<std::string> shown;  ///< names of what snapshots carry
   std::unique_ptr<Solver> solver;
   MaterialTables tables;
+  ShapeSurfaces surfaces;
   NamedMatter named;
   TrackOverlay overlay;
   std::map<std::string, uint32_t> constraintSets;  // one per plugin: structure may join matter of any two bodies

@@ -73,6 +73,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
     const std::vector<uint32_t> fresh = m->born(std::move(spawn), body);
     ids.insert(ids.end(), fresh.begin(), fresh.end());
     if (isPacked) packed.insert(packed.end(), fresh.begin(), fresh.end());
+    m->surfaces.note(m->solver->particles(), fresh, body, m->spacing);
     if (hasTrueSurface(body)) noteTrueSurface(m->solver->particles(), fresh, body, m->spacing);
   }
   m->solver->settle(packed);

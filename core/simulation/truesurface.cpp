@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/truesurface.h"
 
+#include "core/base/hash.h"
 #include "core/base/parallel.h"
+#include "core/geometry/meshrepair.h"
+#include "core/geometry/solidfacets.h"
 #include "core/geometry/solidsurface.h"
 #include "core/solver/truesurface.h"
 
@@ -12,6 +15,24 @@ namespace {
 
 api::Float4* fieldOf(ParticleStore& store) {
   return static_cast<api::Float4*>(store.find(field::kTrueSurface, api::FieldType::Float4));
+}
+
+/// How far from a shape its facets may lie, in spacings.
+constexpr double kFacetError = 0.01;
+
+uint64_t stampOf(const SolidShape& solid) {
+  Hash hash;
+  const api::ParameterList list = solidParameters();
+  for (size_t k = 0; k < list.count; ++k) {
+    const Value value = valueOf(solid.parameters, list[k]);
+    if (const auto* number = std::get_if<double>(&value)) hash.add(*number);
+    if (const auto* name = std::get_if<std::string>(&value)) hash.add(name->data(), name->size());
+  }
+  if (solid.mesh) {
+    hash.add(solid.mesh->points.data(), std::span(solid.mesh->points).size_bytes());
+    hash.add(solid.mesh->triangles.data(), std::span(solid.mesh->triangles).size_bytes());
+  }
+  return hash.value();
 }
 
 }  // namespace
@@ -35,6 +56,41 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
         noted[i] = float4Of(form.toScene(near.normal) - form.middle(), static_cast<float>(-near.distance));
     }
   });
+}
+
+std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, double spacing) {
+  const auto* solid = std::get_if<SolidShape>(&body.shape);
+  if (!solid || !toggleOf(body.parameters, bodyParameters(), "fixed")) return std::nullopt;
+  const SolidForm form(*solid);
+  if (form.isThin()) return std::nullopt;
+  Known& known = m_known[body.id];
+  SolidShape upright = withoutPose(*solid);
+  if (!known.shape.surface || known.spacing != spacing || !(known.upright == upright)) {
+    std::vector<MeshNearest::Triangle> facets = facetsOf(*solid, kFacetError * spacing);
+    if (facets.empty()) return std::nullopt;
+    known.shape.surface = std::make_shared<const MeshNearest>(std::move(facets));
+    known.shape.closed = !solid->mesh || factsOf(*solid->mesh).closed();
+    known.shape.stamp = stampOf(upright);
+    known.spacing = spacing;
+    known.upright = std::move(upright);
+  }
+  FixedShape shape = known.shape;
+  shape.body = index;
+  shape.pose = {Quaternion(form.axes()), form.middle()};
+  return shape;
+}
+
+void ShapeSurfaces::note(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing) {
+  const std::optional<FixedShape> shape = of(body, 0, spacing);
+  if (!shape) return;
+  store.declare(field::kShapePlace, api::FieldType::Float4, "m", "place in a fixed shape, and a mark of that");
+  auto* places = static_cast<api::Float4*>(store.find(field::kShapePlace, api::FieldType::Float4));
+  const SolidForm form(std::get<SolidShape>(body.shape));
+  const float mark = markOf(shape->stamp, ids.size());
+  for (const uint32_t id : ids) {
+    const size_t i = store.indexOf(id);
+    places[i] = float4Of(form.toOwn(vectorOf(store.position()[i])), mark);
+  }
 }
 
 }  // namespace ps

@@ -89,6 +89,8 @@ void Solver::setWalls(std::vector<Wall> walls) {
   m->configured = false;
 }
 
+void Solver::setShapes(std::vector<FixedShape> shapes) { m->shapes.set(std::move(shapes)); }
+
 void Solver::setBounds(const Bounds& bounds) {
   requireRoomForImages(m->settings, bounds);
   m->bounds = bounds;
@@ -145,10 +147,12 @@ void Solver::Impl::configure() {
   if (support != neighbours.support()) neighbours.configure(support, kSkinSpacings * settings.spacing);
   const std::span<const BakedMaterial> table(materials);
   constraints.configure(settings, table);
-  density.configure(settings, walls);
-  viscosity.configure(settings, walls, table);
+  shapes.configure(settings);
+  shapeContact.configure(settings);
+  density.configure(settings, walls, shapes);
+  viscosity.configure(settings, walls, table, shapes);
   wallStage.configure(settings, walls);
-  swept.configure(settings);
+  swept.configure(settings, shapes);
   contact.configure(settings, table);
   impacts.configure(settings, walls, table);
   rebound.configure(settings, walls, table);

@@ -5,6 +5,7 @@
 #include "core/particles/particlestore.h"
 #include "core/particles/reactions.h"
 #include "core/solver/anyconstraint.h"
+#include "core/solver/fixedshape.h"
 #include "core/solver/heatsource.h"
 #include "core/solver/matter.h"
 #include "core/solver/motion.h"
@@ -39,6 +40,8 @@ class Solver {
   void setThermal(const ThermalSettings& settings, const api::ThermalPlugin* model, std::string name,
                   std::vector<double> modelParameters);
   void setWalls(std::vector<Wall> walls);
+  /// Instead of those before; see FixedShape for how long each stands for its body's particles.
+  void setShapes(std::vector<FixedShape> shapes);
   /// Throws InputError when a periodic box is too small for the reach of its particles; so does setSettings().
   void setBounds(const Bounds& bounds);
   /// What messages call the bodies, by index.

@@ -75,13 +75,13 @@ struct Solved {
 constexpr ConstraintRule kRule{0.7f, 1e-6f / static_cast<float>(kSpacing* kSpacing),
                                static_cast<float>(1 / (kSupport * kSupport))};
 
-Solved solve(const Scene& s) {
+Solved solve(const Scene& s, const HalfSpaces::Sum* shapes = nullptr) {
   Solved r;
   r.constraints.resize(kCount + kSpare);
   r.multipliers.resize(s.points.size());
   for (const auto& [first, last] : {std::pair<size_t, size_t>{0, 128}, {128, 256}, {256, kCount}})
-    solveConstraints(kRule, {s.points.data(), s.velocity.data(), s.compression.data()}, s.walls, s.which.data(), first,
-                     last, s.sums.data(), s.squares.data(), r.constraints.data(), r.multipliers.data());
+    solveConstraints(kRule, {s.points.data(), s.velocity.data(), s.compression.data(), shapes}, s.walls, s.which.data(),
+                     first, last, s.sums.data(), s.squares.data(), r.constraints.data(), r.multipliers.data());
   r.constraints.resize(kCount);
   return r;
 }
@@ -142,14 +142,23 @@ std::vector<WallSet> nearWalls(const Scene& s, float reach) {
 class TestConstraintKernels : public QObject {
   Q_OBJECT
  private Q_SLOTS:
-  /// -relaxation C/(sum w |grad C|2), with what walls add, and 0 where C is not positive.
+  /// -relaxation C/(sum w |grad C|2), with what walls and surfaces of fixed bodies add, and 0 where C is not positive.
+  void constraintsAreSolved_data() {
+    QTest::addColumn<bool>("shapes");
+    QTest::newRow("walls") << false;
+    QTest::newRow("walls and surfaces") << true;
+  }
   void constraintsAreSolved() {
+    QFETCH(bool, shapes);
     const Scene s;
-    const Solved r = solve(s);
+    std::vector<HalfSpaces::Sum> ofShapes(kCount + kSpare);
+    for (size_t k = 0; shapes && k < kCount; k += 3) ofShapes[k] = {0.1f, -3, 2, 4};
+    const Solved r = solve(s, shapes ? ofShapes.data() : nullptr);
     size_t active = 0, walled = 0;
     for (size_t k = 0; k < kCount; ++k) {
       const uint32_t i = s.which[k];
-      const HalfSpaces::Sum walls = s.walls.of(i, s.points[i]);
+      HalfSpaces::Sum walls = s.walls.of(i, s.points[i]);
+      walls.excess += ofShapes[k].excess, walls.x += ofShapes[k].x, walls.y += ofShapes[k].y, walls.z += ofShapes[k].z;
       const double perR2 = double{kRule.inverseSupportSquared};
       const double x = double{s.sums[k].x} * perR2 + double{walls.x}, y = double{s.sums[k].y} * perR2 + double{walls.y},
                    z = double{s.sums[k].z} * perR2 + double{walls.z};
@@ -160,7 +169,8 @@ class TestConstraintKernels : public QObject {
       const double lambda = c > 0 ? -double{kRule.relaxation} * c / denominator : 0;
       active += c > 0 ? 1 : 0;
       walled += walls.excess > 0 ? 1 : 0;
-      const double slopes = 0.05 * perR2 + std::abs(double{walls.x}) + std::abs(double{walls.y});
+      const double slopes =
+          0.05 * perR2 + std::abs(double{walls.x}) + std::abs(double{walls.y}) + std::abs(double{walls.z});
       compare(r.constraints[k].x, x, slopes, "x");
       compare(r.constraints[k].y, y, slopes, "y");
       compare(r.constraints[k].z, z, slopes, "z");

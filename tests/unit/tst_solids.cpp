@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 #include "core/geometry/meshrepair.h"
 #include "core/geometry/meshwinding.h"
+#include "core/geometry/solidfacets.h"
 #include "core/geometry/solidfill.h"
 #include "core/geometry/solidpacking.h"
 #include "core/geometry/solidsurface.h"
@@ -185,7 +186,8 @@ class TstSolids : public QObject {
     if (kind == "mesh") solid = meshSolid(ballMesh(24), {x, y, z});
     const SolidSurface surface(solid);
     const SolidInside inside(solid);
-    constexpr double kStep = 1e-6;
+    constexpr double kStep = 1e-6, kFacets = 1e-4;
+    const MeshNearest facets(facetsOf(solid, kFacets));
     int creases = 0;
     for (int k = 0; k < 500; ++k) {
       const double r = 0.2 * (k + 0.5) / 500, a = 2.4 * k, h = std::cos(1.7 * k);
@@ -193,6 +195,11 @@ class TstSolids : public QObject {
       const SolidSurface::Near near = surface.at(p);
       QCOMPARE(near.distance < 0, inside.holds(p));
       QVERIFY(std::abs(near.normal.norm() - 1) < 1e-9);
+      // Facets lie within their error of it, and where the surface has facets itself, of those.
+      const MeshNearest::Hit hit = facets.at(p);
+      const double toFacet = std::sqrt(hit.squared);
+      QVERIFY2(std::abs(toFacet - std::abs(near.distance)) < 3 * kFacets, qPrintable(QString::number(toFacet)));
+      if (toFacet > 3 * kFacets) QCOMPARE((p - hit.place).dot(hit.normal) < 0, near.distance < 0);
       // There it is on the surface.
       QVERIFY(std::abs(surface.at(p - near.distance * near.normal).distance) < 1e-8);
       const double rise = (surface.at(p + kStep * near.normal).distance - near.distance) / kStep;

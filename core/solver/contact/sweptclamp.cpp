@@ -19,7 +19,8 @@ constexpr double kMostBoxes = 1000;  ///< periods that a particle may cross in a
 
 }  // namespace
 
-void SweptClamp::configure(const SolverSettings& settings) {
+void SweptClamp::configure(const SolverSettings& settings, const FixedShapes& shapes) {
+  m_shapes = &shapes;
   m_radius = kContact * settings.spacing;
   m_contact = kContactDiameter * settings.spacing;
   m_width = kFaceWidth * settings.spacing;
@@ -41,6 +42,7 @@ void SweptClamp::refresh(const ParticleStore& store, bool led) {
     const api::Double3 p = store.wrappedPosition(i);
     m_static.push_back(i);
     m_unsorted.push_back({vectorOf(p), Vector3::Zero(), store.body()[i]});
+    m_unsorted.back().shaped = m_shapes->isShaped(i);
     if (vectorOf(store.velocity()[i]).squaredNorm() > 0) m_longest = 1;
   }
   if (!m_unsorted.empty()) sortIntoCells();
@@ -131,6 +133,7 @@ bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbour
 }
 
 void SweptClamp::test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const {
+  if (sweep.fluid && obstacle.shaped) return;
   const Vector3 center = obstacle.center + sweep.begin * obstacle.way, theirs = sweep.span * obstacle.way;
   const Vector3 way = sweep.way - theirs, offset = sweep.from - center;
   const double square = offset.squaredNorm();
@@ -294,7 +297,8 @@ void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const
       const bool solid = store.motion()[i] == api::Motion::Solid, tied = !graph.isFree(static_cast<uint32_t>(i));
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i, solid && !tied)) continue;
       const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);
-      Vector3 end = sweepOf({from, to - from, 0, 1, solid && !tied, solid && tied && rigid[i] == 0}, m_heldBy[i]);
+      Vector3 end =
+          sweepOf({from, to - from, 0, 1, solid && !tied, solid && tied && rigid[i] == 0, !solid}, m_heldBy[i]);
       if (end == to) continue;
       walls.clamp(end);
       const api::Float4 at = float4Of(end, position[i].w);

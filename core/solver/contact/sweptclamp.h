@@ -4,6 +4,7 @@
 #include "core/particles/impulse.h"
 #include "core/particles/neighbours.h"
 #include "core/particles/reactions.h"
+#include "core/solver/contact/fixedshapes.h"
 #include "core/solver/contact/solidcontact.h"
 #include "core/solver/contact/walls.h"
 #include "core/solver/structure/constraintsystem.h"
@@ -19,7 +20,8 @@ namespace ps {
 /// at kContactDiameter. Moving solids are not obstacles here: see Impacts, SolidContact and RigidContact.
 class SweptClamp {
  public:
-  void configure(const SolverSettings& settings);
+  /// Fluids meet the surfaces of `shapes`, see ShapeContact, in place of the particles that these stand for.
+  void configure(const SolverSettings& settings, const FixedShapes& shapes);
   /// Once per frame: finds the static particles; `led`: some of them will be set in motion in it.
   void refresh(const ParticleStore& store, bool led);
   /// After new lists: how far the static ones in each particle's list are.
@@ -44,6 +46,7 @@ class SweptClamp {
     uint32_t body = 0;
     Vector3 face{};         ///< its lattice's normal there, or zero
     bool twoSided = false;  ///< the other side is as good
+    bool shaped = false;    ///< nothing that a fluid meets
   };
   struct Hit {
     double time = 2;  ///< of the part, 0..1
@@ -58,6 +61,7 @@ class SweptClamp {
     double begin = 0, span = 1;  ///< shares of the substep: passed before, and taken by this part
     bool single = false;         ///< a solid that nothing ties
     bool soft = false;           ///< a solid that is tied, but not as a rigid body
+    bool fluid = false;
   };
   void sortIntoCells();
   void measureReach(const ParticleStore& store, const Neighbours& neighbours);
@@ -72,6 +76,7 @@ class SweptClamp {
 
   double m_radius = 0, m_contact = 0, m_width = 0, m_faceTouch = 0, m_cell = 1, m_safeWay = 0, m_halfSkin = 0;  ///< m
   double m_longest = 0;  ///< m, of the obstacles' ways
+  const FixedShapes* m_shapes = nullptr;
   Period m_period;
   Vector3 m_low, m_high;  ///< m, around the obstacles
   CellGrid m_grid;        ///< of them

@@ -28,6 +28,12 @@ struct WallPlane {
         z(static_cast<float>(wall.normal.z)),
         offset(static_cast<float>(wall.offset + inset)),
         friction(static_cast<float>(wall.friction)) {}
+  explicit WallPlane(const Plane& plane)
+      : x(static_cast<float>(plane.normal.x())),
+        y(static_cast<float>(plane.normal.y())),
+        z(static_cast<float>(plane.normal.z())),
+        offset(static_cast<float>(plane.offset)) {}
+  WallPlane() = default;
   /// m, negative behind it.
   float heightOf(const api::Float4& p) const { return x * p.x + y * p.y + z * p.z - offset; }
 };

@@ -69,6 +69,11 @@ void SolveConstraints(const ConstraintRule& rule, const ConstraintFields& fields
     const Vectors4 at = loadTransposed(fields.points, id);
     LaneSums ofWalls{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     if (met.any()) addWalls(walls, met, at, ofWalls);
+    if (fields.ofShapes != nullptr) {
+      V excess, x, y, z;
+      hn::LoadInterleaved4(d, &fields.ofShapes[k].excess, excess, x, y, z);
+      ofWalls = {hn::Add(ofWalls.excess, excess), hn::Add(ofWalls.x, x), hn::Add(ofWalls.y, y), hn::Add(ofWalls.z, z)};
+    }
     V sum, sx, sy, sz;
     hn::LoadInterleaved4(d, &sums[k].excess, sum, sx, sy, sz);
     const V x = hn::Add(hn::Mul(sx, perR2), ofWalls.x), y = hn::Add(hn::Mul(sy, perR2), ofWalls.y),

@@ -11,6 +11,9 @@ namespace ps {
 struct ConstraintFields {
   const api::Float4 *points, *velocity;  ///< position, scaled volume; w of the velocity: 1/kg
   const float* compression;              ///< what is allowed yet, see DensityStage::handOver()
+  /// What surfaces of fixed bodies add, by place in the list of particles, with spare elements as sums have
+  /// them; nullptr for nothing.
+  const HalfSpaces::Sum* ofShapes = nullptr;
 };
 
 struct ConstraintRule {

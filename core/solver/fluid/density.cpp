@@ -68,11 +68,13 @@ Kinds kindsOf(const ParticleStore& store) {
 
 }  // namespace
 
-void DensityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
+void DensityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                             const FixedShapes& shapes) {
+  m_shapes = &shapes;
   m_settings = settings;
   m_support = settings.spacing * settings.supportRatio;
   m_scale = Kernel(settings.kernel, m_support).value(0);  // w(0) = 1 for both shapes
-  m_walls.configure(settings, walls);
+  m_walls.configure(settings, walls, shapes);
   m_film.configure(settings, m_walls.planes());
 }
 
@@ -91,7 +93,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   const api::Motion* motion = store.motion();
   const api::Float4 *position = store.position(), *velocity = store.velocity();
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) m_volume[i] = position[i].w;
+    for (size_t i = first; i < last; ++i) m_volume[i] = m_shapes->isShaped(i) ? 0 : position[i].w;
   });
   findIndices(n, m_fluid, [&](size_t i) { return isFluid(motion[i]) && velocity[i].w > 0; });
   const api::Float4 dummy{kFarAway, kFarAway, kFarAway, 0};
@@ -186,12 +188,13 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
                                 float most) {
   // Only those near fluid matter.
   const api::Motion* motions = store.motion();
-  findIndices(store.size(), m_some, [&](size_t i) { return motions[i] == motion && m_touched[i] != 0; });
+  const auto counts = [&](size_t i) { return motions[i] == motion && !m_shapes->isShaped(i); };
+  findIndices(store.size(), m_some, [&](size_t i) { return counts(i) && m_touched[i] != 0; });
   if (m_some.empty()) return;
   const api::Float4* position = store.position();
   forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
-      m_points[i] = {position[i].x, position[i].y, position[i].z, motions[i] == motion ? 1.0f : 0.0f};
+      m_points[i] = {position[i].x, position[i].y, position[i].z, counts(i) ? 1.0f : 0.0f};
   });
   m_sums.resize(std::max(m_sums.size(), m_some.size()));
   const float scale = static_cast<float>(m_scale);
@@ -219,6 +222,7 @@ void DensityStage::makeRoom() {
   m_sums.resize(std::max(m_sums.size(), fluids));
   m_squares.resize(fluids);
   m_constraints.resize(fluids);
+  if (m_shapes->any()) m_ofShapes.resize(fluids);
 }
 
 /// By the near lists, which `findNear` finds on the way, in the lists that hold all.
@@ -232,9 +236,10 @@ void DensityStage::multipliers(const ParticleStore& store, const PairLists& pair
     sumDensity(pairs, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), m_slopes.data());
   }
   const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
+  const HalfSpaces::Sum* const ofShapes = m_walls.sumShapes(m_points.data(), fluid, first, last, m_ofShapes);
   solveConstraints({relaxation, epsilon, pairs.inverseSupportSquared},
-                   {m_points.data(), store.velocity(), store.compression()}, m_walls, fluid, first, last, m_sums.data(),
-                   m_squares.data(), m_constraints.data(), m_multipliers.data());
+                   {m_points.data(), store.velocity(), store.compression(), ofShapes}, m_walls, fluid, first, last,
+                   m_sums.data(), m_squares.data(), m_constraints.data(), m_multipliers.data());
 }
 
 /// What a gap takes off the corrections of a particle, m kg (TrappedFilm).
@@ -313,26 +318,25 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
     sumMoves(near, first, last);
     move(store, pairs, first, last);
   });
-  if (m_touchesFixed || !m_walls.planes().empty()) m_externalImpulse.add(m_moved.total());
+  if (m_touchesFixed || m_walls.any()) m_externalImpulse.add(m_moved.total());
   tellWalls(store);
   tellFixed(store, pairs);
 }
 
-/// What walls get by the opposite of what their half spaces gave to the density of particles.
+/// What walls and fixed bodies get by the opposite of what their half spaces gave to the density of particles.
 void DensityStage::tellWalls(const ParticleStore& store) {
-  if (!m_reactions->watchesWalls()) return;
+  if (!m_reactions->watchesWalls() && !(m_shapes->any() && m_reactions->watchesBodies())) return;
   m_reactions->start(chunkCount(m_fluid.size(), grain::kParticles));
   forChunks(m_fluid.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t i = m_fluid[k];
       const float multiplier = m_carried[i].w;
       if (multiplier == 0) continue;
-      m_walls.forSlopes(i, m_points[i], [&](size_t w, float slope) {
-        const WallPlane& p = m_walls.planes()[w];
+      m_walls.forSlopes(i, m_points[i], [&](const WallPlane& p, const HalfSpaces::Owner& owner, float slope) {
         const double moved = double{multiplier} * slope;
         Vector3 given = -m_reactions->perStep() * moved * Vector3(p.x, p.y, p.z);
         if (m_film.concerns(i)) given -= double{m_film.yieldOf(i)} * given.dot(m_film.up()) * m_film.up();
-        m_reactions->add(first / grain::kParticles, m_reactions->ofWall(w), vectorOf(store.position()[i]), given);
+        m_reactions->add(first / grain::kParticles, owner.slotIn(*m_reactions), vectorOf(store.position()[i]), given);
       });
     }
   });

@@ -19,12 +19,15 @@ struct DensityError {
 /// C_i = sum_j V_j W_ij - 1 over all phases and boundary particles, an inequality (C <= 0), solved by under-relaxed
 /// Jacobi steps or their Chebyshev semi-iteration (Golub & Varga 1961).
 /// Solid and static particles have no constraint of their own. They count with the volume that their own kind leaves
-/// them, 1/sum W (Akinci et al. 2012, eq. 4, within bounds), or else ice would sink.
+/// them, 1/sum W (Akinci et al. 2012, eq. 4, within bounds), or else ice would sink; static ones whose body has a known
+/// surface with none, since half a space behind that counts.
 /// It cannot pull: there is no surface tension and no negative pressure. Pressure is that of a substep's push: sound
 /// and water hammer, which live shorter, are not in it.
 class DensityStage {
  public:
-  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  /// `shapes` is asked whenever lists are refreshed, after it has been.
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 const FixedShapes& shapes = FixedShapes::none());
   /// After a change of order, of motion or of volumes: who takes part, and with which volume.
   void refresh(const ParticleStore& store, const Neighbours& neighbours);
   /// After new lists in the same order.
@@ -85,6 +88,7 @@ class DensityStage {
 
   SolverSettings m_settings;
   HalfSpaces m_walls;
+  const FixedShapes* m_shapes = nullptr;
   TrappedFilm m_film;
   double m_scale = 0, m_support = 0;
   float m_chebyshev = 1;
@@ -96,9 +100,10 @@ class DensityStage {
   ChunkSum m_moved;
   ExternalImpulse m_externalImpulse;
   bool m_touchesFixed = false;
-  // Of fluids. The first three have spare elements at the end (see solveConstraints()).
+  // Of fluids. The first four have spare elements at the end (see solveConstraints()).
   std::vector<DensitySums> m_sums;
   std::vector<float> m_squares;
+  std::vector<HalfSpaces::Sum> m_ofShapes;
   std::vector<DensityConstraint> m_constraints;
   std::vector<api::Float4> m_moves, m_movesInFilm;
   std::vector<api::Float4> m_carried;  ///< by particle: m and, in w, J s2 of an iteration

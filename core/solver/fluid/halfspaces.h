@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/halfspace.h"
+#include "core/particles/reactions.h"
+#include "core/solver/contact/fixedshapes.h"
 #include "core/solver/contact/nearwalls.h"
 
 #include <vector>
 
 namespace ps {
 
-/// What walls add to density sums. Few particles are near one: which walls each may feel is found with the lists.
+/// What walls, and the surfaces of fixed bodies, add to density sums: half a space behind each. Few particles are near
+/// one: which walls each may feel is found with the lists.
 class HalfSpaces {
  public:
-  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 const FixedShapes& shapes = FixedShapes::none());
   /// After new lists, with the places that they were made for. Iterations move a particle by less than a spacing.
   void refresh(std::span<const api::Float4> built);
+  /// Of walls.
   const std::vector<WallPlane>& planes() const { return m_planes; }
+  bool any() const { return !m_planes.empty() || m_shapes->any(); }
+  /// Whose a plane is: of a wall, by index, or of a fixed body.
+  struct Owner {
+    bool isBody;
+    size_t index;
+    int slotIn(const Reactions& reactions) const {
+      return isBody ? reactions.ofBody(static_cast<uint32_t>(index)) : reactions.ofWall(index);
+    }
+  };
 
   struct Sum {
     float excess = 0, x = 0, y = 0, z = 0;  ///< share of the kernel, and its gradient in 1/m
@@ -21,16 +35,14 @@ class HalfSpaces {
   /// Of particle i at a place.
   Sum of(uint32_t i, const api::Float4& at) const {
     Sum sum;
-    forNear(i, at, [&](size_t wall, float distance) {
-      const WallPlane& p = m_planes[wall];
-      const HalfSpaceTable::Value value = m_table.at(distance);
-      sum.excess += value.share;
-      sum.x += p.x * value.slope;
-      sum.y += p.y * value.slope;
-      sum.z += p.z * value.slope;
-    });
+    forNear(i, at, [&](const WallPlane& p, const Owner&, float distance) { add(sum, p, distance); });
     return sum;
   }
+  /// The part of the surfaces of fixed bodies in it.
+  /// For the particles which[first .. last), by place in `which`, into a list that has room; nullptr where none of them
+  /// is near such a surface.
+  const Sum* sumShapes(const api::Float4* points, const uint32_t* which, size_t first, size_t last,
+                       std::vector<Sum>& sums) const;
   /// The walls that any of these particles may feel.
   WallSet nearAny(const uint32_t* which, size_t count) const {
     WallSet met;
@@ -47,30 +59,48 @@ class HalfSpaces {
   };
   Compression compressionOf(uint32_t i, const api::Float4& at) const {
     Compression sum;
-    forNear(i, at, [&](size_t, float distance) {
+    forNear(i, at, [&](const WallPlane&, const Owner&, float distance) {
       const HalfSpaceTable::Value value = m_table.at(distance);
       sum.excess += value.share;
       sum.byVolumes += double{value.share} - double{distance} * value.slope / 3;
     });
     return sum;
   }
-  /// visit(wall, slope in 1/m) for each wall that it feels.
+  /// visit(plane, owner, slope in 1/m) for each that it feels.
   template <class Visit>
   void forSlopes(uint32_t i, const api::Float4& at, Visit&& visit) const {
-    forNear(i, at, [&](size_t wall, float distance) { visit(wall, m_table.at(distance).slope); });
+    forNear(i, at, [&](const WallPlane& p, const Owner& owner, float distance) {
+      visit(p, owner, m_table.at(distance).slope);
+    });
   }
 
  private:
-  /// visit(wall, m to its face, at least half a spacing) for those within the support.
+  /// visit(plane, owner, m to its face, at least half a spacing) for those within the support.
   template <class Visit>
   void forNear(uint32_t i, const api::Float4& at, Visit&& visit) const {
     m_near[i].forEach(m_planes.size(), [&](size_t wall) {
       const float distance = m_planes[wall].heightOf(at);
-      if (distance < m_support) visit(wall, std::max(m_nearest, distance));
+      if (distance < m_support) visit(m_planes[wall], Owner{false, wall}, std::max(m_nearest, distance));
     });
+    forNearShapes(i, at, visit);
+  }
+  template <class Visit>
+  void forNearShapes(uint32_t i, const api::Float4& at, Visit&& visit) const {
+    for (const FixedShapes::Near& face : m_shapes->near(i)) {
+      const float distance = face.plane.heightOf(at);
+      if (distance < m_support) visit(face.plane, Owner{true, face.body}, std::max(m_nearest, distance));
+    }
+  }
+  void add(Sum& sum, const WallPlane& p, float distance) const {
+    const HalfSpaceTable::Value value = m_table.at(distance);
+    sum.excess += value.share;
+    sum.x += p.x * value.slope;
+    sum.y += p.y * value.slope;
+    sum.z += p.z * value.slope;
   }
 
   std::vector<WallPlane> m_planes;
+  const FixedShapes* m_shapes = nullptr;
   HalfSpaceTable m_table;
   KernelShape m_kernel = KernelShape::CubicSpline;
   float m_support = 0, m_nearest = 0, m_reach = 0;  ///< m

@@ -65,7 +65,9 @@ void ImplicitViscosity::forSegments(const Body& body) {
   forChunks(m_groups.segments().size(), 1, [&](size_t s, size_t) { body(s, m_groups.segments()[s]); });
 }
 
-void ImplicitViscosity::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
+void ImplicitViscosity::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                                  const FixedShapes& shapes) {
+  m_shapes = &shapes;
   m_settings = settings;
   m_dirty = true;
   m_planes.clear();
@@ -178,9 +180,15 @@ bool ImplicitViscosity::addWall(const WallPlane& p, const api::Float4& at, float
   return true;
 }
 
-bool ImplicitViscosity::addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const {
+template <class Visit>
+void ImplicitViscosity::forPlanes(uint32_t i, Visit&& visit) const {
+  for (size_t w = 0; w < m_planes.size(); ++w) visit(m_planes[w], m_reactions->ofWall(m_wallOf[w]));
+  for (const FixedShapes::Near& face : m_shapes->near(i)) visit(face.plane, m_reactions->ofBody(face.body));
+}
+
+bool ImplicitViscosity::addWalls(uint32_t i, float weight, SymmetricBlock& block) const {
   bool touched = false;
-  for (const WallPlane& p : m_planes) touched = addWall(p, at, weight, block) || touched;
+  forPlanes(i, [&](const WallPlane& p, int) { touched = addWall(p, m_points[i], weight, block) || touched; });
   return touched;
 }
 
@@ -196,12 +204,11 @@ void ImplicitViscosity::tellHeld(const ParticleStore& store, const PairLists& li
       if (m_roles[i] != Role::Viscous) continue;
       const Vector3 place = vectorOf(store.position()[i]), velocity = vectorOf(store.velocity()[i]);
       const auto weight = static_cast<float>(dt * double{m_points[i].w} / scale * viscosity[i]);
-      for (size_t w = 0; w < m_planes.size(); ++w) {
+      forPlanes(i, [&](const WallPlane& p, int slot) {
         SymmetricBlock block{0, 0, 0, 0, 0, 0};
-        const int slot = m_reactions->ofWall(m_wallOf[w]);
-        if (slot != Reactions::kNone && addWall(m_planes[w], m_points[i], weight, block))
+        if (slot != Reactions::kNone && addWall(p, m_points[i], weight, block))
           m_reactions->add(s, slot, place, vectorOf(times(block, store.velocity()[i])));
-      }
+      });
       for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
         const uint32_t j = lists.index[q];
         if (m_roles[j] != Role::Fixed) continue;
@@ -231,7 +238,7 @@ void ImplicitViscosity::assemble(const ParticleStore& store, const PairLists& li
       SymmetricBlock own{mass, mass, mass, 0, 0, 0};
       if (m_roles[i] == Role::Viscous) {
         const double volume = double{m_points[i].w} / scale;
-        touched = addWalls(m_points[i], static_cast<float>(dt * volume * viscosity[i]), own) || touched;
+        touched = addWalls(i, static_cast<float>(dt * volume * viscosity[i]), own) || touched;
       }
       m_own[k] = own;
       const api::Float4 &d = m_diagonal[k], &o = m_offDiagonal[k];
@@ -395,7 +402,7 @@ void ImplicitViscosity::shearRates(const ParticleStore& store, const Neighbours&
       const uint32_t i = row(k);
       if (m_roles[i] != Role::Viscous) continue;
       SymmetricBlock wall{0, 0, 0, 0, 0, 0};
-      addWalls(m_points[i], 0.5f, wall);
+      addWalls(i, 0.5f, wall);
       rates[i] = std::sqrt(scale * m_shear[k] + static_cast<float>(dot(velocity[i], times(wall, velocity[i]))));
     }
   });

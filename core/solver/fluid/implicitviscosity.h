@@ -18,9 +18,9 @@ struct SymmetricBlock {
 /// kStressNormalisation).
 /// Solved matrix-free by conjugate gradients with the 3 x 3 diagonal blocks as preconditioner, from the last dv.
 ///
-/// Walls hold the liquid still at their plane: half a space of liquid whose velocity goes on linearly through zero
-/// there (Morris, Fox & Zhu 1997), with a fifth more drag along them, since films bend. Solids, fixed or
-/// not, hold it at their surface, halfway between the two particles of a pair.
+/// Walls, and the surfaces of fixed bodies, hold the liquid still at their plane: half a space of liquid whose velocity
+/// goes on linearly through zero there (Morris, Fox & Zhu 1997), with a fifth more drag along them, since films bend.
+/// Solids, fixed or not, hold it at their surface, halfway between the two particles of a pair.
 ///
 /// An unfinished iteration would leak momentum through its residual. Groups of particles that touch no boundary are
 /// therefore solved in the space of motions without linear and angular momentum of their own (preconditioner P D^-1,
@@ -30,7 +30,8 @@ struct SymmetricBlock {
 /// Error: it delivers 1.01 to 1.09 of the viscosity, as particles lie, with 2 spacings of reach.
 class ImplicitViscosity {
  public:
-  void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
+  void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
+                 const FixedShapes& shapes = FixedShapes::none());
   /// The most that is asked of the iteration, m2/s.
   double greatestViscosity() const;
   /// Lists or motions have changed.
@@ -63,7 +64,10 @@ class ImplicitViscosity {
   void loadPoints(const ParticleStore& store, const DensityStage& density);
   void assemble(const ParticleStore& store, const PairLists& lists, double scale, const float* viscosity);
   bool addWall(const WallPlane& plane, const api::Float4& at, float weight, SymmetricBlock& block) const;
-  bool addWalls(const api::Float4& at, float weight, SymmetricBlock& block) const;
+  bool addWalls(uint32_t i, float weight, SymmetricBlock& block) const;
+  /// visit(plane, slot of its owner's reaction) for each that liquid sticks to near particle i.
+  template <class Visit>
+  void forPlanes(uint32_t i, Visit&& visit) const;
   void tellHeld(const ParticleStore& store, const PairLists& lists, const float* viscosity, double scale);
   /// Product of A, with `massShare` (0 or 1) of M, and m_direction.
   void multiply(const ParticleStore& store, const PairLists& lists, size_t first, size_t last, float massShare);
@@ -78,6 +82,7 @@ class ImplicitViscosity {
   void forSegments(const Body& body);
 
   SolverSettings m_settings;
+  const FixedShapes* m_shapes = nullptr;
   std::vector<WallPlane> m_planes;
   std::vector<size_t> m_wallOf;                   ///< index of the wall, by plane
   double m_support = 0;                           ///< m

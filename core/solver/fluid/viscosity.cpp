@@ -48,11 +48,11 @@ struct LiquidState {
 }  // namespace
 
 void ViscosityStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls,
-                               std::span<const BakedMaterial> materials) {
+                               std::span<const BakedMaterial> materials, const FixedShapes& shapes) {
   m_settings = settings;
   m_materials = materials;
   m_secondMoment = secondMoment(Kernel(settings.kernel, settings.spacing * settings.supportRatio));
-  m_implicit.configure(settings, walls);
+  m_implicit.configure(settings, walls, shapes);
   m_planes.clear();
   for (const Wall& wall : walls) {
     if (wall.noSlip) m_planes.emplace_back(wall);

@@ -30,7 +30,7 @@ namespace ps {
 class ViscosityStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
-                 std::span<const BakedMaterial> materials);
+                 std::span<const BakedMaterial> materials, const FixedShapes& shapes = FixedShapes::none());
   void listsChanged() { m_implicit.listsChanged(); }
   /// Once per frame: coefficients and viscosities of all particles from their temperatures.
   void refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density);

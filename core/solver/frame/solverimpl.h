@@ -6,6 +6,7 @@
 #include "core/solver/contact/liquidcontact.h"
 #include "core/solver/contact/rebound.h"
 #include "core/solver/contact/rigidcontact.h"
+#include "core/solver/contact/shapecontact.h"
 #include "core/solver/contact/solidcontact.h"
 #include "core/solver/contact/sweptclamp.h"
 #include "core/solver/contact/walls.h"
@@ -68,6 +69,8 @@ struct Solver::Impl {
   DensityStage density;
   ViscosityStage viscosity;
   WallStage wallStage;
+  FixedShapes shapes;
+  ShapeContact shapeContact;
   SweptClamp swept;
   SolidContact contact;
   Impacts impacts;

@@ -25,7 +25,7 @@ using Part = MechanicalRecord::Part;
 Solver::Impl::Impl() {
   Reactions& told = forces.reactions();
   const auto tell = [&](auto&... stages) { (stages.tell(told), ...); };
-  tell(density, viscosity, wallStage, swept, contact, impacts, wet, sheets, rigid, rebound);
+  tell(density, viscosity, wallStage, shapeContact, swept, contact, impacts, wet, sheets, rigid, rebound);
 }
 
 Vector3 Solver::Impl::momentum() {
@@ -181,6 +181,8 @@ void Solver::Impl::freshLists() {
     reordered = false;
     structureChanged = true;
   }
+  shapes.refresh(store);
+  shapes.refreshLists(store, neighbours);
   density.refresh(store, neighbours);
   swept.refresh(store, motion.movesWithin(time, settings.dt));
   if (structureChanged) return listsChanged(true);
@@ -207,6 +209,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
     findThinSolids();
     structureChanged = false;
   } else {
+    shapes.refreshLists(store, neighbours);
     density.refreshLists(store, neighbours);  // of a new structure it has just been refreshed
   }
   refreshLiquidContact();
@@ -293,6 +296,7 @@ void Solver::Impl::iterate(uint32_t index, double dt) {
       contact.project(store);
       wet.project(store);
       wallStage.projectNear(store);
+      shapeContact.projectNear(store, shapes);
     });
     balance.mark(store, Part::Contact, 1 / dt);
     structure([&] { constraints.projectGroups(store, index, it); }, dt);
@@ -311,6 +315,7 @@ void Solver::Impl::substep(uint32_t index) {
     balance.mark(store, Part::Scheme, 1 / dt);  // places are rounded
     impacts.sweep(store, neighbours, {constraints, pieceOf, rigid.members()});
     wallStage.project(store);
+    shapeContact.sweep(store, shapes, neighbours);
   });
   balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
@@ -336,6 +341,7 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Contact, [&] {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, contact, constraints.graph(store.size()), rigid.members());
+    shapeContact.finish(store, shapes, neighbours, wallStage);
     external.add(1 / dt * rigid.hold(store, swept.held(), swept.heldBy()));
     external.add(1 / dt * rigid.keepInside(store));
     balance.mark(store, Part::Contact, 1 / dt);
@@ -371,8 +377,9 @@ void Solver::Impl::substep(uint32_t index) {
 void Solver::Impl::bookContact(double dt) {
   Vector3 moved = rigid.pushed();
   rigid.tellPushed(store);
-  for (ExternalImpulse* impulse : {&wallStage.externalImpulse(), &contact.externalImpulse(), &wet.externalImpulse(),
-                                   &sheets.externalImpulse(), &density.externalImpulse(), &swept.externalImpulse()})
+  for (ExternalImpulse* impulse :
+       {&wallStage.externalImpulse(), &contact.externalImpulse(), &wet.externalImpulse(), &sheets.externalImpulse(),
+        &density.externalImpulse(), &swept.externalImpulse(), &shapeContact.externalImpulse()})
     moved += impulse->drain();
   external.add(1 / dt * moved);
 }
@@ -391,6 +398,7 @@ void Solver::Impl::changePhases() {
   melted.clear();
   if (phase.update(store, melted)) structureChanged = true;
   if (melted.empty()) return;
+  shapes.refreshLists(store, neighbours);
   density.refresh(store, neighbours);
   density.handOver(store, neighbours, melted);
   structureChanged = true;

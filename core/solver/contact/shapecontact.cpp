@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/solver/contact/shapecontact.h"
+
+#include "core/base/parallel.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+/// Pieces into which a way is cut, at most: what slides goes on by half a spacing each.
+constexpr int kMostPieces = 48;
+/// Half spacings beyond the resting distance from which on a surface is touched.
+constexpr double kTouch = 0.05;
+/// How far planes are believed, in half spacings from where they were found.
+constexpr double kBelieved = 0.6;
+constexpr int kCorners = 2;       ///< times that what moves is led off all faces
+constexpr double kStands = 1e-6;  ///< half spacings
+
+}  // namespace
+
+void ShapeContact::configure(const SolverSettings& settings) { m_rest = 0.5 * settings.spacing; }
+
+/// Where a way ends that slides along what it meets; `body` is set to what it met last.
+Vector3 ShapeContact::slid(const FixedShapes& shapes, Vector3 at, Vector3 way, uint32_t& body) const {
+  for (int piece = 0; piece < kMostPieces; ++piece) {
+    const double length = way.norm();
+    if (!(length > kStands * m_rest)) return at + way;
+    FixedShapes::Faces faces;
+    const size_t count = shapes.facesAt(at, length + (1 + kTouch) * m_rest, faces);
+    if (count == 0) return at + way;
+    const double gap = faces[0].distance - m_rest;
+    if (gap > kTouch * m_rest) {
+      const double share = std::min(1.0, gap / length);
+      at += share * way;
+      way *= 1 - share;
+      continue;
+    }
+    const double share = std::min(1.0, m_rest / length);
+    Vector3 part = share * way;
+    for (int k = 0; k < kCorners; ++k) {
+      for (const FixedShapes::Face& face : std::span(faces).first(count)) {
+        const double into = -part.dot(face.plane.normal), room = std::max(0.0, face.plane.heightOf(at) - m_rest);
+        if (!(into > room)) continue;
+        part += (into - room) * face.plane.normal;
+        way -= std::min(0.0, way.dot(face.plane.normal)) * face.plane.normal;
+        body = face.body;
+      }
+    }
+    at += part;
+    way *= 1 - share;
+  }
+  return at;
+}
+
+bool ShapeContact::isBelieved(const api::Float4& at, const api::Float4& noted) const {
+  return (vectorOf(at) - vectorOf(noted)).squaredNorm() < kBelieved * kBelieved * m_rest * m_rest;
+}
+
+/// By more than rounding.
+bool ShapeContact::isApart(const Vector3& a, const Vector3& b) const {
+  return (a - b).squaredNorm() > kStands * kStands * m_rest * m_rest;
+}
+
+/// Whether a way comes near no surface.
+bool ShapeContact::isFree(const FixedShapes& shapes, std::span<const api::Float4> built, size_t fluid,
+                          const api::Float4& from, const api::Float4& to) const {
+  const double room = double{shapes.clearance(fluid)} - (1 + kTouch) * m_rest;
+  if (!(room > 0)) return false;
+  const Vector3 noted = vectorOf(built[shapes.fluids()[fluid]]);
+  return (vectorOf(from) - noted).squaredNorm() < room * room && (vectorOf(to) - noted).squaredNorm() < room * room;
+}
+
+template <class Body>
+void ShapeContact::forFluids(const FixedShapes& shapes, const Body& body) {
+  const size_t count = shapes.fluids().size(), chunks = chunkCount(count, grain::kNeighbours);
+  m_moved.start(chunks);
+  m_reactions->start(chunks);
+  forChunks(count, grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) body(k, shapes.fluids()[k], first / grain::kNeighbours);
+  });
+  m_externalImpulse.add(m_moved.total());
+  m_reactions->finish();
+}
+
+void ShapeContact::move(ParticleStore& store, uint32_t i, const Vector3& to, uint32_t body, size_t chunk) {
+  const Vector3 before = vectorOf(store.position()[i]);
+  assignTo(store.position()[i], to);
+  const Vector3 moved = double{store.mass()[i]} * (vectorOf(store.position()[i]) - before);
+  m_moved.add(chunk, 1, moved);
+  m_reactions->add(chunk, m_reactions->ofBody(body), to, -m_reactions->perStep() * moved);
+}
+
+/// What began nearer to a face than it may rest.
+void ShapeContact::giveRoom(ParticleStore& store, const FixedShapes& shapes, uint32_t i,
+                            const api::Float4& noted) const {
+  if (!isBelieved(store.previous()[i], noted)) return;
+  for (const FixedShapes::Near& near : shapes.near(i)) {
+    const double missing = m_rest - double{near.plane.heightOf(store.previous()[i])};
+    if (!(missing > 0)) continue;
+    const Vector3 off = missing * Vector3(near.plane.x, near.plane.y, near.plane.z);
+    addTo(store.previous()[i], off);
+    addTo(store.position()[i], off);
+  }
+}
+
+void ShapeContact::sweep(ParticleStore& store, const FixedShapes& shapes, const Neighbours& neighbours) {
+  if (!shapes.any()) return;
+  m_swept.resize(shapes.fluids().size());
+  forFluids(shapes, [&](size_t fluid, uint32_t i, size_t chunk) {
+    giveRoom(store, shapes, i, neighbours.built()[i]);
+    api::Float4& position = store.position()[i];
+    const api::Float4& from = store.previous()[i];
+    if (!isFree(shapes, neighbours.built(), fluid, from, position)) {
+      uint32_t body = 0;
+      const Vector3 way = vectorOf(position) - vectorOf(from), end = slid(shapes, vectorOf(from), way, body);
+      if (isApart(end, vectorOf(position))) move(store, i, end, body, chunk);
+    }
+    m_swept[fluid] = position;
+  });
+}
+
+void ShapeContact::project(ParticleStore& store, std::span<const FixedShapes::Near> near, uint32_t i, size_t chunk) {
+  const float rest = static_cast<float>(m_rest);
+  for (const FixedShapes::Near& face : near) {
+    const float missing = rest - face.plane.heightOf(store.position()[i]);
+    if (!(missing > 0)) continue;
+    const Vector3 off = double{missing} * Vector3(face.plane.x, face.plane.y, face.plane.z);
+    move(store, i, vectorOf(store.position()[i]) + off, face.body, chunk);
+  }
+}
+
+void ShapeContact::projectNear(ParticleStore& store, const FixedShapes& shapes) {
+  if (!shapes.any()) return;
+  forFluids(shapes, [&](size_t, uint32_t i, size_t chunk) { project(store, shapes.near(i), i, chunk); });
+}
+
+void ShapeContact::finish(ParticleStore& store, const FixedShapes& shapes, const Neighbours& neighbours,
+                          const WallStage& walls) {
+  if (!shapes.any()) return;
+  const std::span<const api::Float4> built = neighbours.built();
+  forFluids(shapes, [&](size_t fluid, uint32_t i, size_t chunk) {
+    api::Float4& position = store.position()[i];
+    const api::Float4& from = m_swept[fluid];
+    if (isFree(shapes, built, fluid, from, position)) return;
+    const Vector3 asked = vectorOf(position);
+    uint32_t body = 0;
+    if (isBelieved(position, built[i]) && isBelieved(from, built[i])) {
+      project(store, shapes.near(i), i, chunk);
+      if (!shapes.near(i).empty()) body = shapes.near(i)[0].body;
+    } else {
+      const Vector3 end = slid(shapes, vectorOf(from), asked - vectorOf(from), body);
+      if (isApart(end, asked)) move(store, i, end, body, chunk);
+    }
+    Vector3 kept = vectorOf(position);
+    if (kept == asked) return;
+    walls.clamp(kept);
+    if (isApart(kept, vectorOf(position))) move(store, i, kept, body, chunk);
+  });
+}
+
+}  // namespace ps
