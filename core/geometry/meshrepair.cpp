@@ -23,8 +23,8 @@ Vector3 pointOf(const SceneMesh& mesh, uint32_t index) {
 }
 
 /// Points of one cell of a fine lattice become the first of them. Two that lie on either side of a face stay apart,
-/// which leaves a crack too thin for a winding number to notice.
-void weld(SceneMesh& mesh) {
+/// which leaves a crack too thin for a winding number to notice. Returns how many became another one.
+size_t weld(SceneMesh& mesh) {
   const MeshBounds bounds = boundsOf(mesh);
   const double edge = std::max((bounds.maximum - bounds.minimum).maxCoeff() * kSamePlace, 1e-30);
   using Cell = std::tuple<int64_t, int64_t, int64_t>;
@@ -37,13 +37,16 @@ void weld(SceneMesh& mesh) {
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return cells[a] < cells[b]; });
   std::vector<uint32_t> first(cells.size());
+  size_t joined = 0;
   for (size_t k = 0; k < order.size(); ++k) {
     const bool same = k > 0 && cells[order[k]] == cells[order[k - 1]];
     first[order[k]] = same ? first[order[k - 1]] : order[k];
+    joined += same ? 1 : 0;
   }
   for (Triangle& t : mesh.triangles) {
     for (uint32_t& i : t) i = first[i];
   }
+  return joined;
 }
 
 bool hasArea(const SceneMesh& mesh, const Triangle& t) {
@@ -93,14 +96,18 @@ MeshFacts factsOf(const SceneMesh& mesh) {
   return facts;
 }
 
-void repair(SceneMesh& mesh) {
+MeshRepair repair(SceneMesh& mesh) {
   if (const std::string problem = problemOf(mesh); !problem.empty()) throw InputError("of its mesh " + problem);
-  weld(mesh);
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !hasArea(mesh, t); });
+  MeshRepair done;
+  done.joined = weld(mesh);
+  done.left = std::erase_if(mesh.triangles, [&](const Triangle& t) { return !hasArea(mesh, t); });
   if (mesh.triangles.empty()) throw InputError("the mesh has no triangle with an area");
   dropUnused(mesh);
-  if (signedVolume(mesh) >= 0) return;
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  done.turned = signedVolume(mesh) < 0;
+  for (Triangle& t : mesh.triangles) {
+    if (done.turned) std::swap(t[1], t[2]);
+  }
+  return done;
 }
 
 }  // namespace ps

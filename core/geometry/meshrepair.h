@@ -13,10 +13,17 @@ struct MeshFacts {
 };
 MeshFacts factsOf(const SceneMesh& mesh);
 
+/// What was wrong with a mesh and is no more.
+struct MeshRepair {
+  size_t joined = 0;    ///< points that were the same place as another one
+  size_t left = 0;      ///< triangles without an area
+  bool turned = false;  ///< it was inside out
+};
+
 /// Makes one point of those that are the same place (within a millionth of the mesh's extent), leaves out triangles
 /// without an area and points that no triangle needs, and turns all triangles of a mesh that is inside out.
 /// Throws InputError for a point that is no number, a triangle of a point that does not exist, and where no triangle is
 /// left.
-void repair(SceneMesh& mesh);
+MeshRepair repair(SceneMesh& mesh);
 
 }  // namespace ps

@@ -60,7 +60,9 @@ const FieldTable<SceneMesh>& meshFields() {
                field("points", &SceneMesh::points, PackedTriples<StateType::Float32>{}, "corners, in m").required(),
                field("triangles", &SceneMesh::triangles, PackedTriples<StateType::UInt32>{},
                      "three points each, from 0, anticlockwise as seen from outside")
-                   .required()},
+                   .required(),
+               field("origin", &SceneMesh::origin, Text{}, "what it was read from, and what was done to it then")
+                   .omittedWhen([](const SceneMesh& mesh) { return mesh.origin.empty(); })},
       .unknown = &SceneMesh::unknown};
   return table;
 }

@@ -79,6 +79,7 @@ struct SceneMesh {
   std::string name;                                ///< shown to people
   std::vector<std::array<float, 3>> points;        ///< m
   std::vector<std::array<uint32_t, 3>> triangles;  ///< of points; anticlockwise as seen from outside
+  std::string origin{};                            ///< what it was read from, and what was done to it then
   Unknown unknown{};
 };
 

@@ -8,6 +8,7 @@
 #include "tests/unit/clirun.h"
 
 #include <QElapsedTimer>
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QTest>
@@ -61,6 +62,26 @@ class TstMeshImport : public QObject {
     QVERIFY2(std::abs(share - 1) < 0.01, qPrintable(QString::number(share)));
     const Ran simulated = cli({"simulate", project, "--frames", "2"});
     QVERIFY2(simulated.code == 0, simulated.err);
+  }
+
+  void theCommandReducesAMesh() {
+    const QString project = m_folder.filePath("few.json"), report = m_folder.filePath("few-report.json");
+    const auto told = [&](const QStringList& more) {
+      const Ran ran =
+          cli(QStringList{"import", kRabbit, "--out", project, "--spacing", "0.02", "--report", report} + more);
+      QFile file(report);
+      return ran.code == 0 && file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object()
+                                                             : QJsonObject();
+    };
+    const QJsonObject whole = told({}), few = told({"--reduce", "800"});
+    QVERIFY(few["triangles"].toInt() < whole["triangles"].toInt() / 2);
+    QCOMPARE(few["triangles_read"].toInt(), whole["triangles"].toInt());
+    QVERIFY(std::abs(few["mesh_volume"].toDouble() / whole["mesh_volume"].toDouble() - 1) <= 0.005);
+    QFile file(project);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QJsonArray meshes = QJsonDocument::fromJson(file.readAll()).object()["meshes"].toArray();
+    QVERIFY(meshes.at(0).toObject()["origin"].toString().contains("triangles kept"));
+    QCOMPARE(cli({"import", kRabbit, "--out", project, "--reduce", "0"}).code, 2);
   }
 
   void filesThatAreNoMeshesAreRefused_data() {

@@ -333,7 +333,8 @@ class TstSolids : public QObject {
     }
     soup.points.push_back({7, 7, 7});
     soup.triangles.push_back({0, 0, 1});
-    repair(soup);
+    const MeshRepair done = repair(soup);
+    QVERIFY(done.turned && done.left > 0 && done.joined > 1000);
     const MeshFacts facts = factsOf(soup);
     QVERIFY(facts.closed());
     QVERIFY(signedVolume(soup) > 0);

@@ -93,6 +93,14 @@ std::string sceneMaterial(Document& document, const std::string& base) {
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
 
+/// What was done to a mesh when it was read, after a space; "" for nothing.
+QString doneTo(const Body& body) {
+  const auto& mesh = std::get<SolidShape>(body.shape).mesh;
+  const size_t done = mesh ? mesh->origin.rfind(": ") : std::string::npos;
+  if (done == std::string::npos) return {};
+  return QStringLiteral(" When it was read: %1.").arg(QString::fromStdString(mesh->origin.substr(done + 2)));
+}
+
 void scale(SolidShape& solid, double factor) {
   const Vector3 size = SolidForm(solid).size() * factor;
   for (size_t a = 0; a < 3; ++a) solid.parameters.values[std::string("size_") + "xyz"[a]] = size[a];
@@ -305,7 +313,8 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
   const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
   const std::string id = add(std::move(body));
   m_session.log().add(MessageLevel::Ok, name,
-                      QStringLiteral("Imported: %1 triangles, %2.")
+                      QStringLiteral("Imported %1. %2 triangles, %3.")
+                          .arg(QString::fromStdString(imported->mesh->origin))
                           .arg(imported->facts.triangles)
                           .arg(imported->facts.closed() ? QStringLiteral("closed")
                                                         : QStringLiteral("open; filled where it encloses most")));
@@ -322,7 +331,8 @@ void BodyActions::showImported(const std::string& id) {
   m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
                        QStringLiteral("“%1” is in the scene.").arg(QString::fromStdString(body->name)),
                        QStringLiteral("%1, %2.").arg(sizeText(SolidForm(std::get<SolidShape>(body->shape)).size()),
-                                                     countText(*body, m_session.document())),
+                                                     countText(*body, m_session.document())) +
+                           doneTo(*body),
                        {{QStringLiteral("Remove"), [this, id] { m_session.document().removeBody(id); }}});
 }
 
@@ -343,10 +353,11 @@ void BodyActions::askUnit(const std::string& id, double metresPerUnit) {
                        [this, id, metresPerUnit, metres] { setUnit(id, metresPerUnit, metres); }});
   }
   const QString size = sizeText(SolidForm(std::get<SolidShape>(body->shape)).size());
-  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
-                       QStringLiteral("“%1” does not say its unit.").arg(QString::fromStdString(body->name)),
-                       QStringLiteral("In %1 it is %2, %3.").arg(taken, size, countText(*body, m_session.document())),
-                       std::move(buttons));
+  m_notices.bar().show(
+      QString::fromLatin1(kTopic), MessageLevel::Info,
+      QStringLiteral("“%1” does not say its unit.").arg(QString::fromStdString(body->name)),
+      QStringLiteral("In %1 it is %2, %3.").arg(taken, size, countText(*body, m_session.document())) + doneTo(*body),
+      std::move(buttons));
 }
 
 /// The body comes anew, in one step: its matter of the other size goes.
