@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/meshpipe.h"
 
+#include "core/base/utf8.h"
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -41,6 +43,8 @@ const char* take(std::vector<T>& values, uint64_t count, const char* from) {
   return from + count * sizeof(T);
 }
 
+constexpr size_t kMostSaid = 240;  ///< bytes
+
 }  // namespace
 
 bool writeMesh(int descriptor, const MeshFile& file, const std::string& problem) {
@@ -64,7 +68,8 @@ MeshFile meshFrom(const std::string& bytes) {
       rest != head.problem + kTriple * (head.points + head.triangles))
     throw Error("the process that reads meshes has told nonsense");
   const char* at = bytes.data() + sizeof head;
-  if (head.problem > 0) throw InputError(std::string(at, head.problem));
+  // Readers quote what they stumble over, which may be the file.
+  if (head.problem > 0) throw InputError(shownText({at, head.problem}, kMostSaid));
   MeshFile file;
   file.metresPerUnit = head.metresPerUnit;
   at = take(file.mesh.points, head.points, at);

@@ -15,7 +15,7 @@ struct MeshFile {
 
 /// Writes a mesh, or where `problem` is not "", that sentence. False when nobody reads.
 bool writeMesh(int descriptor, const MeshFile& file, const std::string& problem);
-/// What writeMesh() wrote. Throws InputError with its sentence, and Error for what it never writes.
+/// What writeMesh() wrote. Throws InputError with its sentence, in one line, and Error for what it never writes.
 MeshFile meshFrom(const std::string& bytes);
 
 }  // namespace ps

@@ -49,7 +49,7 @@ constexpr double kOverRoom = 1.25;  ///< of the scene's room, what a mesh whose 
 constexpr int kPatience = 300;      ///< ms until reading is told of
 constexpr const char* kTopic = "mesh";
 constexpr const char* kMeshes =
-    "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.wrl *.blend);;All files (*)";
+    "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.blend);;All files (*)";
 
 /// With two digits.
 double rounded(double value) {
