@@ -100,7 +100,14 @@ struct MeshNearest::Search {
 
 /// What lies over the planes is a polygon.
 void MeshNearest::Search::look(const Triangle& t) {
-  if (over.empty()) return offer(nearestOn(t, place), t);
+  const auto isBelow = [&](const Plane& plane) {
+    return !(plane.heightOf(t[0]) > 0) && !(plane.heightOf(t[1]) > 0) && !(plane.heightOf(t[2]) > 0);
+  };
+  if (std::any_of(over.begin(), over.end(), isBelow)) return;
+  const Vector3 on = nearestOn(t, place);
+  if (!((place - on).squaredNorm() <= (1 + kSame) * best.squared)) return;  // nor is any part of it
+  if (std::all_of(over.begin(), over.end(), [&](const Plane& plane) { return plane.heightOf(on) > 0; }))
+    return offer(on, t);
   std::array<Vector3, kMostCorners> corners{t[0], t[1], t[2]}, cut;
   size_t count = 3;
   for (const Plane& plane : over) {

@@ -26,6 +26,7 @@ const FixedShapes& FixedShapes::none() {
 }
 
 void FixedShapes::configure(const SolverSettings& settings) {
+  forget();
   m_spacing = settings.spacing;
   m_reach = (settings.supportRatio + kBeyond) * settings.spacing;
 }
@@ -109,14 +110,22 @@ void FixedShapes::findNear(const Vector3& place, size_t fluid, Near* near) {
   for (size_t k = 0; k < count; ++k) near[k] = {WallPlane(faces[k].plane), faces[k].body};
 }
 
-void FixedShapes::refreshLists(const ParticleStore& store, const Neighbours& neighbours) {
-  m_fluids.clear();
-  if (!any()) return;
-  m_count.assign(store.size(), 0);
-  m_begin.resize(store.size());
+void FixedShapes::refreshLists(const ParticleStore& store, const Neighbours& neighbours, bool newLists) {
+  if (!any()) {
+    m_fluids.clear();
+    m_stood.clear();
+    return;
+  }
   const api::Motion* motion = store.motion();
   const api::Float4* velocity = store.velocity();
-  findIndices(store.size(), m_fluids, [&](size_t i) { return isFluid(motion[i]) && velocity[i].w > 0; });
+  findIndices(store.size(), m_present, [&](size_t i) { return isFluid(motion[i]) && velocity[i].w > 0; });
+  const bool same = std::equal(m_standing.begin(), m_standing.end(), m_stood.begin(), m_stood.end(),
+                               [](const Standing& a, const Standing& b) { return a.shape == b.shape; });
+  if (!newLists && same && m_present == m_fluids && m_count.size() == store.size()) return;
+  m_stood = m_standing;
+  m_fluids.swap(m_present);
+  m_count.assign(store.size(), 0);
+  m_begin.resize(store.size());
   m_clearance.resize(m_fluids.size());
   m_near.resize(kMost * m_fluids.size());
   const std::span<const api::Float4> built = neighbours.built();

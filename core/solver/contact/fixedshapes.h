@@ -41,13 +41,17 @@ class FixedShapes {
   /// Instead of those before; none stands until refresh().
   void set(std::vector<FixedShape> shapes) {
     m_standing.clear();
+    m_stood.clear();
     m_shapes = std::move(shapes);
   }
   void configure(const SolverSettings& settings);
+  /// Lists are others than they were, as of another state.
+  void forget() { m_stood.clear(); }
   /// Once per frame, when indices may have changed: which shapes stand for their particles.
   void refresh(const ParticleStore& store);
-  /// After refresh() and new lists: what is near each fluid particle.
-  void refreshLists(const ParticleStore& store, const Neighbours& neighbours);
+  /// After refresh(), or with new lists: what is near each fluid particle. Without new ones, and where neither shapes
+  /// nor who is fluid have changed, that is what it was.
+  void refreshLists(const ParticleStore& store, const Neighbours& neighbours, bool newLists);
   bool any() const { return !m_standing.empty(); }
   /// A fixed particle for which its body's surface stands.
   bool isShaped(size_t i) const { return any() && m_shaped[i] != 0; }
@@ -72,11 +76,11 @@ class FixedShapes {
   void findNear(const Vector3& place, size_t fluid, Near* near);
 
   std::vector<FixedShape> m_shapes;
-  std::vector<Standing> m_standing;
+  std::vector<Standing> m_standing, m_stood;       ///< m_stood: those that m_near is of
   std::vector<uint8_t> m_shaped;                   ///< by particle
   std::vector<std::vector<uint32_t>> m_particles;  ///< by shape: those of its body that are fixed
   double m_spacing = 0, m_reach = 0;               ///< m
-  std::vector<uint32_t> m_fluids, m_begin;
+  std::vector<uint32_t> m_fluids, m_present, m_begin;
   std::vector<uint8_t> m_count;
   std::vector<float> m_clearance;
   std::vector<Near> m_near;

@@ -37,6 +37,7 @@ void Solver::Impl::restore(const StateReader& reader) {
     StateReader::fail("field/material", "names a material that the scene has not");
   ps::advance(0);
   neighbours.restore(reader, store);
+  shapes.forget();
   ps::advance(0);
   reordered = reader.value<uint8_t>("clock/reordered") != 0 || neighbours.built().size() != store.size();
   motion.restore(reader, store);

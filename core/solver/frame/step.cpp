@@ -172,7 +172,8 @@ void Solver::Impl::closeFrame() {
 
 void Solver::Impl::freshLists() {
   if (store.period().any() && strayed()) reordered = true;
-  if (reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval) {
+  const bool newLists = reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval;
+  if (newLists) {
     if (store.period().any()) wrapIntoPeriod();
     neighbours.sortAndBuild(store);
     constraints.remap(neighbours.lastOrder());
@@ -182,7 +183,7 @@ void Solver::Impl::freshLists() {
     structureChanged = true;
   }
   shapes.refresh(store);
-  shapes.refreshLists(store, neighbours);
+  shapes.refreshLists(store, neighbours, newLists);
   density.refresh(store, neighbours);
   swept.refresh(store, motion.movesWithin(time, settings.dt));
   if (structureChanged) return listsChanged(true);
@@ -209,7 +210,7 @@ void Solver::Impl::listsChanged(bool newStructure) {
     findThinSolids();
     structureChanged = false;
   } else {
-    shapes.refreshLists(store, neighbours);
+    shapes.refreshLists(store, neighbours, true);
     density.refreshLists(store, neighbours);  // of a new structure it has just been refreshed
   }
   refreshLiquidContact();
@@ -398,7 +399,7 @@ void Solver::Impl::changePhases() {
   melted.clear();
   if (phase.update(store, melted)) structureChanged = true;
   if (melted.empty()) return;
-  shapes.refreshLists(store, neighbours);
+  shapes.refreshLists(store, neighbours, false);
   density.refresh(store, neighbours);
   density.handOver(store, neighbours, melted);
   structureChanged = true;
