@@ -4,9 +4,14 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
+#include "ui/help/helpwindow.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/preferences.h"
+#include "ui/session/selection.h"
+#include "ui/tools/navigation.h"
+#include "ui/window/help.h"
+#include "ui/window/shortcutswindow.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QSettings>
@@ -19,6 +24,8 @@
 #include <QtWidgets/QPushButton>
 
 using namespace ps;
+
+Q_DECLARE_METATYPE(ps::MousePreset)
 
 class TestPreferences : public SampleWindowTest {
   Q_OBJECT
@@ -121,6 +128,125 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(session().engine()->recording().extent().frames > 1);
   }
 
+  void presets_data() {
+    QTest::addColumn<MousePreset>("preset");
+    QTest::addColumn<QString>("choice");
+    QTest::addColumn<QString>("tool");
+    QTest::addColumn<Qt::MouseButton>("button");
+    QTest::addColumn<int>("keys");
+    QTest::addColumn<QString>("moves");
+    QTest::addColumn<QString>("hint");
+    const auto row = [](MousePreset preset, const char* tool, Qt::MouseButton button, Qt::KeyboardModifiers keys,
+                        const char* moves, const char* hint) {
+      const QString choice = nameOf(preset);
+      const QString name = QStringLiteral("%1 %2 %3").arg(choice, QLatin1String(tool), QLatin1String(hint));
+      QTest::newRow(qPrintable(name + QLatin1Char(' ') + QLatin1String(moves)))
+          << preset << choice << QString::fromLatin1(tool) << button << static_cast<int>(keys)
+          << QString::fromLatin1(moves) << QString::fromLatin1(hint);
+    };
+    using enum MousePreset;
+    constexpr auto kLeft = Qt::LeftButton, kMiddle = Qt::MiddleButton, kRight = Qt::RightButton;
+    constexpr auto kShift = Qt::ShiftModifier, kControl = Qt::ControlModifier, kAlt = Qt::AltModifier;
+    row(PhaseSketch, "select", kLeft, {}, "turns", "Drag");
+    row(PhaseSketch, "select", kLeft, kShift, "shifts", "Shift+Drag");
+    row(PhaseSketch, "select", kMiddle, {}, "shifts", "Middle-drag");
+    row(PhaseSketch, "brush", kLeft, kAlt, "turns", "Alt+Drag");
+    row(PhaseSketch, "brush", kMiddle, {}, "turns", "Middle-drag");
+    row(PhaseSketch, "brush", kMiddle, kShift, "shifts", "Shift+Middle-drag");
+    row(PhaseSketch, "select", kRight, {}, "nears", "Right-drag");
+    for (const char* tool : {"select", "brush"}) {
+      row(Blender, tool, kMiddle, {}, "turns", "Middle-drag");
+      row(Blender, tool, kLeft, kAlt, "turns", "Alt+Drag");
+      row(Blender, tool, kMiddle, kShift, "shifts", "Shift+Middle-drag");
+      row(Blender, tool, kMiddle, kControl, "nears", "Ctrl+Middle-drag");
+      row(Maya, tool, kLeft, kAlt, "turns", "Alt+Drag");
+      row(Maya, tool, kMiddle, kAlt, "shifts", "Alt+Middle-drag");
+      row(Maya, tool, kRight, kAlt, "nears", "Alt+Right-drag");
+      row(Maya, tool, kMiddle, {}, "nothing", "");
+      row(Cad, tool, kMiddle, {}, "turns", "Middle-drag");
+      row(Cad, tool, kMiddle, kControl, "shifts", "Ctrl+Middle-drag");
+      row(Cad, tool, kMiddle, kShift, "nears", "Shift+Middle-drag");
+      row(Cad, tool, kRight, {}, "nothing", "");
+    }
+  }
+  /// By the mouse in the view; and what it does is what the list of a tool's gestures says.
+  void presets() {
+    QFETCH(MousePreset, preset);
+    QFETCH(QString, choice);
+    QFETCH(QString, tool);
+    QFETCH(Qt::MouseButton, button);
+    QFETCH(int, keys);
+    QFETCH(QString, moves);
+    QFETCH(QString, hint);
+    chooseMouse(choice);
+    QCOMPARE(preferences::mouse(), preset);
+    m_window->tools().activate(tool.toStdString());
+    QCOMPARE(movedBy(button, Qt::KeyboardModifiers(keys)), moves);
+    QVERIFY(!QApplication::activePopupWidget());
+    QVERIFY(!document().undoStack().canUndo());
+    if (hint.isEmpty()) return;
+    const auto said = viewGestures(m_window->tools().tool());
+    const QString words = moves == QStringLiteral("turns")    ? QStringLiteral("Turn the view")
+                          : moves == QStringLiteral("shifts") ? QStringLiteral("Move the view sideways")
+                                                              : QStringLiteral("Nearer or farther");
+    QVERIFY(std::any_of(said.begin(), said.end(), [&](const Gesture& g) { return g.keys == hint && g.does == words; }));
+  }
+
+  /// Where a drag does not turn the view it frames what is to be selected, and the right button has the menu.
+  void theLeftButtonIsFreeToSelect() {
+    chooseMouse(QStringLiteral("Blender"));
+    m_window->tools().activate("select");
+    view()->show(StandardView::Scene);
+    m_window->selection().clear();
+    const QPoint corner(20, 60), across(view()->width() - 40, view()->height() - 130);
+    stroke(corner, across, true);
+    QVERIFY(m_window->selection().bodies().size() > 0);
+    QTest::mouseClick(view(), Qt::RightButton, {}, QPoint(view()->width() / 2, view()->height() / 3));
+    QVERIFY(QApplication::activePopupWidget());
+    QApplication::activePopupWidget()->close();
+    chooseMouse(QStringLiteral("PhaseSketch"));
+    m_window->selection().clear();
+    stroke(corner, across, true);
+    QVERIFY(m_window->selection().bodies().empty());
+    view()->show(StandardView::Scene);
+  }
+
+  /// Hints, the page of help that is open, and the list of shortcuts.
+  void thePresetIsTold() {
+    chooseMouse(QStringLiteral("PhaseSketch"));
+    m_window->tools().activate("select");
+    const auto hinted = [this] {
+      QStringList texts;
+      for (const OverlayHint& hint : view()->hints()) texts << hint.keys + QLatin1Char(' ') + hint.does;
+      return texts.join(QLatin1Char('\n'));
+    };
+    QVERIFY2(hinted().startsWith(QStringLiteral("Drag orbit\nShift+Drag pan\nWheel zoom")), qPrintable(hinted()));
+    m_window->help().open(QStringLiteral("first-steps"));
+    HelpWindow* help = m_window->help().dialog();
+    QVERIFY(help->text().contains(QStringLiteral("Drag in the view to turn it, Shift+Drag to move it")));
+    chooseMouse(QStringLiteral("Maya"));
+    QVERIFY2(help->text().contains(QStringLiteral("Alt+Drag in the view to turn it, Alt+Middle-drag to move it")),
+             qPrintable(help->text()));
+    QVERIFY2(hinted().startsWith(QStringLiteral("Alt+Drag orbit\nAlt+Middle-drag pan\nWheel zoom")),
+             qPrintable(hinted()));
+    picture(QStringLiteral("tst_preferences_maya.png"));
+    for (const HelpPage& page : writtenHelp()) {
+      m_window->help().open(page.id);
+      QVERIFY2(!help->text().contains(QLatin1Char('{')), qPrintable(page.id));
+    }
+    m_window->tools().activate("brush");
+    chooseMouse(QStringLiteral("CAD, like SolidWorks"));
+    QVERIFY2(hinted().contains(QStringLiteral("Middle-drag orbit")), qPrintable(hinted()));
+    bool listed = false;
+    for (const ShortcutGroup& group : shortcutGroups(*m_window)) {
+      for (const auto& [keys, does] : group.lines) listed = listed || keys == QStringLiteral("Ctrl+Middle-drag");
+    }
+    QVERIFY(listed);
+    delete help;
+    m_window->tools().activate("select");
+    chooseMouse(QStringLiteral("PhaseSketch"));
+  }
+
   /// What the project says of itself: typed, taken when the field is left, one step each, and undone.
   void theProjectIsDescribed() {
     m_window->action(QStringLiteral("edit.project"))->trigger();
@@ -164,6 +290,30 @@ class TestPreferences : public SampleWindowTest {
   }
 
  private:
+  void chooseMouse(const QString& name) {
+    openDialog();
+    pick("Mouse", qPrintable(name));
+    delete dialog();
+    m_window->activateWindow();
+  }
+  /// What a drag of so many pixels did to the view.
+  QString movedBy(Qt::MouseButton button, Qt::KeyboardModifiers keys) {
+    view()->show(StandardView::Scene);
+    const Camera before = view()->navigator().camera();
+    const QPoint from(view()->width() / 2, 40 + view()->height() / 2), way(40, 30);
+    QTest::mousePress(view(), button, keys, from);
+    for (int k = 1; k <= 4; ++k) QTest::mouseMove(view(), from + way * k / 4);
+    QTest::mouseRelease(view(), button, keys, from + way);
+    const Camera after = view()->navigator().camera();
+    view()->show(StandardView::Scene);
+    QStringList did;
+    if (after.azimuth != before.azimuth || after.elevation != before.elevation) did << QStringLiteral("turns");
+    if (after.distance != before.distance)
+      did << QStringLiteral("nears");
+    else if (after.target != before.target)
+      did << QStringLiteral("shifts");
+    return did.isEmpty() ? QStringLiteral("nothing") : did.join(QLatin1Char(' '));
+  }
   QDialog* dialog() { return m_window->findChild<QDialog*>(QStringLiteral("psPreferences")); }
   void openDialog() {
     m_window->action(QStringLiteral("edit.preferences"))->trigger();

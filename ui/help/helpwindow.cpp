@@ -105,12 +105,14 @@ void HelpWindow::showPage(const HelpPage& page) {
   m_text->setHtml(page.html ? page.text : htmlOf(page.text));
 }
 
+void HelpWindow::refresh() { go(m_place); }
+
 QString HelpWindow::current() const { return m_place < 0 ? QString() : m_way[m_place]; }
 QString HelpWindow::text() const { return m_text->toPlainText(); }
 
 void HelpWindow::changeEvent(QEvent* event) {
   QDialog::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) go(m_place);
+  if (event->type() == QEvent::PaletteChange) refresh();
 }
 
 }  // namespace ps

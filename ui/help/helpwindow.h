@@ -20,6 +20,7 @@ class HelpWindow : public QDialog {
   using Library = std::function<std::optional<HelpPage>(const QString& id)>;
   HelpWindow(Library library, QWidget* parent);
   void open(const QString& id);
+  void refresh();           ///< asks for the page again
   QString current() const;  ///< id of the page that is shown; "" before the first
   QString text() const;     ///< of it, as read
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
                      *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
-                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures";
+                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse";
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
@@ -65,6 +65,9 @@ void setAutosaveInterval(int seconds) { set(kAutosave, seconds); }
 
 TemperatureUnit temperatures() { return static_cast<TemperatureUnit>(number(kTemperatures, 0, 0, 2)); }
 void setTemperatures(TemperatureUnit unit) { set(kTemperatures, static_cast<int>(unit)); }
+
+MousePreset mouse() { return static_cast<MousePreset>(number(kMouse, 0, 0, static_cast<int>(MousePreset::Cad))); }
+void setMouse(MousePreset preset) { set(kMouse, static_cast<int>(preset)); }
 
 bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
 bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }

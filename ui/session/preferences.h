@@ -5,6 +5,11 @@
 
 #include <QtCore/QString>
 
+namespace ps {
+/// Whose buttons and keys move the view.
+enum class MousePreset { PhaseSketch, Blender, Maya, Cad };
+}  // namespace ps
+
 // What people prefer in all their projects, as QSettings keep it.
 namespace ps::preferences {
 
@@ -30,6 +35,9 @@ void setAutosaveInterval(int seconds);
 
 TemperatureUnit temperatures();
 void setTemperatures(TemperatureUnit unit);
+
+MousePreset mouse();
+void setMouse(MousePreset preset);
 
 /// Whether no window has been closed in order yet.
 bool isFirstStart();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/navigation.h"
 
+#include "ui/tools/toolbox.h"
+
+#include <set>
+
 namespace ps {
 
 void Navigation::press(Motion motion, const QPointF& at) {
@@ -34,20 +38,30 @@ bool Navigation::cancel() {
 }
 
 std::vector<Gesture> viewGestures(const Tool& tool) {
-  std::vector<Gesture> list;
-  const auto add = [&](const char* keys, const char* does) {
-    list.push_back({QString::fromUtf8(keys), QString::fromUtf8(does), {}});
+  struct Words {
+    const char *does, *hint;
   };
-  if (!tool.turnsView()) {
-    add("Alt+Drag", "Turn the view; the middle button does too");
-    add("Shift+Middle button", "Move the view sideways");
-    add("Wheel", "Nearer to what is under the pointer, or farther");
+  static constexpr Words kWords[] = {
+      {"Turn the view", "orbit"}, {"Move the view sideways", "pan"}, {"Nearer or farther", ""}};
+  std::vector<Gesture> list;
+  const auto add = [&](const QString& keys, const char* does, const char* hint = "") {
+    list.push_back({keys, QString::fromUtf8(does), QString::fromUtf8(hint)});
+  };
+  const MousePreset preset = tool.box().mouse();
+  const bool draws = !tool.turnsView();
+  std::set<ViewMotion> said;
+  for (const MouseBinding& binding : bindings(preset, draws)) {
+    const Words& words = kWords[static_cast<size_t>(binding.motion)];
+    add(binding.text(), words.does, said.insert(binding.motion).second ? words.hint : "");
   }
-  add("Right-drag", "Nearer or farther");
-  add("Drag an end of the legend", "Set the range of colours; a double click fits it again");
-  add("Esc",
+  add(QStringLiteral("Wheel"), "Nearer to what is under the pointer, or farther", "zoom");
+  const bool free = !draws && !bindingFor(preset, draws, Qt::LeftButton, {});
+  if (free) add(QStringLiteral("Drag"), "Select what lies in the frame");
+  add(QStringLiteral("Right button"), "The view's menu");
+  add(QStringLiteral("Drag an end of the legend"), "Set the range of colours; a double click fits it again");
+  add(QStringLiteral("Esc"),
       tool.turnsView() ? "Take back what is being dragged" : "Give up the drag or stroke, then back to selecting");
-  add("Tab", "To sketching and back; Shift+Tab leaves the view");
+  add(QStringLiteral("Tab"), "To sketching and back; Shift+Tab leaves the view");
   return list;
 }
 

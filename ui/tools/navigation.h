@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/tools/mousepreset.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/viewnavigator.h"
 
@@ -12,7 +13,7 @@ namespace ps {
 /// in hand, and a headset, which moves the world by hands, has none.
 class Navigation {
  public:
-  enum class Motion { Orbit, Pan, Dolly };
+  using Motion = ViewMotion;
   explicit Navigation(ViewNavigator& navigator) : m_navigator(navigator) {}
   /// Places in logical pixels of the picture.
   void press(Motion motion, const QPointF& at);
@@ -28,7 +29,8 @@ class Navigation {
   Camera m_before;
 };
 
-/// What buttons and keys do in the picture of a view while this tool is in hand.
+/// What buttons and keys do in the picture of a view while this tool is in hand, by the preset of its toolbox. What
+/// moves the view has a hint, once for each motion.
 std::vector<Gesture> viewGestures(const Tool& tool);
 
 }  // namespace ps

@@ -113,16 +113,10 @@ ToolPicture SelectTool::picture() const {
 
 std::vector<Gesture> SelectTool::gestures() const {
   std::vector<Gesture> list{
-      {QStringLiteral("Drag"), QStringLiteral("Turn the view"), QStringLiteral("orbit")},
-      {QStringLiteral("Shift+Drag"), QStringLiteral("Move the view sideways; the middle button does too"),
-       QStringLiteral("pan")},
-      {QStringLiteral("Wheel"), QStringLiteral("Nearer to what is under the pointer, or farther"),
-       QStringLiteral("zoom")},
       {QStringLiteral("Click"), QStringLiteral("Select the body, tap or drain, and tell the temperature"), {}},
       {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
       {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
   for (Gesture& gesture : m_handles.gestures()) list.push_back(std::move(gesture));
-  list.push_back({QStringLiteral("Right button"), QStringLiteral("The view's menu"), {}});
   return list;
 }
 

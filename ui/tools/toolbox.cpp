@@ -60,6 +60,13 @@ void Toolbox::activate(const std::string& id) {
   Q_EMIT toolChanged();
 }
 
+void Toolbox::setMouse(MousePreset preset) {
+  if (preset == m_mouse) return;
+  tool().cancel();
+  m_mouse = preset;
+  Q_EMIT mouseChanged();
+}
+
 void Toolbox::setBrush(const BrushSettings& brush) {
   if (brush == m_brush) return;
   m_brush = brush;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/tools/brushsettings.h"
+#include "ui/tools/mousepreset.h"
 #include "ui/tools/tool.h"
 
 #include <QtCore/QObject>
@@ -33,6 +34,9 @@ class Toolbox : public QObject {
   Tool& tool() const { return *m_tools.at(m_active); }
   Tool& tool(const std::string& id) const { return *m_tools.at(id); }
 
+  MousePreset mouse() const { return m_mouse; }
+  void setMouse(MousePreset preset);  ///< whose buttons move the view
+
   const BrushSettings& brush() const { return m_brush; }
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
@@ -53,6 +57,7 @@ class Toolbox : public QObject {
  Q_SIGNALS:
   void toolChanged();
   void brushChanged();
+  void mouseChanged();
   void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
 
   void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
@@ -74,6 +79,7 @@ class Toolbox : public QObject {
   Stamp m_stamp;  ///< the last one: pictures ask for it often
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
+  MousePreset m_mouse = MousePreset::PhaseSketch;
 };
 
 }  // namespace ps

@@ -74,6 +74,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
     announce();
   });
   connect(&tools, &Toolbox::toolChanged, this, &Viewport::onTool);
+  connect(&tools, &Toolbox::mouseChanged, this, [this] { update(); });
   connect(&tools, &Toolbox::brushChanged, this, [this] {
     update();
     announce();
@@ -257,18 +258,26 @@ QString Viewport::invitation() const {
 /// The tool's gestures, and the keys that somebody new needs next.
 std::vector<OverlayHint> Viewport::hints() const {
   std::vector<OverlayHint> list;
-  for (const Gesture& gesture : m_tools.tool().gestures()) {
-    if (!gesture.hint.isEmpty()) list.push_back({gesture.keys, gesture.hint});
-  }
+  const auto add = [&list](const std::vector<Gesture>& gestures, bool all) {
+    for (const Gesture& gesture : gestures) {
+      if (gesture.hint.isEmpty()) continue;
+      list.push_back({gesture.keys, gesture.hint});
+      if (!all) return;
+    }
+  };
+  const Tool& tool = m_tools.tool();
   const ToolRow& first = toolTable().front();
   if (m_tools.active() == first.id) {
+    add(viewGestures(tool), true);
+    add(tool.gestures(), true);
     list.push_back({QStringLiteral("Space"), QStringLiteral("pause")});
     list.push_back({QStringLiteral("F"), QStringLiteral("frame")});
     list.push_back({QString::fromLatin1(toolRow(kBrushTool)->key), QStringLiteral("sketch")});
     return list;
   }
-  if (!m_tools.tool().turnsView()) list.push_back({QStringLiteral("Alt+Drag"), QStringLiteral("orbit")});
-  if (m_tools.tool().usesBrush()) list.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
+  add(tool.gestures(), true);
+  if (!tool.turnsView()) add(viewGestures(tool), false);  // where a plain drag does not, what turns it
+  if (tool.usesBrush()) list.push_back({QStringLiteral("[ ]"), QStringLiteral("size")});
   list.push_back({QString::fromLatin1(first.key), QStringLiteral("back to select")});
   return list;
 }

@@ -60,6 +60,8 @@ class Viewport : public QOpenGLWidget {
   const std::set<std::string>& hiddenBodies() const { return m_hidden; }
   /// Tool, brush and what is marked, in words: what a screen reader says.
   QString summary() const;
+  /// What the strip of hints says.
+  std::vector<OverlayHint> hints() const;
   /// What to do in a scene without matter; "" where there is some.
   QString invitation() const;
 
@@ -84,7 +86,7 @@ class Viewport : public QOpenGLWidget {
 
  private:
   /// Who has the button that is down.
-  enum class Drag { None, Tool, Click, View, LegendHigh, LegendLow };
+  enum class Drag { None, Tool, Click, View, Menu, LegendHigh, LegendLow };
   void onChanged(const ChangeEvent& event);
   void onTool();
   void snapshotArrived();
@@ -98,7 +100,6 @@ class Viewport : public QOpenGLWidget {
   Look look();
   double meltingPoint() const;  ///< K, the pivot of the temperature's colours
   void ghostChanged();
-  std::vector<OverlayHint> hints() const;
   void paintPortsOver(QPainter& painter) const;
   std::optional<BodyOutline> outline() const;
   std::optional<SceneTag> tag() const;
@@ -108,7 +109,8 @@ class Viewport : public QOpenGLWidget {
   void storeView();
   // viewportinput.cpp
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
-  std::optional<Navigation::Motion> motionFor(const QMouseEvent& event) const;
+  std::optional<MouseBinding> bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const;
+  void dragBegins(const QMouseEvent& event);
   bool clickOverlay(const QPointF& position);
   bool typeToTool(const QKeyEvent& event, bool asks);
   void hover(const QPointF& position, Qt::KeyboardModifiers modifiers);

@@ -60,17 +60,9 @@ std::optional<PortHandle> Viewport::portHandleAt(const QPointF& position) const 
   return handleAt({&project.emitters, &project.sinks, m_selection.port()}, pointerAt(position, {}));
 }
 
-/// What a drag does to the view, whatever tool is in hand. The left button is the tool's, but for Alt where tools do
-/// not turn the view themselves, and Shift where they do.
-std::optional<Navigation::Motion> Viewport::motionFor(const QMouseEvent& event) const {
-  using Motion = Navigation::Motion;
-  const bool shift = event.modifiers() & Qt::ShiftModifier, alt = event.modifiers() & Qt::AltModifier;
-  const bool turns = m_tools.tool().turnsView();
-  if (event.button() == Qt::RightButton) return Motion::Dolly;
-  if (event.button() == Qt::MiddleButton) return turns || shift ? Motion::Pan : Motion::Orbit;
-  if (event.button() != Qt::LeftButton) return std::nullopt;
-  if (!turns) return alt ? std::optional(Motion::Orbit) : std::nullopt;
-  return shift ? std::optional(Motion::Pan) : std::nullopt;
+/// What a drag does to the view, whatever tool is in hand.
+std::optional<MouseBinding> Viewport::bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const {
+  return bindingFor(m_tools.mouse(), !m_tools.tool().turnsView(), button, held);
 }
 
 void Viewport::mousePressEvent(QMouseEvent* event) {
@@ -80,27 +72,43 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
   m_legendBefore = m_legendRange;
   const bool left = event->button() == Qt::LeftButton;
   if (left && clickOverlay(m_pressed)) return;
-  const auto motion = motionFor(*event);
-  const Pointer pointer = pointerAt(m_pressed, event->modifiers());
-  // A handle is taken hold of with Shift too, which then moves it up and down.
-  if (left && (!motion || m_tools.tool().turnsView()) && m_tools.tool().press(pointer)) {
+  const auto binding = bindingOf(event->button(), event->modifiers());
+  const bool plainLeft = left && (!binding || !binding->keys);  // may become a click
+  // A handle is taken hold of with Shift too, which then moves it up and down. Alt and the left button are the view's.
+  const bool viewFirst = binding && (binding->keys & Qt::AltModifier);
+  if (left && !viewFirst && m_tools.tool().press(pointerAt(m_pressed, event->modifiers()))) {
     m_drag = Drag::Tool;
-  } else if (motion) {
-    m_drag = Drag::View;
-    m_navigation.press(*motion, m_pressed);
-  } else if (left) {
+  } else if (plainLeft) {
     m_drag = Drag::Click;
+  } else if (binding) {
+    m_drag = Drag::View;
+    m_navigation.press(binding->motion, m_pressed);
+  } else if (event->button() == Qt::RightButton) {
+    m_drag = Drag::Menu;
   }
   update();
+}
+
+/// Where the left button alone does not move the view, it frames what is to be selected by a tool that selects.
+void Viewport::dragBegins(const QMouseEvent& event) {
+  if (const auto binding = bindingFor(m_tools.mouse(), false, Qt::LeftButton, {})) {
+    m_drag = Drag::View;
+    m_navigation.press(binding->motion, m_pressed);
+    m_navigation.drag(event.position());
+  } else if (m_tools.tool().turnsView() &&
+             m_tools.tool().press(pointerAt(m_pressed, event.modifiers() | Qt::ControlModifier))) {
+    m_drag = Drag::Tool;
+    m_tools.tool().drag(pointerAt(event.position(), event.modifiers() | Qt::ControlModifier));
+  } else {
+    m_drag = Drag::None;
+  }
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
   const QPointF position = event->position();
   if (m_drag == Drag::Click) {
     if (isClick(position - m_pressed)) return;
-    m_drag = Drag::View;
-    m_navigation.press(Navigation::Motion::Orbit, m_pressed);
-    m_navigation.drag(position);
+    dragBegins(*event);
   } else if (m_drag == Drag::View) {
     m_navigation.drag(position);
   } else if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) {
@@ -133,10 +141,11 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
     m_tools.tool().click(pointer);
   } else if (drag == Drag::Tool) {
     m_tools.tool().release(pointer);
+  } else if (drag == Drag::Menu) {
+    if (still) Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
   } else if (drag == Drag::View) {
-    const bool dolly = m_navigation.motion() == Navigation::Motion::Dolly;
     m_navigation.release();
-    if (dolly && still) {
+    if (still && event->button() == Qt::RightButton) {
       Q_EMIT viewMenuRequested(event->globalPosition().toPoint());
     } else if (still && event->button() == Qt::LeftButton) {
       m_tools.tool().click(pointer);  // with Shift, which would have moved the view

@@ -47,6 +47,13 @@ const char* pageOf(const Dock& dock) {
   return kUsualPage;
 }
 
+/// Pages name the drags that move a view as {look} and {turn}: which those are is a preference.
+HelpPage withMouse(HelpPage page, MousePreset preset) {
+  page.text.replace(QStringLiteral("{look}"), howToLook(preset));
+  page.text.replace(QStringLiteral("{turn}"), turningKeys(preset));
+  return page;
+}
+
 }  // namespace
 
 Help::Help(MainWindow& window, const Actions& actions) : QObject(&window), m_window(window), m_actions(actions) {}
@@ -58,7 +65,7 @@ void Help::makeMenu(QMenu* menu) {
   for (const HelpPage& written : writtenHelp()) {
     QAction* action = m_actions.add(pages, QStringLiteral("help.") + written.id, written.title, {},
                                     [this, id = written.id] { open(id); });
-    action->setProperty(kWords, written.text);
+    action->setProperty(kWords, withMouse(written, MousePreset::PhaseSketch).text);
   }
   m_actions.add(pages, QStringLiteral("help.") + kValues, QStringLiteral("All values of this scene"), {},
                 [this] { open(kValues); });
@@ -73,6 +80,7 @@ void Help::open(const QString& id) {
     connect(dialog, &HelpWindow::actionWanted, this, [this](const QString& name) {
       if (QAction* action = m_actions.find(name)) action->trigger();
     });
+    connect(&m_window.tools(), &Toolbox::mouseChanged, dialog, &HelpWindow::refresh);
   }
   dialog->open(id);
   dialog->show();
@@ -98,7 +106,7 @@ QString Help::idHere() const {
 
 std::optional<HelpPage> Help::page(const QString& id) const {
   for (const HelpPage& written : writtenHelp()) {
-    if (written.id == id) return written;
+    if (written.id == id) return withMouse(written, m_window.tools().mouse());
   }
   if (id == kValues) return valuesPage();
   if (id.startsWith(kTool)) return toolPage(id.mid(kTool.size()));

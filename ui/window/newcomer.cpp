@@ -3,6 +3,7 @@
 #include "ui/panels/pluginpage.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/help.h"
@@ -22,6 +23,7 @@ namespace ps {
 
 void MainWindow::start() {
   m_session->start();
+  if (m_options.restore) m_tools->setMouse(preferences::mouse());
   if (!m_options.restore || !m_options.project.isEmpty()) return;
   m_welcome->showAtStart();
   connect(m_tour, &Tour::ended, this, [] { preferences::setTourDone(); });
@@ -54,9 +56,7 @@ void MainWindow::startTour() {
   m_layout->setFullViewport(false);
   QWidget* view = viewport() ? static_cast<QWidget*>(viewport()) : m_pane;
   m_tour->start(
-      {{view, QStringLiteral("Turn the scene"),
-        QStringLiteral(
-            "It is running. Drag in the view to turn it, Shift and drag to move it; the wheel comes closer.")},
+      {{view, QStringLiteral("Turn the scene"), QStringLiteral("It is running. ") + howToLook(m_tools->mouse())},
        {inspectorDock(), QStringLiteral("Change it while it runs"),
         QStringLiteral(
             "Drag a slider under “Try these”: it acts on the next frame. A double-click puts it back, Ctrl+Z "

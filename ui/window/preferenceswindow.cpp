@@ -13,6 +13,7 @@
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/units.h"
+#include "ui/tools/toolbox.h"
 #include "ui/window/dialogrow.h"
 #include "ui/window/mainwindow.h"
 
@@ -137,6 +138,17 @@ void Preferences::addTheme() {
        {QStringLiteral("Degrees Fahrenheit, °F"), static_cast<int>(Fahrenheit)}},
       static_cast<int>(temperatureUnit()), [](int) { return QString(); },
       [this](int unit) { showTemperatures(m_window, static_cast<TemperatureUnit>(unit)); });
+  Choices presets;
+  for (int k = 0; k <= static_cast<int>(MousePreset::Cad); ++k)
+    presets.emplace_back(nameOf(static_cast<MousePreset>(k)), k);
+  choice(
+      QStringLiteral("Mouse"),
+      QStringLiteral("Whose buttons and keys turn, move and near the view. The hints in the view show them."),
+      std::move(presets), static_cast<int>(m_window.tools().mouse()), [](int) { return QString(); },
+      [this](int preset) {
+        preferences::setMouse(static_cast<MousePreset>(preset));
+        m_window.tools().setMouse(static_cast<MousePreset>(preset));
+      });
   choice(
       QStringLiteral("At the start"), QStringLiteral("What the window begins with."),
       {{QStringLiteral("Welcome page"), 1}, {QStringLiteral("Last scene"), 0}}, preferences::welcomeAtStart() ? 1 : 0,

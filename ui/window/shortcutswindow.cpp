@@ -54,6 +54,19 @@ ShortcutGroup toolGroup(const ToolRow& row, const Tool& tool) {
   return group;
 }
 
+void fill(QTreeWidget& list, MainWindow& window) {
+  list.clear();
+  for (const ShortcutGroup& group : shortcutGroups(window)) {
+    auto* head = new QTreeWidgetItem(&list, {group.title});
+    head->setFirstColumnSpanned(true);
+    QFont bold = list.font();
+    bold.setWeight(QFont::DemiBold);
+    head->setFont(0, bold);
+    for (const auto& [keys, does] : group.lines) new QTreeWidgetItem(head, {does, keys});
+  }
+  list.expandAll();
+}
+
 }  // namespace
 
 std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
@@ -84,15 +97,8 @@ void openShortcuts(MainWindow& window) {
     list->setHeaderHidden(true);
     list->setRootIsDecorated(false);
     list->setSelectionMode(QAbstractItemView::SingleSelection);
-    for (const ShortcutGroup& group : shortcutGroups(window)) {
-      auto* head = new QTreeWidgetItem(list, {group.title});
-      head->setFirstColumnSpanned(true);
-      QFont bold = list->font();
-      bold.setWeight(QFont::DemiBold);
-      head->setFont(0, bold);
-      for (const auto& [keys, does] : group.lines) new QTreeWidgetItem(head, {does, keys});
-    }
-    list->expandAll();
+    fill(*list, window);
+    QObject::connect(&window.tools(), &Toolbox::mouseChanged, list, [list, &window] { fill(*list, window); });
     list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     list->header()->setStretchLastSection(false);
     list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
