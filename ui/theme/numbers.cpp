@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -18,8 +19,15 @@ namespace {
 constexpr qsizetype kLongestTyped = 200;  ///< characters
 constexpr QChar kMinus(0x2212), kGroup(0x202F);
 
-/// Decimal digits by std::to_chars, which no locale touches.
+/// Decimal digits by std::to_chars, which no locale touches. What lies on a half as people write it is rounded up,
+/// though the double beside it may lie below: 293.15 is 293.2.
 std::string digits(double value, std::chars_format format, int precision) {
+  constexpr int kSure = 14;  // digits below which two units in the last place cannot be seen
+  const bool scientific = format == std::chars_format::scientific;
+  const int before = value == 0 || scientific || !std::isfinite(value)
+                         ? 1
+                         : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  if (before + precision < kSure) value *= 1 + 2 * std::numeric_limits<double>::epsilon();
   char buffer[512];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, precision);
   return std::string(buffer, end.ptr);
