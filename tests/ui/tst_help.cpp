@@ -187,6 +187,43 @@ class TestHelp : public SampleWindowTest {
     QVERIFY(!tour.running());
   }
 
+  /// By Return too, wherever the focus came from; over the library and the plugins the scene comes back.
+  void theTourGoesByTheKeyboardAndFromAnyPage() {
+    for (const char* page : {"add.library", "help.plugins"}) {
+      m_window->action(QString::fromLatin1(page))->trigger();
+      QVERIFY(!view()->isVisible());
+      m_window->action(QStringLiteral("help.tour"))->trigger();
+      QVERIFY2(view()->isVisible(), page);
+    }
+    QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    QPushButton* next = button(*card, QStringLiteral("Next"));
+    next->setFocus();
+    QTest::keyClick(next, Qt::Key_Return);
+    QCOMPARE(m_window->tour().step(), 1);
+    QPushButton* skip = button(*card, QStringLiteral("Skip the tour"));
+    skip->setFocus();
+    QTest::keyClick(skip, Qt::Key_Return);
+    QVERIFY(!m_window->tour().running());
+  }
+
+  /// The card stands beside what it speaks of, and stays there when the window grows.
+  void theCardFollowsTheWindow() {
+    m_window->startTour();
+    m_window->tour().next();
+    const auto* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    const auto gap = [this, card] {
+      const Dock* dock = m_window->inspectorDock();
+      return dock->mapTo(m_window.get(), QPoint()).x() - card->geometry().right();
+    };
+    const int before = gap();
+    QVERIFY2(before > 0 && before < 40, qPrintable(QString::number(before)));
+    const QSize size = m_window->size();
+    m_window->resize(size + QSize(300, 120));
+    QTRY_COMPARE(gap(), before);
+    m_window->resize(size);
+    QTRY_COMPARE(gap(), before);
+  }
+
  private:
   HelpWindow* dialog() { return m_window->help().dialog(); }
   void f1() {

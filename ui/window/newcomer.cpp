@@ -52,6 +52,7 @@ void MainWindow::makeHelpMenu(QMenu* menu) {
 
 void MainWindow::startTour() {
   m_welcome->leave();
+  m_centre->setCurrentWidget(m_pane);
   showWorkspace(kSceneTab);
   m_layout->setFullViewport(false);
   QWidget* view = viewport() ? static_cast<QWidget*>(viewport()) : m_pane;

@@ -65,7 +65,15 @@ Tour::Tour(QWidget& window)
   column->addLayout(row);
   connect(m_next, &QPushButton::clicked, this, &Tour::next);
   connect(m_skip, &QPushButton::clicked, this, &Tour::end);
+  // A button of a window that is no dialog does nothing at Return by itself.
+  for (QPushButton* button : {m_next, m_skip}) button->setAutoDefault(true);
   window.installEventFilter(this);
+  m_laidOut.setSingleShot(true);
+  connect(&m_laidOut, &QTimer::timeout, this, [this] {
+    if (!running()) return;
+    place();
+    update();
+  });
   hide();
   m_card->hide();
 }
@@ -99,12 +107,19 @@ void Tour::showStep() {
   m_next->setText(m_step + 1 < count ? QStringLiteral("Next") : QStringLiteral("Done"));
   m_skip->setVisible(m_step + 1 < count);
   m_card->setAccessibleName(step.title + QStringLiteral(". ") + step.text);
+  follow();
   place();
   for (QWidget* part : {static_cast<QWidget*>(this), m_card}) {
     part->show();
     part->raise();
   }
   update();
+}
+
+void Tour::follow() {
+  for (QWidget* part = m_steps[static_cast<size_t>(m_step)].at; part && part != parentWidget();
+       part = part->parentWidget())
+    part->installEventFilter(this);
 }
 
 QRect Tour::target() const {
@@ -128,10 +143,9 @@ void Tour::place() {
 }
 
 bool Tour::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && running()) {
-    place();
-    update();
-  }
+  const QEvent::Type type = event->type();
+  const bool moves = type == QEvent::Resize || type == QEvent::Move || type == QEvent::Show || type == QEvent::Hide;
+  if (moves && running()) m_laidOut.start(0);
   return QWidget::eventFilter(watched, event);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <QtCore/QPointer>
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
 #include <vector>
@@ -39,12 +40,14 @@ class Tour : public QWidget {
  private:
   void showStep();
   void place();
+  void follow();         ///< what it speaks of, when that or the window is laid out anew
   QRect target() const;  ///< of the step, in the window
   std::vector<TourStep> m_steps;
   int m_step = 0;
   QWidget* m_card;
   QLabel *m_title, *m_text, *m_count;
   QPushButton *m_next, *m_skip;
+  QTimer m_laidOut;  ///< fires when all layouts have done their part
 };
 
 }  // namespace ps
