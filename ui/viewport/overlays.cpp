@@ -112,14 +112,21 @@ QRectF paintHint(QPainter& painter, const OverlayState& state) {
   const QFont font = Theme::font(TextRole::Small);
   const Theme& theme = Theme::current();
   const QString close = QStringLiteral("Got it");
+  constexpr double kScale = 180, kLegend = 130;  // room for scale bar and legend first
+  const double room = state.size.width() - 2 * std::max(kScale, kLegend);
   double width = textWidth(close, font) + 2 * kPadding;
-  for (const OverlayHint& hint : state.hints)
-    width += textWidth(hint.keys, font) + textWidth(hint.does, font) + 12 + 2 * kPadding;
-  QRectF rect((state.size.width() - width) / 2, state.size.height() - kMargin - 30, width, 30);
-  if (rect.left() < 180 || rect.right() > state.size.width() - 130) return {};  // room for scale bar and legend first
+  std::vector<OverlayHint> hints;  // those that there is room for
+  for (const OverlayHint& hint : state.hints) {
+    const double more = textWidth(hint.keys, font) + textWidth(hint.does, font) + 12 + 2 * kPadding;
+    if (width + more > room) break;
+    width += more;
+    hints.push_back(hint);
+  }
+  if (hints.empty()) return {};
+  const QRectF rect((state.size.width() - width) / 2, state.size.height() - kMargin - 30, width, 30);
   paintGround(painter, rect, 6);
   double x = rect.left() + kPadding;
-  for (const OverlayHint& hint : state.hints) {
+  for (const OverlayHint& hint : hints) {
     const QRectF key(x, rect.top() + 6, textWidth(hint.keys, font) + 10, 18);
     paintBox(painter, key, theme[Token::Raised], theme[Token::Line2], 3);
     paintText(painter, key, Qt::AlignCenter, hint.keys, font, theme[Token::Text]);
