@@ -130,6 +130,30 @@ class TestHandles : public SampleWindowTest {
     QCOMPARE(m_window->tools().active(), std::string("move"));
   }
 
+  /// It edits neither the project that it began in, nor the one that comes.
+  void aDragEndsWithItsProject() {
+    const Project begun = document().project();
+    const QString path = document().path();
+    selectIce("move");
+    dragPart({GizmoPart::Kind::Plane, 1}, {50, 10});
+    const Project other = document().project();
+    const Vector3 there = pivotOf(ice());
+    document().undoStack().undo();
+    QVERIFY(pivotOf(ice()) != there);
+    selectIce("move");
+    dragPart({GizmoPart::Kind::Arm, 0}, {40, 0}, {}, false);
+    document().open(other, path, false, false);
+    QCOMPARE(pivotOf(ice()), there);
+    QVERIFY(!document().isDirty());
+    QVERIFY(!m_window->tools().tool().picture().gizmo->active);
+    hands::move(*view(), {60, 60});
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, {60, 60});
+    QCOMPARE(pivotOf(ice()), there);
+    QVERIFY(!document().isDirty());
+    document().open(begun, path, false, false);
+    m_window->tools().activate("select");
+  }
+
   void stepsAreTheSpacing() {
     selectIce("move");
     for (const Qt::KeyboardModifier key : {Qt::ControlModifier, Qt::AltModifier}) {

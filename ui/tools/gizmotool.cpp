@@ -93,6 +93,7 @@ bool GizmoTool::press(const Pointer& pointer) {
   m_dragged = m_grip->exactly(m_kind == Kind::Scale ? 1 : 0);
   m_typed.clear();
   m_wrong = false;
+  m_begun = box().document().changeCount();
   box().document().beginGesture();
   return true;
 }
@@ -175,7 +176,8 @@ void GizmoTool::leave() {
 
 void GizmoTool::end(bool keep) {
   if (!m_grip) return;
-  if (!keep) box().document().place(m_before, {});
+  // Another project may have taken the place of the one that it began in, with things of the same ids.
+  if (!keep && box().document().had(m_begun)) box().document().place(m_before, {});
   m_grip.reset();
   m_pressed.reset();
   m_typed.clear();

@@ -41,6 +41,7 @@ class GizmoTool : public Tool {
   std::optional<GizmoPart> m_hovered;
   std::optional<GizmoGrip> m_grip;
   std::optional<Pointer> m_pressed;  ///< until it is dragged
+  uint64_t m_begun = 0;              ///< Document::changeCount() before the drag
   Placement m_before;
   MatterPlaces m_matterBefore;
   GizmoDrag m_dragged;

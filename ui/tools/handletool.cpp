@@ -29,6 +29,7 @@ bool HandleTool::press(const Pointer& pointer) {
   } else {
     m_grip->before = *document.emitter(handle->port.id);
   }
+  m_grip->begun = document.changeCount();
   document.beginGesture();
   box().selection().select(handle->port);
   return true;
@@ -72,7 +73,8 @@ void HandleTool::end(bool keep) {
   if (!m_grip) return;
   const Grip grip = *std::exchange(m_grip, {});
   Document& document = box().document();
-  if (!keep && grip.moved) {
+  // Another project may have taken the place of the one that it began in, with things of the same ids.
+  if (!keep && grip.moved && document.had(grip.begun)) {
     if (const auto* emitter = std::get_if<Emitter>(&grip.before)) {
       document.editEmitter(*emitter, {});
     } else {

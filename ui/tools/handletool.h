@@ -29,6 +29,7 @@ class HandleTool final : public Tool {
     std::variant<Emitter, Sink> before;
     Pointer pressed;
     bool moved = false;
+    uint64_t begun = 0;  ///< Document::changeCount() before the drag
   };
   void end(bool keep);
   std::optional<PortHandle> m_hovered;
