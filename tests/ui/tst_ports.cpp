@@ -190,7 +190,7 @@ class TestPorts : public QObject {
     QTRY_COMPARE(project().emitters.front().name, std::string("Spout"));
     QTest::keyClick(view(), Qt::Key_D, Qt::ControlModifier);
     QCOMPARE(project().emitters.size(), size_t{2});
-    QCOMPARE(project().emitters.back().name, std::string("Spout copy"));
+    QCOMPARE(project().emitters.back().name, std::string("Spout 2"));
     QVERIFY(distance(project().emitters.back().point, project().emitters.front().point) > 0.01);
     QCOMPARE(m_window->selection().port(), (Port{false, project().emitters.back().id}));
     view()->setFocus();

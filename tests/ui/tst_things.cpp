@@ -4,12 +4,15 @@
 #include "core/scene/group.h"
 #include "core/scene/pose.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/freename.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/rows/filterfield.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/window/noticebar.h"
 
 #include <QtCore/QMimeData>
 #include <QtGui/QAction>
@@ -18,6 +21,8 @@
 #include <QtWidgets/QTreeView>
 
 #include <cmath>
+#include <set>
+#include <string>
 
 using namespace ps;
 
@@ -84,6 +89,48 @@ class TestThings : public SampleWindowTest {
     document().undoStack().undo();
     document().undoStack().undo();
     QCOMPARE(project().bodies.size(), bodies);
+  }
+
+  /// "Ball" twice is "Ball" and "Ball 2", however it comes.
+  void noTwoAreCalledTheSame() {
+    const auto names = [this] {
+      std::multiset<std::string> all;
+      for (const Body& body : project().bodies) all.insert(nameOf(body).toStdString());
+      return all;
+    };
+    trigger("add.ellipsoid");
+    const std::string first = nameOf(project().bodies.back()).toStdString();
+    trigger("add.ellipsoid");
+    QCOMPARE(nameOf(project().bodies.back()).toStdString(), first + " 2");
+    trigger("edit.duplicate");
+    QCOMPARE(nameOf(project().bodies.back()).toStdString(), first + " 3");
+    trigger("edit.copy");
+    trigger("edit.paste");
+    QCOMPARE(nameOf(project().bodies.back()).toStdString(), first + " 4");
+    trigger("edit.cut");
+    trigger("edit.paste");
+    QCOMPARE(nameOf(project().bodies.back()).toStdString(), first + " 4");  // it is alone by now
+    const auto all = names();
+    QCOMPARE(all.size(), std::set<std::string>(all.begin(), all.end()).size());
+    QCOMPARE(freeName("Ball", {"Cube"}), std::string("Ball"));
+    QCOMPARE(freeName("Ball 2", {"Ball", "Ball 2"}), std::string("Ball 3"));
+    QCOMPARE(freeName("H2", {"H2"}), std::string("H2 2"));
+    QCOMPARE(freeName("2", {"2"}), std::string("2 2"));
+  }
+
+  /// That there is no room is said until something is edited.
+  void noRoomIsSaidWhileItHolds() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies({ids[0]});
+    const auto said = [this] {
+      return m_window->notice()->isVisible() && m_window->notice()->text().contains(QStringLiteral("no room"));
+    };
+    for (int k = 0; k < 400 && !said(); ++k) trigger("edit.duplicate");
+    QVERIFY(said());
+    session().reset();
+    QVERIFY(said());
+    document().undoStack().undo();
+    QVERIFY(!said());
   }
 
   /// As a project file on the clipboard, with its materials; what is none is refused in a sentence.

@@ -6,7 +6,9 @@
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/snapshot.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/freename.h"
 #include "ui/document/wallside.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -29,6 +31,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace ps {
@@ -245,6 +248,9 @@ std::string BodyActions::add(Body body, const std::string& without) {
   values["position_x"] = middle[0];
   values["position_y"] = std::max(lowest, std::min(highest, lowest + (top > floor ? top - floor + spacing : 0)));
   values["position_z"] = middle[2];
+  std::set<std::string> names;
+  for (const Body& other : document.project().bodies) names.insert(shownName(other));
+  body.name = freeName(body.name, names);
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
   if (body.material.empty()) body.material = m_selection.material();
   if (body.material.empty()) body.material = document.addMaterial(document.plugins()->standard(PluginKind::Material));

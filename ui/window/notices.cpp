@@ -22,6 +22,7 @@ namespace {
 
 const QString kStep = QStringLiteral("step");  // topic of what the engine says
 const QString kRefused = QStringLiteral("refused");
+const QString kRefusedNow = QStringLiteral("refused now");  // until the next edit
 const QString kMaking = QStringLiteral("making");
 
 }  // namespace
@@ -30,6 +31,11 @@ Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObje
     : QObject(parent), m_session(session), m_bar(bar), m_actions(actions) {
   connect(&session, &Session::happened, this, &Notices::onEvent);
   connect(&session, &Session::making, this, &Notices::showMaking);
+  connect(&session.document(), &Document::changed, this, [this] {
+    if (!m_refusedAt || *m_refusedAt == m_session.document().changeCount()) return;
+    m_refusedAt.reset();
+    m_bar.close(kRefusedNow);
+  });
   connect(&session, &Session::madeOrNot, this, [this] {
     m_tellsMaking = false;
     m_bar.close(kMaking);
@@ -136,6 +142,12 @@ void Notices::refuse(const QString& title, const QString& why) {
     m_bar.show(kRefused, MessageLevel::Warning, title, why);
     m_session.log().add(MessageLevel::Warning, QStringLiteral("Scene"), title + QLatin1Char(' ') + why);
   }
+}
+
+void Notices::refuseUntilEdited(const QString& title, const QString& why) {
+  m_refusedAt = m_session.document().changeCount();
+  m_bar.show(kRefusedNow, MessageLevel::Warning, title, why);
+  m_session.log().add(MessageLevel::Warning, QStringLiteral("Scene"), title + QLatin1Char(' ') + why);
 }
 
 void Notices::message(MessageLevel level, const QString& where, const QString& text) {

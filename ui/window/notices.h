@@ -6,6 +6,9 @@
 
 #include <string>
 
+#include <cstdint>
+#include <optional>
+
 namespace ps {
 
 class Actions;
@@ -23,6 +26,8 @@ class Notices : public QObject {
   NoticeBar& bar() const { return m_bar; }
   /// With "" for `why` the last one goes.
   void refuse(const QString& title, const QString& why);
+  /// Goes with the next edit, after which it may hold no longer.
+  void refuseUntilEdited(const QString& title, const QString& why);
   /// Into the log, and over the view where it is a warning or worse.
   void message(MessageLevel level, const QString& where, const QString& text);
 
@@ -40,7 +45,8 @@ class Notices : public QObject {
   Session& m_session;
   NoticeBar& m_bar;
   const Actions& m_actions;
-  bool m_tellsMaking = false;  ///< the scene that is being made has been told of
+  std::optional<uint64_t> m_refusedAt;  ///< Document::changeCount() at the refusal that goes with an edit
+  bool m_tellsMaking = false;           ///< the scene that is being made has been told of
 };
 
 }  // namespace ps

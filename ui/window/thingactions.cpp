@@ -6,6 +6,7 @@
 #include "core/scene/group.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/freename.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/render/framing.h"
 #include "ui/session/excerpt.h"
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace ps {
@@ -49,11 +51,22 @@ Owner ownerOf(OutlineKind kind) {
                                         : Owner::Wall;
 }
 
-void nameAsCopies(Project& things) {
-  const auto each = [](auto& items) {
-    for (auto& item : items) item.name = nameOf(item).toStdString() + " copy";
+/// None is called as another one is.
+void nameApart(Project& things, const Project& scene) {
+  const auto each = [](auto& items, const auto& there) {
+    std::set<std::string> taken;
+    for (const auto& item : there) taken.insert(shownName(item));
+    for (auto& item : items) {
+      const std::string name = freeName(shownName(item), taken);
+      if (name != shownName(item)) item.name = name;
+      taken.insert(name);
+    }
   };
-  each(things.bodies), each(things.emitters), each(things.sinks), each(things.environment.walls), each(things.probes);
+  each(things.bodies, scene.bodies);
+  each(things.emitters, scene.emitters);
+  each(things.sinks, scene.sinks);
+  each(things.environment.walls, scene.environment.walls);
+  each(things.probes, scene.probes);
 }
 
 void place(Project& things, const Placement& as) {
@@ -174,7 +187,6 @@ void ThingActions::paste() {
 void ThingActions::duplicate() {
   Project things = excerptOf(m_session.document().project(), m_selection.items());
   if (isEmpty(things)) return;
-  nameAsCopies(things);
   insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."), true);
 }
 
@@ -182,12 +194,13 @@ void ThingActions::duplicate() {
 void ThingActions::insert(Project things, const QString& title, const QString& refusal, bool beside) {
   Document& document = m_session.document();
   const QString what = whatOf(things);
+  nameApart(things, document.project());
   const Placement as = thingsOf(things);
   const std::optional<Vector3> way = beside || overlapsAny(document.project(), as, matter())
                                          ? wayToFreeRoom(document.project(), as, matter())
                                          : Vector3(Vector3::Zero());
   if (!way) {
-    m_notices.refuse(refusal, QStringLiteral("There is no room in the scene for %1.").arg(what));
+    m_notices.refuseUntilEdited(refusal, QStringLiteral("There is no room in the scene for %1.").arg(what));
     return;
   }
   place(things, shifted(as, *way));
