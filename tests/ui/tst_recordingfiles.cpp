@@ -16,7 +16,11 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
+#include <QtGui/QAction>
+#include <QtWidgets/QFileDialog>
 
 #include <map>
 #include <memory>
@@ -32,6 +36,7 @@ class TestRecordingFiles : public SampleWindowTest {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() {
+    QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
     open();
     QVERIFY(m_window && m_folder.isValid());
   }
@@ -110,8 +115,29 @@ class TestRecordingFiles : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kFrames, kLong);
     QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().newest(), kLong);
     QCOMPARE(document().path(), QString());
+    QVERIFY(!document().isDirty());  // it is kept where it came from
     QCOMPARE(hash(), m_hashes[kFrames]);
     QCOMPARE(std::get<double>(document().value(kFloor)), 420.0);
+  }
+
+  /// Beside a project of one's own, but not among the samples.
+  void recordingsAreLookedForAmongOnesOwn() {
+    const auto lookedIn = [this] {
+      QString folder;
+      QTimer::singleShot(0, qApp, [&folder] {
+        auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+        QVERIFY(dialog);
+        folder = dialog->directory().canonicalPath();
+        dialog->reject();
+      });
+      m_window->action(QStringLiteral("file.openRecording"))->trigger();
+      return folder;
+    };
+    QCOMPARE(lookedIn(), QDir(m_folder.path()).canonicalPath());
+    load(kSample);
+    QVERIFY(session().files().isSample(document().path()));
+    const QString folder = lookedIn();
+    QVERIFY(!folder.isEmpty() && folder != QFileInfo(kSample).dir().canonicalPath());
   }
 
   void whatIsBrokenLeavesTheSceneAlone_data() {

@@ -192,7 +192,7 @@ void DocumentFiles::bringBack(const ReplacedWork& work) {
 void DocumentFiles::openRecorded(Project project) {
   ++m_request;
   m_lock.reset();
-  m_document.open(std::move(project), {}, true, false);
+  m_document.open(std::move(project), {}, false, false);  // nothing is lost with it: the recording has it
   Q_EMIT opened({}, {}, 0);
 }
 

@@ -90,8 +90,12 @@ void RecordingActions::chooseSave() {
 }
 
 void RecordingActions::chooseOpen() {
-  const QString path = QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a recording"),
-                                                    QFileInfo(m_session.document().path()).path(), kFilter);
+  const QString& own = m_session.document().path();
+  const QString folder = own.isEmpty() || m_session.files().isSample(own)
+                             ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
+                             : QFileInfo(own).path();
+  const QString path =
+      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a recording"), folder, kFilter);
   if (!path.isEmpty()) m_session.recordings().open(path);
 }
 
