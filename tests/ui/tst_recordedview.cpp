@@ -429,6 +429,37 @@ class TestRecordedView : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(!session().engine()->making(), kLong);
   }
 
+  /// A run that was clicked or named has the focus, and the transport its keys.
+  void keysGoToTheTransportFromARun() {
+    branchAt(5);
+    RunLines* lines = transport().runs();
+    QTRY_VERIFY_WITH_TIMEOUT(lines->isVisible(), kLong);
+    m_window->activateWindow();
+    const uint64_t run = session().recorded().earlier().front().number;
+    const auto keysAct = [this] {
+      QWidget* focus = QApplication::focusWidget();
+      QVERIFY(focus);
+      session().pause();
+      QTest::keyClick(focus, Qt::Key_Space);
+      QVERIFY(session().playing());
+      QTest::keyClick(focus, Qt::Key_Space);
+      QVERIFY(!session().playing());
+    };
+    QTest::mouseClick(lines, Qt::LeftButton, {}, lines->rowOf(run).center());
+    keysAct();
+    QTest::keyClick(lines, Qt::Key_F2);
+    auto* line = lines->findChild<QLineEdit*>();
+    QVERIFY(line && QApplication::focusWidget() == line);
+    QTest::keyClick(line, Qt::Key_Return);
+    QTRY_VERIFY_WITH_TIMEOUT(!lines->findChild<QLineEdit*>(), kLong);
+    QCOMPARE(QApplication::focusWidget(), lines);
+    keysAct();
+    const uint64_t revision = session().snapshot()->revision;
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Home);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision || session().snapshot()->stats.frame == 0,
+                             kLong);
+  }
+
   /// Four have lines; the older ones are reached from those, and from the transport, and are called and deleted there.
   void runsWithoutALineAreNamedAndDeleted() {
     for (const uint64_t frame : {5, 5, 4, 4, 3}) {

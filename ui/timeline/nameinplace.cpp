@@ -28,7 +28,10 @@ void nameInPlace(QWidget& row, const QRect& place, const QString& name, const QS
   line->selectAll();
   line->show();
   line->setFocus();
-  QObject::connect(line, &QLineEdit::returnPressed, &row, [line, take = std::move(take)] { take(line->text()); });
+  QObject::connect(line, &QLineEdit::returnPressed, &row, [line, &row, take = std::move(take)] {
+    take(line->text());
+    row.setFocus();  // else it goes to whatever comes next, which may want Space for itself
+  });
   QObject::connect(line, &QLineEdit::editingFinished, line, &QObject::deleteLater);  // also where the focus leaves
   auto* escape = new QShortcut(QKeySequence(Qt::Key_Escape), line, nullptr, nullptr, Qt::WidgetShortcut);
   QObject::connect(escape, &QShortcut::activated, &row, [&row] { row.setFocus(); });
