@@ -234,6 +234,18 @@ void WelcomePage::setOffer(const QString& title, const QString& text, const std:
     m_offerButtons->addWidget(button);
   }
   m_offerButtons->addStretch(1);
+  fitOffer();
+}
+
+/// Its words need as much height as they are long; the layouts around it learn of them too late where the page was
+/// hidden.
+void WelcomePage::fitOffer() {
+  const QMargins around = m_side->layout()->contentsMargins(), inside = m_offer->layout()->contentsMargins();
+  const int width = m_side->maximumWidth() - around.left() - around.right() - inside.left() - inside.right();
+  for (QLabel* label : {m_offerTitle, m_offerText}) {
+    label->ensurePolished();
+    label->setMinimumHeight(std::max(0, label->heightForWidth(width)));  // -1 without words
+  }
 }
 
 void WelcomePage::setAtStart(bool on) { static_cast<QAbstractButton*>(m_atStart)->setChecked(on); }
@@ -264,8 +276,12 @@ void WelcomePage::paintEvent(QPaintEvent*) {
 void WelcomePage::resizeEvent(QResizeEvent*) {
   m_list->setFixedWidth(width() >= kWide ? 250 : 204);
   m_side->setFixedWidth(width() >= kWide ? 320 : 280);
+  fitOffer();
 }
 
-void WelcomePage::showEvent(QShowEvent*) { readRecent(); }
+void WelcomePage::showEvent(QShowEvent*) {
+  fitOffer();
+  readRecent();
+}
 
 }  // namespace ps

@@ -60,6 +60,7 @@ class WelcomePage : public QWidget {
   QWidget* makeMiddle();
   QWidget* makeSide();
   void showGallery();
+  void fitOffer();
   void showRecent(const std::vector<RecentProject>& recent);
 
   Gallery& m_gallery;
