@@ -31,7 +31,6 @@ namespace ps {
 namespace {
 
 constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
-constexpr double kRoom = 293.15;          // K, at which properties are listed
 constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
 
 }  // namespace

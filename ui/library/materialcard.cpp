@@ -16,7 +16,6 @@ namespace ps {
 namespace {
 
 constexpr QSize kCard{222, 84};
-constexpr double kRoom = 293.15;  // K
 
 /// Place on the bar, 0 to 1: its ways are factors of the absolute temperature.
 double placeOf(double kelvin) {

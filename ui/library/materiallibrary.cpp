@@ -22,7 +22,7 @@
 namespace ps {
 namespace {
 
-constexpr double kRoom = 293.15, kPressure = 101325;        // K, Pa
+constexpr double kPressure = 101325;                        // Pa
 constexpr double kMetalConducts = 15, kMetalWeighs = 2000;  // W/(m·K), kg/m³: more than stone, less than steel
 constexpr int kRest = 200;                                  // ms
 

@@ -19,6 +19,8 @@ namespace ps {
 class PluginRegistry;
 class Session;
 
+inline constexpr double kRoom = 293.15;  ///< K, at which materials are listed and compared
+
 /// Where matter is solid, liquid or gas under the air's usual pressure; K.
 struct PhaseBand {
   double from = 0, to = 0;

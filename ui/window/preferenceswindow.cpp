@@ -5,7 +5,6 @@
 #include "core/simulation/enginethread.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/graphs/graphspanel.h"
-#include "ui/library/librarypage.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
@@ -15,6 +14,7 @@
 #include "ui/theme/units.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/dialogrow.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
@@ -51,7 +51,7 @@ void showTemperatures(MainWindow& window, TemperatureUnit unit) {
   window.inspector().rebuild();
   window.outliner()->rebuild();
   window.graphs()->remake();
-  window.findChild<LibraryPage*>()->refresh();
+  window.library().page()->refresh();
   Q_EMIT window.curves().responseChanged();
   for (QWidget* widget : window.findChildren<QWidget*>()) widget->update();
 }
