@@ -126,6 +126,7 @@ struct Solver::Impl {
   void listsChanged(bool newStructure);
   void refreshLiquidContact();
   void substep(uint32_t index);
+  void changeVelocities(uint32_t index, double dt);  ///< once they follow from places
   int structurePasses() const;
   void iterate(uint32_t index, double dt);
   void predict(uint32_t index, double dt);

@@ -352,6 +352,10 @@ void Solver::Impl::substep(uint32_t index) {
     balance.mark(store, Part::Scheme, 0);
     bookContact(dt);
   });
+  changeVelocities(index, dt);
+}
+
+void Solver::Impl::changeVelocities(uint32_t index, double dt) {
   timed(Stage::Viscosity, [&] { viscosity.apply(store, neighbours, density); });
   balance.mark(store, Part::Viscosity, 0);
   timed(Stage::Structure, [&] {
