@@ -21,6 +21,7 @@ int fitCommand(CommandArguments arguments);
 int importCommand(CommandArguments arguments);
 int soakCommand(CommandArguments arguments);
 int shareCommand(CommandArguments arguments);
+int redrawCommand(CommandArguments arguments);
 
 std::string simulateHelp();
 std::string renderHelp();
@@ -34,6 +35,7 @@ std::string fitHelp();
 std::string importHelp();
 std::string soakHelp();
 std::string shareHelp();
+std::string redrawHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;
 

@@ -71,7 +71,7 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   setup.grid = {{0, 0, 0}, 0.02};
   const api::ParameterList list = plugins.parameters(info.id);
   for (size_t i = 0; i < list.count; ++i) setup.parameters.push_back(list[i].defaultValue);
-  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0}, {{0.02, 0, 0}, 0.5, 0.01}};
+  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}}};
   const api::BrushPlugin& brush = *plugins.brush(info.id);
   const StrokeEdits edits = applyBrush(brush, setup, api::EditKind::Add, samples);
   if (edits.added.empty()) return "a stroke of two samples and 5 cm radius draws nothing";

@@ -24,6 +24,17 @@ const FieldTable<VoxelShape::Paint>& paintFields() {
   return table;
 }
 
+const FieldTable<VoxelShape::Symmetry>& symmetryFields() {
+  using Symmetry = VoxelShape::Symmetry;
+  static const FieldTable<Symmetry> table{
+      .help = "copies that were drawn along with a stroke",
+      .rows = {field("mirror", &Symmetry::mirror, Choice{{"none", "x", "y", "z"}}, "axis across the mirror"),
+               field("turns", &Symmetry::turns, Integer{1, kMostTurns}, "copies about an upright axis, with itself"),
+               field("centre", &Symmetry::centre, Vector{"m"}, "that mirror and axis go through")},
+      .unknown = &Symmetry::unknown};
+  return table;
+}
+
 const FieldTable<VoxelShape::Stroke>& strokeFields() {
   using Stroke = VoxelShape::Stroke;
   using Sample = std::array<double, 5>;
@@ -42,6 +53,8 @@ const FieldTable<VoxelShape::Stroke>& strokeFields() {
                field("palette", &Stroke::palette, Integer{0, 65535}, "index into the palette").required(),
                pluginParameters(&Stroke::parameters, "brush", &Stroke::brush, PluginKind::Brush,
                                 "the brush's own parameters"),
+               field("up", &Stroke::up, Direction{}, "away from what it was drawn on"),
+               field("symmetry", &Stroke::symmetry, Optional{Object{symmetryFields()}}, ""),
                field("samples", &Stroke::samples, List{sample}, "where the hand went").required()},
       .unknown = &Stroke::unknown};
   return table;

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-// Short forms for the scene's own declarations; private to this room.
+// Short forms for the declarations of the program itself: the scene's, the brush's.
 namespace ps::declare {
 
 using api::actingWhen;
@@ -29,6 +29,7 @@ struct Display {
 };
 inline constexpr Display kAsStored{"", 1, 0};
 inline constexpr Display kCelsius{"°C", 1, -273.15};
+inline constexpr Display kMillimetres{"mm", 1000, 0};
 
 /// The same text at the same place for ever: declarations keep pointers to it.
 inline const char* kept(const std::string& text) {

@@ -40,6 +40,9 @@ struct BoxShape {
   bool operator==(const BoxShape&) const = default;
 };
 
+/// Copies of a stroke about an axis, at most.
+inline constexpr int kMostTurns = 64;
+
 /// Sketched cells: runs along x of a lattice whose cell (0, 0, 0) is centred at `origin`. It keeps the particle spacing
 /// at which it was drawn: with another one, the same place is filled with finer or coarser particles.
 struct VoxelShape {
@@ -53,12 +56,22 @@ struct VoxelShape {
     Unknown unknown{};
     bool operator==(const Paint&) const = default;
   };
+  /// What a stroke is drawn with at the same time: in a mirror, and turned about an upright axis, in equal steps.
+  struct Symmetry {
+    std::string mirror = "none";  ///< or "x", "y", "z": the axis across it
+    int turns = 1;                ///< copies about the axis, with the stroke itself; at least 1
+    Vector3 centre{0, 0, 0};      ///< m, that mirror and axis go through
+    Unknown unknown{};
+    bool operator==(const Symmetry&) const = default;
+  };
   struct Stroke {
     std::string brush;  ///< plugin id
     bool erase = false;
     double radius = 0.05;  ///< m
     int palette = 0;
     ParameterSet parameters;
+    Vector3 up{0, 1, 0};  ///< away from what it was drawn on; any length but zero
+    std::optional<Symmetry> symmetry;
     std::vector<std::array<double, 5>> samples;  ///< x, y, z in m, pressure, time in s
     Unknown unknown{};
     bool operator==(const Stroke&) const = default;

@@ -3,6 +3,9 @@
 
 #include "core/base/error.h"
 #include "core/base/shorttext.h"
+#include "core/sketch/symmetry.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +20,19 @@ bool finite(const api::StrokeSample& s) {
          std::isfinite(s.pressure) && std::isfinite(s.time);
 }
 
+/// Unit vector from one place to another one.
+api::Double3 directionOf(const api::Double3& a, const api::Double3& b) {
+  const double length = distance(a, b);
+  return {(b.x - a.x) / length, (b.y - a.y) / length, (b.z - a.z) / length};
+}
+
+/// On the way from `a` to `b`, which are not at one place.
 api::StrokeSample between(const api::StrokeSample& a, const api::StrokeSample& b, double t) {
   return {{std::lerp(a.position.x, b.position.x, t), std::lerp(a.position.y, b.position.y, t),
            std::lerp(a.position.z, b.position.z, t)},
           std::lerp(a.pressure, b.pressure, t),
-          std::lerp(a.time, b.time, t)};
+          std::lerp(a.time, b.time, t),
+          directionOf(a.position, b.position)};
 }
 
 /// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
@@ -67,7 +78,7 @@ std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, 
   const double count = std::ceil(distance(from.position, to.position) / spacing);
   std::vector<api::StrokeSample> samples;
   for (double i = 1; i < count; ++i) samples.push_back(between(from, to, i / count));
-  if (count > 0) samples.push_back(to);
+  if (count > 0) samples.push_back(between(from, to, 1));
   return samples;
 }
 
@@ -80,8 +91,9 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   if (!finite(raw)) return dense;
   if (!m_last) {
     m_last = raw;
+    m_last->direction = {0, 0, 0};
     m_sinceLast = 0;
-    return {raw};
+    return {*m_last};
   }
   const double length = distance(m_last->position, raw.position);
   const double first = m_spacing - m_sinceLast;  // arc length from m_last to the next dense sample
@@ -91,7 +103,9 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
     dense.push_back(between(*m_last, raw, (first + placed * m_spacing) / length));
   }
   m_sinceLast = placed > 0 ? length - (first + (placed - 1) * m_spacing) : m_sinceLast + length;
+  const api::Double3 direction = length > 0 ? directionOf(m_last->position, raw.position) : m_last->direction;
   m_last = raw;
+  m_last->direction = direction;
   return dense;
 }
 
@@ -115,16 +129,32 @@ std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample>
   return dense;
 }
 
+api::StrokeContext contextOf(const StrokeSetup& setup) {
+  const Vector3 up = setup.up.norm() > 0 ? Vector3(setup.up.normalized()) : Vector3(0, 1, 0);
+  const Vector3 helper = std::abs(up.x()) < 0.9 ? Vector3(1, 0, 0) : Vector3(0, 1, 0);
+  const Vector3 side = (helper - helper.dot(up) * up).normalized();
+  return {setup.grid.spacing,
+          double3Of(setup.grid.origin),
+          setup.radius,
+          double3Of(up),
+          double3Of(side),
+          double3Of(side.cross(up)),
+          {setup.parameters.data(), setup.parameters.size()}};
+}
+
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples) {
-  const api::StrokeContext context{setup.grid.spacing,
-                                   {setup.grid.origin[0], setup.grid.origin[1], setup.grid.origin[2]},
-                                   setup.radius,
-                                   {setup.up[0], setup.up[1], setup.up[2]},
-                                   {setup.parameters.data(), setup.parameters.size()}};
+  const api::StrokeContext own = contextOf(setup);
+  const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
   Collector collector;
   try {
-    brush.stroke(context, kind, api::listOf(samples.data(), samples.size()), collector);
+    for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
+      api::StrokeContext context = own;
+      for (api::Double3* axis : {&context.up, &context.side, &context.front})
+        *axis = double3Of(image.turn * vectorOf(*axis));
+      const std::vector<api::StrokeSample> copies = imageOf(all, image);
+      brush.stroke(context, kind, api::listOf(copies.data(), copies.size()), collector);
+    }
   } catch (const Error&) {  // of the collector
     throw;
   } catch (const std::exception& error) {
@@ -142,12 +172,12 @@ void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::Ed
   cells.add(edits.added.cells());
 }
 
-StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
-                         const Vector3& up) {
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());
-  for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4]});
-  const StrokeSetup setup{grid, stroke.radius, up, numbersOf(stroke.parameters, brush.parameters())};
+  for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4], {}});
+  const StrokeSetup setup{grid, stroke.radius, stroke.up, numbersOf(stroke.parameters, brush.parameters()),
+                          stroke.symmetry};
   return applyBrush(brush, setup, stroke.erase ? api::EditKind::Remove : api::EditKind::Add,
                     resampleStroke(raw, grid.spacing));
 }

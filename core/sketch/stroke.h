@@ -48,8 +48,9 @@ struct StrokeEdits {
 struct StrokeSetup {
   SketchGrid grid;
   double radius = 0.05;            ///< m
-  Vector3 up{0, 1, 0};             ///< unit vector
+  Vector3 up{0, 1, 0};             ///< away from what is drawn on; any length, zero counts as upright
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
+  std::optional<VoxelShape::Symmetry> symmetry{};
 };
 
 /// A brush threw, or gave what cannot be.
@@ -61,7 +62,11 @@ class BrushFault : public Error {
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 
-/// Runs the brush over dense samples. Throws InputError when they cover more than kMaxStrokeCells, and BrushFault for
+/// What the brush knows of a stroke: up, and side and front along what is drawn on, as near to the world's axes as up
+/// allows. Borrows the setup's numbers.
+api::StrokeContext contextOf(const StrokeSetup& setup);
+
+/// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than kMaxStrokeCells, and BrushFault for
 /// what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
@@ -69,7 +74,6 @@ StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, 
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                 std::span<const api::StrokeSample> samples, CellSet& cells);
 /// Draws a saved stroke again (its samples are the raw ones).
-StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
-                         const Vector3& up = {0, 1, 0});
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 
 }  // namespace ps

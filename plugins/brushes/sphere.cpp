@@ -3,27 +3,13 @@
 
 #include "stamp.h"
 
-#include <algorithm>
-
 namespace {
 
 using ps::api::Double3;
-using ps::api::ParameterDeclaration;
-using ps::api::ParameterKind;
-using ps::api::Scale;
 
-constexpr double kDefaultPressureSize = 0.5;
-constexpr ParameterDeclaration kParameters[] = {
-    {"pressure_size", "Pen pressure", "", "", ParameterKind::Number, Scale::Linear, kDefaultPressureSize, 0, 1, 0, 1,
-     "%", 100, 0, "", "Brush", "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.",
-     "0 % the same size always, 100 % from a single particle to full size", ""},
-};
-
-/// Radius in m at a pressure of 0 .. 1.
-double radiusAt(const ps::api::StrokeContext& context, double pressure) {
-  const double share = ps::brushes::parameter(context, 0, kDefaultPressureSize);
-  return context.radius * (1 - share * (1 - std::clamp(pressure, 0.0, 1.0)));
-}
+constexpr double kPressureSize = 0.5;
+constexpr ps::api::ParameterDeclaration kParameters[] = {ps::brushes::pressureSize(
+    kPressureSize, "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.")};
 
 }  // namespace
 
@@ -38,7 +24,7 @@ void SphereBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKin
   std::vector<ps::api::Cell> cells;
   for (size_t s = 0; s < samples.count; ++s) {
     const ps::api::StrokeSample sample = samples.at(s);
-    const double radius = radiusAt(context, sample.pressure);
+    const double radius = ps::brushes::pressedRadius(context, 0, kPressureSize, sample.pressure);
     // Centres on the rim count; the allowance is far above rounding and far below a cell.
     const double limit = radius * radius * (1 + 1e-9);
     cells.clear();

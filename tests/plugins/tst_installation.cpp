@@ -151,7 +151,7 @@ void InstallationTest::filesAreKnownByWhatTheyBeginWith() {
 void InstallationTest::ownPluginsLoadFromTheInstallation() {
   const Outcome list = runProgram(program("phasesketch-cli"), {"plugins", "--json"});
   QVERIFY2(list.code == 0, list.text());
-  for (const char* id : {"water", "wax", "bonds", "enthalpy", "thesis_latent", "sphere", "cube"}) {
+  for (const char* id : {"water", "wax", "bonds", "enthalpy", "thesis_latent", "sphere", "cube", "tube", "spray"}) {
     const QJsonObject entry = entryOf(list.output, id);
     QVERIFY2(entry["state"] == "loaded", id + (": " + QJsonDocument(entry).toJson()));
     const QString home = QFileInfo(prefix()).canonicalFilePath();

@@ -775,6 +775,84 @@ class TestPluginHost : public QObject {
                  key.c_str());
   }
 
+  void ownBrushesDrawTheSameInPieces_data() {
+    QTest::addColumn<QString>("brush");
+    for (const char* brush : {"sphere", "cube", "particle", "line", "plane", "disc", "tube", "ribbon", "spray"})
+      QTest::newRow(brush) << brush;
+  }
+  /// However the hand's way comes cut into calls, and again in the mirror.
+  void ownBrushesDrawTheSameInPieces() {
+    QFETCH(QString, brush);
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    const api::BrushPlugin* plugin = registry.brush(brush.toStdString());
+    QVERIFY(plugin);
+    StrokeSetup setup;
+    setup.grid = {{0.01, 0.01, 0.01}, 0.02};
+    setup.radius = 0.063;
+    const api::ParameterList list = registry.parameters(brush.toStdString());
+    for (size_t k = 0; k < list.count; ++k) setup.parameters.push_back(list[k].defaultValue);
+    std::vector<api::StrokeSample> raw;
+    for (int k = 0; k <= 40; ++k)  // a bend, and a corner at its end
+      raw.push_back({{0.6 + 0.3 * std::cos(0.05 * k), 0.3, 0.3 * std::sin(0.05 * k)}, 1, 0.01 * k, {}});
+    raw.push_back({{0.9, 0.5, 0.2}, 0.6, 0.5, {}});
+    const std::vector<api::StrokeSample> dense = resampleStroke(raw, setup.grid.spacing);
+    const CellSet whole = applyBrush(*plugin, setup, api::EditKind::Add, dense).added;
+    QVERIFY(whole.size() > (brush == "particle" ? size_t{20} : size_t{40}));
+    CellSet pieces;
+    for (size_t k = 0; k < dense.size(); ++k) {
+      const size_t first = k > 0 ? k - 1 : 0;
+      applyBrush(*plugin, setup, api::EditKind::Add, {dense.data() + first, k + 1 - first}, pieces);
+    }
+    // Of a tube and a ribbon only the very first point does not know its direction.
+    QVERIFY(pieces == whole);
+    setup.symmetry = VoxelShape::Symmetry{"x", 1, Vector3(0, 0, 0)};
+    const CellSet both = applyBrush(*plugin, setup, api::EditKind::Add, dense).added;
+    size_t mirrored = 0;
+    for (const api::Cell& cell : whole.cells()) mirrored += both.contains({-1 - cell.x, cell.y, cell.z}) ? 1 : 0;
+    // Cells whose centres or faces lie on a rim may fall to the other side.
+    if (brush != "spray") QVERIFY2(mirrored >= 0.97 * static_cast<double>(whole.size()), qPrintable(QString::number(mirrored)));
+    QVERIFY(both.size() > whole.size());
+  }
+
+  /// A straight tube of radius 5 with a wall of 2: hollow, open, and as long as the stroke.
+  void aTubeIsHollowAndTight() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    StrokeSetup setup;
+    setup.grid = {{0.5, 0.5, 0.5}, 1.0};
+    setup.radius = 5;
+    setup.parameters = {0.5, 2};
+    const std::vector<api::StrokeSample> raw{{{0.5, 0.5, 0.5}, 1, 0, {}}, {{20.5, 0.5, 0.5}, 1, 1, {}}};
+    const CellSet cells =
+        applyBrush(*registry.brush("tube"), setup, api::EditKind::Add, resampleStroke(raw, 1.0)).added;
+    size_t ring = 0;
+    for (int y = -6; y <= 6; ++y)
+      for (int z = -6; z <= 6; ++z) ring += std::hypot(y, z) <= 5 && std::hypot(y, z) >= 3 ? 1 : 0;
+    QCOMPARE(cells.size(), 21 * ring);  // centres 0 .. 20
+    for (int x = 0; x <= 20; ++x)
+      for (int y = -2; y <= 2; ++y) QVERIFY(!cells.contains({x, y, 0}));
+  }
+
+  /// A ribbon is one cell thick and without a hole: of each column across the sheet it has a cell.
+  void aRibbonHasNoHoles() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    StrokeSetup setup;
+    setup.grid = {{0.5, 0.5, 0.5}, 1.0};
+    setup.radius = 4;
+    setup.parameters = {0.5};
+    std::vector<api::StrokeSample> raw;
+    for (int k = 0; k <= 60; ++k)  // half a circle of radius 20, seen at 60 places only
+      raw.push_back({{20 * std::cos(k * M_PI / 60), 0.5, 20 * std::sin(k * M_PI / 60)}, 1, 0.01 * k, {}});
+    const CellSet cells =
+        applyBrush(*registry.brush("ribbon"), setup, api::EditKind::Add, resampleStroke(raw, 1.0)).added;
+    for (int x = -26; x <= 26; ++x)
+      for (int z = 2; z <= 26; ++z) {
+        const double r = std::hypot(x + 0.5, z + 0.5);
+        if (r > 16.8 && r < 23.2) QVERIFY2(cells.contains({x, 0, z}), qPrintable(QStringLiteral("%1 %2").arg(x).arg(z)));
+        if (r < 15 || r > 25) QVERIFY(!cells.contains({x, 0, z}));
+      }
+    for (const api::Cell& cell : cells.cells()) QCOMPARE(cell.y, 0);
+  }
+
   void ownBrushesStampWhatTheySay_data() {
     QTest::addColumn<QString>("brush");
     QTest::addColumn<double>("radius");    // in spacings
@@ -793,6 +871,11 @@ class TestPluginHost : public QObject {
     QTest::newRow("light touch") << "sphere" << 6.0 << 0.0 << 0.0 << 96 << 130;
     QTest::newRow("smaller than a cell") << "sphere" << 0.1 << 0.0 << 1.0 << 1 << 1;
     QTest::newRow("small cube") << "cube" << 0.1 << 0.0 << 1.0 << 1 << 1;
+    QTest::newRow("particle") << "particle" << 6.0 << 0.0 << 1.0 << 1 << 1;
+    // A row, a sheet and a disc are one cell thick: n, n^2, and pi r^2 cells within the rim's.
+    QTest::newRow("line of 6") << "line" << 3.0 << 0.0 << 1.0 << 6 << 6;
+    QTest::newRow("plane of 6") << "plane" << 3.0 << 0.0 << 1.0 << 36 << 36;
+    QTest::newRow("disc") << "disc" << 6.0 << 0.0 << 1.0 << 100 << 126;
   }
   void ownBrushesStampWhatTheySay() {
     QFETCH(QString, brush);
@@ -807,9 +890,9 @@ class TestPluginHost : public QObject {
     StrokeSetup setup;
     setup.grid = {{0.013, -0.4, 1.0}, 0.02};
     setup.radius = radius * setup.grid.spacing;
-    if (brush == "cube") setup.parameters = {rotation};
+    if (brush == "cube" || brush == "line" || brush == "plane") setup.parameters = {rotation};
     if (brush == "sphere") setup.parameters = {0.5};
-    const api::StrokeSample sample{{0.1234, 0.2345, -0.3456}, pressure, 0};
+    const api::StrokeSample sample{{0.1234, 0.2345, -0.3456}, pressure, 0, {}};
     const StrokeEdits edits = applyBrush(*plugin, setup, api::EditKind::Add, {&sample, 1});
     QVERIFY2(int(edits.added.size()) >= least && int(edits.added.size()) <= most,
              qPrintable(QString::number(edits.added.size())));

@@ -11,6 +11,7 @@
 #include "ui/session/selection.h"
 #include "ui/tools/aim.h"
 #include "ui/tools/gizmo.h"
+#include "ui/tools/guides.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 
@@ -30,7 +31,7 @@ namespace {
 constexpr double kSpacing = 0.03;
 
 /// From above and in front, at a place of the scene.
-Pointer at(const Vector3& place, const Snapshot* scene = nullptr) {
+Pointer at(const Vector3& place, const SnapshotPtr& scene = nullptr) {
   Pointer pointer;
   pointer.ray.origin = Vector3(0, 1, 1);
   pointer.ray.direction = (place - pointer.ray.origin).normalized();
@@ -151,10 +152,10 @@ class TestTools : public QObject {
     QTRY_VERIFY(m_engine->snapshot());
     const size_t particles = m_engine->snapshot()->id.size();
     const SnapshotPtr now = m_engine->snapshot();
-    Pointer pointer = at({0.15, 0, 0.15}, now.get());
+    Pointer pointer = at({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
     QCOMPARE(refused.count(), 0);
-    pointer = at({0.2, 0, 0.2}, now.get());
+    pointer = at({0.2, 0, 0.2}, now);
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QCOMPARE(refused.count(), 1);
@@ -214,10 +215,10 @@ class TestTools : public QObject {
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
     const SnapshotPtr now = m_engine->snapshot();
-    Pointer pointer = at({0.15, 0, 0.15}, now.get());
+    Pointer pointer = at({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
     pointer =
-        at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now.get());  // less than a sample's way
+        at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QVERIFY2(refused.isEmpty(), qPrintable(refused.value(0).value(1).toString()));
@@ -273,6 +274,124 @@ class TestTools : public QObject {
     QCOMPARE(again.added.size(), cells);
     m_document->undoStack().undo();
     QCOMPARE(m_document->project().bodies.size(), size_t{1});
+  }
+
+  void strokesLieOnAPlaneInTheAir() {
+    setBrush("particle");
+    setGuide("draw_on", std::string("level"));
+    setGuide("plane_at", 0.31);
+    draw({{0.1, 0.31, 0.1}, {0.2, 0.31, 0.1}});
+    const auto& drawn = sketch();
+    for (const VoxelShape::Run& run : drawn.runs) QCOMPARE(run.y, int(std::floor(0.31 / kSpacing)));
+    QCOMPARE(drawn.strokes[0].up, Vector3(0, 1, 0));  // seen from above
+    // From below the horizon no level plane is met: nothing is drawn, and nothing is said.
+    Pointer up = at({0.1, 0.31, 0.1});
+    up.ray.direction.y() = std::abs(up.ray.direction.y());
+    m_tools->tool().hover(up);
+    QVERIFY(!m_tools->tool().picture().cursor);
+    setGuide("draw_on", std::string("across_z"));
+    setGuide("plane_at", 0.05);
+    draw({{0.1, 0.2, 0.05}, {0.1, 0.3, 0.05}});
+    for (const VoxelShape::Run& run : sketch().runs) QCOMPARE(run.z, 1);
+    QCOMPARE(sketch().strokes[0].up, Vector3(0, 0, 1));
+  }
+
+  void shiftDrawsStraight() {
+    setBrush("particle");
+    setGuide("draw_on", std::string("level"));
+    setGuide("plane_at", 0.3);
+    m_tools->activate(kBrushTool);
+    Tool& tool = m_tools->tool();
+    const auto held = [](const Vector3& place) {
+      Pointer pointer = at(place);
+      pointer.shift = true;
+      return pointer;
+    };
+    QVERIFY(tool.press(held({0, 0.3, 0})));
+    for (int k = 1; k <= 20; ++k) tool.drag(held({0.012 * k, 0.3, 0.02 * std::sin(k)}));
+    tool.release(held({0.24, 0.3, 0}));
+    for (const VoxelShape::Run& run : sketch().runs) QCOMPARE(run.z, 0);
+    QVERIFY(sketch().runs[0].length >= 8);
+  }
+
+  void aSteadyHandTrailsBehind() {
+    setBrush("particle");
+    setGuide("draw_on", std::string("level"));
+    setGuide("steady", 0.1);
+    draw({{0, 0, 0}, {0.05, 0, 0.05}, {0.3, 0, 0}});
+    const auto& samples = sketch().strokes[0].samples;
+    QCOMPARE(samples[1][0], samples[0][0]);                     // the line was slack
+    QVERIFY(std::abs(samples.back()[0] - 0.2) < 1e-9);          // 0.1 m behind
+    QVERIFY(std::abs(samples.back()[2]) < 1e-9);                // and nothing of the tremor
+  }
+
+  void aMirrorDrawsBothSidesAndIsKept() {
+    setBrush("sphere");
+    setGuide("mirror", std::string("x"));
+    draw({{0.2, 0, 0.15}, {0.2, 0, 0.2}});
+    const auto& shape = sketch();
+    QVERIFY(shape.strokes[0].symmetry && shape.strokes[0].symmetry->mirror == "x");
+    int left = 0, right = 0;
+    for (const VoxelShape::Run& run : shape.runs) (run.x < 0 ? left : right) += run.length;
+    QVERIFY(left > 0);
+    QCOMPARE(left, right);
+    const StrokeEdits again =
+        replayStroke(*m_plugins->brush("sphere"), shape.strokes[0], {shape.origin, shape.spacing});
+    QCOMPARE(int(again.added.size()), left + right);
+    QVERIFY(!guideLines(m_tools->brush(), m_document->project().environment).empty());
+    m_document->undoStack().undo();
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+  }
+
+  /// What is drawn apart can be selected and moved by itself; a stroke that begins on another one goes on with it.
+  void strokesApartAreBodiesOfTheirOwn() {
+    setBrush("particle");
+    draw({{0.1, 0, 0.15}, {0.14, 0, 0.15}});
+    draw({{-0.1, 0, 0.15}, {-0.14, 0, 0.15}});
+    const std::vector<Body>& bodies = m_document->project().bodies;
+    QCOMPARE(bodies.size(), size_t{3});
+    QVERIFY(bodies[1].id != bodies[2].id && bodies[1].name != bodies[2].name);
+    const auto scene = std::make_shared<Snapshot>();
+    scene->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{bodies[1].id});
+    scene->spacing = kSpacing;
+    const auto& first = std::get<VoxelShape>(bodies[1].shape);
+    const VoxelShape::Run run = first.runs[0];
+    const Vector3 centre = SketchGrid{first.origin, first.spacing}.centreOf({run.x, run.y, run.z});
+    scene->position = {{float(centre.x()), float(centre.y()), float(centre.z()), float(kSpacing / 2)}};
+    scene->body = {0};
+    scene->id = {1};
+    draw({centre, centre + Vector3(0, 0, 0.1)}, scene);
+    QCOMPARE(bodies.size(), size_t{3});
+    QCOMPARE(std::get<VoxelShape>(bodies[1].shape).strokes.size(), size_t{2});
+    // Where it has moved away from, another one begins.
+    scene->position[0].y += 0.3F;
+    draw({centre + Vector3(0, 0.3, 0), centre + Vector3(0, 0.3, 0.1)}, scene);
+    QCOMPARE(bodies.size(), size_t{4});
+  }
+
+  /// A sweep that begins beside the matter takes what comes under it, at its depth and not below its own hole.
+  void anEraserTakesWhatIsUnderIt() {
+    const auto scene = std::make_shared<Snapshot>();
+    scene->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"ice"});
+    scene->spacing = kSpacing;
+    for (int k = 0; k < 8; ++k) {
+      scene->position.push_back({0.1F + 0.03F * float(k), 0.3F, 0, float(kSpacing / 2)});
+      scene->body.push_back(0);
+      scene->id.push_back(uint32_t(k));
+    }
+    setBrush("sphere");
+    m_tools->activate("erase");
+    Tool& tool = m_tools->tool();
+    tool.press(at({-0.1, 0, 0}, scene));  // on the floor
+    tool.drag(at({0.1, 0.3, 0}, scene));
+    const auto shown = [&] { return tool.picture().cursor->centre; };
+    QVERIFY(std::abs(shown().y() - 0.31) < 0.02);  // on the row's surface
+    const auto rest = std::make_shared<Snapshot>(*scene);
+    rest->position.erase(rest->position.begin(), rest->position.begin() + 4);
+    rest->body.resize(4);
+    tool.drag(at({0.13, 0.3, 0}, rest));  // where it has just erased
+    QVERIFY(std::abs(shown().y() - 0.31) < 0.02);
+    tool.release(at({0.13, 0.3, 0}, rest));
   }
 
   void pressureReachesTheBrush() {
@@ -399,20 +518,34 @@ class TestTools : public QObject {
   }
 
   void aClickSelectsWhatTheRayHits() {
-    Snapshot scene;
-    scene.bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"ice"});
-    scene.revision = 7;
-    scene.position = {{0, 0, 0, 0.02F}};
-    scene.body = {0};
-    scene.id = {42};
-    m_tools->tool().click(at({0, 0, 0}, &scene));
+    const auto scene = std::make_shared<Snapshot>();
+    scene->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"ice"});
+    scene->revision = 7;
+    scene->position = {{0, 0, 0, 0.02F}};
+    scene->body = {0};
+    scene->id = {42};
+    m_tools->tool().click(at({0, 0, 0}, scene));
     QCOMPARE(m_selection->body(), std::string("ice"));
     QCOMPARE(m_selection->marked(), (std::pair<uint64_t, uint32_t>{7, 42}));
-    m_tools->tool().click(at({0.2, 0, 0}, &scene));
+    m_tools->tool().click(at({0.2, 0, 0}, scene));
     QVERIFY(m_selection->empty() && !m_selection->marked());
   }
 
  private:
+  void setGuide(const std::string& key, const Value& value) {
+    BrushSettings brush = m_tools->brush();
+    setValueOf(brush, key, value);
+    QCOMPARE(valuesOf(brush).values.at(key), value);
+    m_tools->setBrush(brush);
+  }
+  /// One stroke along places.
+  void draw(const std::vector<Vector3>& places, const SnapshotPtr& scene = nullptr) {
+    m_tools->activate(kBrushTool);
+    QVERIFY(m_tools->tool().press(at(places.front(), scene)));
+    for (size_t k = 1; k < places.size(); ++k) m_tools->tool().drag(at(places[k], scene));
+    m_tools->tool().release(at(places.back(), scene));
+  }
+  const VoxelShape& sketch() const { return std::get<VoxelShape>(m_document->project().bodies.back().shape); }
   void setBrush(const std::string& shape, const std::string& key = {}, double value = 0) {
     BrushSettings brush = m_tools->brush();
     brush.shape = shape;

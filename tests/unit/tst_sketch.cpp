@@ -2,7 +2,9 @@
 #include "core/base/error.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
+#include "core/sketch/redraw.h"
 #include "core/sketch/stroke.h"
+#include "core/sketch/symmetry.h"
 
 #include <QTest>
 
@@ -67,7 +69,7 @@ class GreedyBrush final : public api::BrushPlugin {
 };
 
 StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) {
-  return {{x, y, z}, pressure, time};
+  return {{x, y, z}, pressure, time, {}};
 }
 
 double distance(const StrokeSample& a, const StrokeSample& b) {
@@ -270,6 +272,53 @@ class TestSketch : public QObject {
     QVERIFY(cells == cellsOf({{7, 7, 7}}));
   }
 
+  void denseSamplesKnowTheWay() {
+    const std::vector<StrokeSample> raw{at(0, 0, 0), at(2.5, 0, 0), at(2.5, 3, 0)};
+    const std::vector<StrokeSample> dense = resampleStroke(raw, 1.0);
+    QCOMPARE(dense.size(), size_t(7));  // 0 .. 5 and the end at 5.5
+    const auto direction = [&](size_t k) { return vectorOf(dense[k].direction); };
+    QCOMPARE(direction(0), Vector3(0, 0, 0));  // it has not moved yet
+    for (const size_t k : {1u, 2u}) QCOMPARE(direction(k), Vector3(1, 0, 0));
+    for (const size_t k : {3u, 4u, 5u, 6u}) QCOMPARE(direction(k), Vector3(0, 1, 0));
+    // A hand that stands still goes on as it went.
+    StrokeResampler resampler(1.0);
+    for (const StrokeSample& s : {at(0, 0, 0), at(0.5, 0, 0), at(0.5, 0, 0)}) resampler.add(s);
+    const std::vector<StrokeSample> end = resampler.finish();
+    QCOMPARE(end.size(), size_t(1));
+    QCOMPARE(vectorOf(end[0].direction), Vector3(1, 0, 0));
+  }
+
+  void copiesLieInTheMirrorAndAboutTheAxis() {
+    VoxelShape::Symmetry symmetry;
+    QCOMPARE(imagesOf(symmetry).size(), size_t(1));
+    symmetry.centre = Vector3(1, 0, 0);
+    symmetry.turns = 4;
+    const Vector3 place(3, 5, 0);
+    const std::vector<SketchImage> turned = imagesOf(symmetry);
+    QCOMPARE(turned.size(), size_t(4));
+    const Vector3 about[] = {{3, 5, 0}, {1, 5, -2}, {-1, 5, 0}, {1, 5, 2}};
+    for (size_t k = 0; k < 4; ++k) QVERIFY((turned[k].of(place) - about[k]).norm() < 1e-12);
+    symmetry.mirror = "y";
+    const std::vector<SketchImage> both = imagesOf(symmetry);
+    QCOMPARE(both.size(), size_t(8));
+    for (size_t k = 0; k < 4; ++k)
+      QVERIFY((both[4 + k].of(place) - about[k].cwiseProduct(Vector3(1, -1, 1))).norm() < 1e-12);
+    // Directions turn, but do not move.
+    const std::vector<StrokeSample> image = imageOf({{{3, 5, 0}, 1, 0, {1, 0, 0}}}, turned[1]);
+    QVERIFY((vectorOf(image[0].direction) - Vector3(0, 0, -1)).norm() < 1e-12);
+  }
+
+  void aStrokeIsDrawnWithItsCopies() {
+    StrokeSetup setup{{{0.5, 0.5, 0.5}, 1.0}, 2, {0, 1, 0}, {}};
+    setup.symmetry = VoxelShape::Symmetry{"x", 1, Vector3(0, 0, 0)};
+    const std::vector<StrokeSample> samples{at(5.3, 0.2, 0.7)};
+    const CellSet cells = applyBrush(BallBrush(), setup, EditKind::Add, samples).added;
+    setup.symmetry.reset();
+    const CellSet alone = applyBrush(BallBrush(), setup, EditKind::Add, samples).added;
+    QCOMPARE(cells.size(), 2 * alone.size());
+    for (const Cell& cell : alone.cells()) QVERIFY(cells.contains(cell) && cells.contains({-1 - cell.x, cell.y, cell.z}));
+  }
+
   void savedStrokeIsDrawnAgain() {
     VoxelShape::Stroke stroke;
     stroke.radius = 2;
@@ -280,6 +329,43 @@ class TestSketch : public QObject {
     QVERIFY(!edits.added.contains({13, 0, 0}));
     stroke.erase = true;
     QVERIFY(replayStroke(BallBrush(), stroke, grid).removed == edits.added);
+  }
+
+  void aSketchIsDrawnAgainFromItsStrokes() {
+    const BallBrush ball;
+    const BrushOf brushOf = [&](const std::string& id) { return id == "ball" ? &ball : nullptr; };
+    VoxelShape::Stroke stroke;
+    stroke.brush = "ball";
+    stroke.radius = 3;
+    stroke.palette = 1;
+    stroke.samples = {{0, 0, 0, 1, 0}, {8, 0, 0, 1, 1}};
+    VoxelShape::Stroke eraser = stroke;
+    eraser.erase = true;
+    eraser.radius = 1;
+    eraser.samples = {{4, 3, 0, 1, 0}};
+    VoxelShape shape;
+    shape.spacing = 1;
+    shape.strokes = {stroke, eraser};
+    shape.runs = {{40, 40, 40, 1, 0}};  // of no stroke
+    const SketchGrid grid{{0, 0, 0}, 1.0};
+    const VoxelShape again = redrawn(shape, 1, {}, brushOf);
+    CellSet cells = replayStroke(ball, stroke, grid).added;
+    QVERIFY(cells.contains({4, 3, 0}));
+    cells.remove(replayStroke(ball, eraser, grid).removed.cells());
+    QVERIFY(VoxelCanvas(again.runs).cells() == cells);
+    for (const VoxelShape::Run& run : again.runs) QCOMPARE(run.palette, 1);
+    // What others hold stays free; the order of strokes counts; half the spacing has eight times the cells, nearly.
+    const CellSet taken = cellsOf({{0, 0, 0}, {1, 0, 0}});
+    QCOMPARE(VoxelCanvas(redrawn(shape, 1, taken, brushOf).runs).size(), cells.size() - 2);
+    std::swap(shape.strokes[0], shape.strokes[1]);
+    QCOMPARE(VoxelCanvas(redrawn(shape, 1, {}, brushOf).runs).size(), replayStroke(ball, stroke, grid).added.size());
+    shape.strokes.pop_back();
+    shape.strokes[0] = stroke;
+    const double coarse = static_cast<double>(VoxelCanvas(redrawn(shape, 0.5, {}, brushOf).runs).size());
+    const double fine = static_cast<double>(VoxelCanvas(redrawn(shape, 0.25, {}, brushOf).runs).size());
+    QVERIFY2(std::abs(fine / coarse - 8) < 0.8, qPrintable(QString::number(fine / coarse)));  // the rim's cells: 1 / 12
+    shape.strokes[0].brush = "gone";
+    QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, {}, brushOf), InputError);
   }
 
   void rayMeetsThePlane_data() {

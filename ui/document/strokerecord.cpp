@@ -92,8 +92,12 @@ void apply(Project& project, const CellsEdit& edit, bool forward) {
     canvas.restore(changed);
   }
   voxels->runs = canvas.runs();
-  if (edit.stroke && forward) voxels->strokes.push_back(*edit.stroke);
-  if (edit.stroke && !forward) voxels->strokes.pop_back();
+  auto& strokes = voxels->strokes;
+  if (forward) {
+    strokes.insert(strokes.end(), edit.strokes.begin(), edit.strokes.end());
+  } else {
+    strokes.resize(strokes.size() - std::min(strokes.size(), edit.strokes.size()));
+  }
 }
 
 /// Where cells lie, with a rim of one cell.
@@ -183,7 +187,7 @@ SceneEdit paintEdit(const Project& project, const Body& painted, const std::vect
   const Body& body = found == project.bodies.end() ? painted : *found;
   VoxelCanvas canvas(std::get<VoxelShape>(body.shape).runs);
   const CellSet filled = canvas.paint(cellSet(cells), palette);
-  if (found != project.bodies.end()) return CellsEdit{body.id, false, encodeRuns(filled, palette), stroke};
+  if (found != project.bodies.end()) return CellsEdit{body.id, false, encodeRuns(filled, palette), {stroke}};
   Body made = painted;
   auto& voxels = std::get<VoxelShape>(made.shape);
   voxels.runs = canvas.runs();
@@ -192,7 +196,8 @@ SceneEdit paintEdit(const Project& project, const Body& painted, const std::vect
 }
 
 std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,
-                                   const std::vector<CellIndex>& cells) {
+                                   const std::vector<CellIndex>& cells,
+                                   const std::vector<VoxelShape::Stroke>& strokes) {
   const CellBounds bounds(lattice, cells);
   if (centresWithin(body, lattice.spacing, bounds).empty()) return std::nullopt;
   const auto* own = std::get_if<VoxelShape>(&body.shape);
@@ -213,7 +218,8 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   if (hit.empty()) return std::nullopt;
   const VoxelCanvas erased = canvas.erase(CellSet(hit));
   if (canvas.empty()) return BodyEdit{body.id, body, std::nullopt, index};
-  if (stays) return CellsEdit{body.id, true, erased.runs(), std::nullopt};
+  const bool drawn = !voxels.strokes.empty();
+  if (stays) return CellsEdit{body.id, true, erased.runs(), drawn ? strokes : std::vector<VoxelShape::Stroke>{}};
   std::get<VoxelShape>(rest->shape).runs = canvas.runs();
   return BodyEdit{body.id, body, std::move(rest), index};
 }

@@ -24,8 +24,8 @@ struct BodyEdit {
 struct CellsEdit {
   std::string id;
   bool erase = false;
-  std::vector<VoxelShape::Run> cells;        ///< added, or erased
-  std::optional<VoxelShape::Stroke> stroke;  ///< noted with what is added
+  std::vector<VoxelShape::Run> cells;       ///< added, or erased
+  std::vector<VoxelShape::Stroke> strokes;  ///< that did it, noted with the body's earlier ones
 };
 using SceneEdit = std::variant<BodyEdit, CellsEdit>;
 
@@ -49,9 +49,10 @@ const std::string& bodyOf(const SceneEdit& edit);
 SceneEdit paintEdit(const Project& project, const Body& painted, const std::vector<std::array<int, 3>>& cells,
                     int palette, const VoxelShape::Stroke& stroke);
 /// Takes the cells of `lattice` out of a body, the project's at `index`; boxes become cells first. Nothing when it
-/// holds none of them.
+/// holds none of them. A body that was drawn by strokes keeps the erasing ones as well.
 std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,
-                                   const std::vector<std::array<int, 3>>& cells);
+                                   const std::vector<std::array<int, 3>>& cells,
+                                   const std::vector<VoxelShape::Stroke>& strokes = {});
 /// Cells by palette entry that an erasing edit took, on the lattice of asVoxels(body, spacing); `spacing`: of the
 /// lattice that erased.
 std::vector<std::vector<std::array<int, 3>>> takenCells(const SceneEdit& edit, double spacing);

@@ -7,6 +7,8 @@
 #include "ui/session/selection.h"
 #include "ui/tools/toolbox.h"
 
+#include <iterator>
+
 namespace ps {
 namespace {
 
@@ -17,23 +19,14 @@ using api::Scale;
 const QString kShape = QStringLiteral("shape");
 const QString kOwn = QStringLiteral("brush/");  // before the keys of the chosen brush's own parameters
 
-// key, label, symbol, unit, kind, scale, default, minimum, maximum, hardMinimum, hardMaximum,
-// displayUnit, displayScale, displayOffset, choices, group, help, example, source
-constexpr ParameterDeclaration kBrush[] = {
-    {"radius", "Radius", "r", "m", ParameterKind::Number, Scale::Logarithmic, 0.05, kBrushMinimum, 0.3, kBrushMinimum,
-     kBrushMaximum, "mm", 1000, 0, "", "Brush",
-     "Half the brush's width; the outline under the pointer shows it true to scale.", "a finger 10 mm, a fist 50 mm",
-     ""},
-    {"temperature", "Temperature", "T", "K", ParameterKind::Number, Scale::Linear, 293.15, 173.15, 773.15, 1, 10000,
-     "°C", 1, -273.15, "", "New matter",
-     "Temperature of what is drawn; below its melting point it is drawn as a solid that holds together.",
-     "ice from a freezer −18 °C, room 20 °C, hot oil 180 °C", ""},
-};
-
-ParameterSet commonValues(const BrushSettings& brush) {
-  ParameterSet set;
-  set.values = {{"radius", brush.radius}, {"temperature", brush.temperature}};
-  return set;
+/// What the choices of a row are called.
+QStringList labelsOf(const QString& key) {
+  if (key == QLatin1String("draw_on"))
+    return {QStringLiteral("Surfaces"), QStringLiteral("A level plane"), QStringLiteral("An upright plane across x"),
+            QStringLiteral("An upright plane across z"), QStringLiteral("A plane that faces the view")};
+  if (key == QLatin1String("mirror"))
+    return {QStringLiteral("None"), QStringLiteral("Across x"), QStringLiteral("Across y"), QStringLiteral("Across z")};
+  return {};
 }
 
 }  // namespace
@@ -100,10 +93,11 @@ RowModel BrushPanel::shapeRow() const {
 void BrushPanel::rebuild() {
   const BrushSettings& brush = m_tools.brush();
   std::vector<RowModel> rows{shapeRow()};
-  std::vector<RowModel> common = rowModels(api::listOf(kBrush), commonValues(brush));
-  rows.push_back(std::move(common[0]));
+  std::vector<RowModel> common = rowModels(brushParameters(), valuesOf(brush));
+  for (RowModel& row : common) row.choiceLabels = labelsOf(row.key);
+  rows.push_back(std::move(common.front()));
   for (RowModel& own : rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn)) rows.push_back(std::move(own));
-  rows.push_back(std::move(common[1]));
+  rows.insert(rows.end(), std::make_move_iterator(common.begin() + 1), std::make_move_iterator(common.end()));
   setModel(std::move(rows));
 }
 
@@ -116,12 +110,14 @@ void BrushPanel::refresh() {
     m_shown = shown;
     rebuild();
   }
-  for (const auto& [key, value] : commonValues(brush).values) setValue(QString::fromStdString(key), value);
-  const ParameterSet set = brush.shapeParameters();
-  for (const RowModel& own : rowModels(ownParameters(), set, {}, kOwn)) {
-    setValue(own.key, own.value);
-    setDisabledReason(own.key, own.disabledReason);
-  }
+  const auto show = [this](const std::vector<RowModel>& models) {
+    for (const RowModel& row : models) {
+      setValue(row.key, row.value);
+      setDisabledReason(row.key, row.disabledReason);
+    }
+  };
+  show(rowModels(brushParameters(), valuesOf(brush)));
+  show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
   showMaterial();
 }
 
@@ -137,12 +133,10 @@ void BrushPanel::onEdited(const QString& key, const Value& value, Edit edit) {
   BrushSettings brush = m_tools.brush();
   if (key == kShape) {
     brush.shape = std::get<std::string>(value);
-  } else if (key == QLatin1String("radius")) {
-    brush.radius = std::get<double>(value);
-  } else if (key == QLatin1String("temperature")) {
-    brush.temperature = std::get<double>(value);
   } else if (key.startsWith(kOwn)) {
     brush.parameters[brush.shape].values[key.mid(kOwn.size()).toStdString()] = value;
+  } else {
+    setValueOf(brush, key.toStdString(), value);
   }
   m_tools.setBrush(brush);
 }

@@ -64,13 +64,13 @@ Role roleOf(const SceneWall& wall) {
   return up > 0.7 ? Role::Floor : up < -0.7 ? Role::Lid : Role::Side;
 }
 
-void addEdge(Furniture& out, const Vector3& a, const Vector3& b, double opacityA, double opacityB) {
+void addFaded(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, double opacityA, double opacityB) {
   const auto end = [&](const Vector3& here, const Vector3& there, double opacity, float side, float turn) {
     return EdgeVertex{floats(here), floats(there), {side * turn, static_cast<float>(opacity), side, 0}};
   };
   const EdgeVertex corners[4] = {end(a, b, opacityA, -1, 1), end(a, b, opacityA, 1, 1), end(b, a, opacityB, 1, -1),
                                  end(b, a, opacityB, -1, -1)};
-  for (const size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) out.edges.push_back(corners[k]);
+  for (const size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) out.push_back(corners[k]);
 }
 
 // The edges of a pane from the floor up to a lid, or fading out where the bounds are its only upper end.
@@ -87,7 +87,7 @@ void addPane(Furniture& out, const Face& face, double top, bool open) {
     if (level && std::min(a[1], b[1]) < out.floor + 1e-6) continue;  // the rim is there
     // Upright edges belong to two panes and get half from each.
     const double opacity = level ? 0.42 : 0.22;
-    addEdge(out, a, b, faded(a) ? 0 : opacity, faded(b) ? 0 : opacity);
+    addFaded(out.edges, a, b, faded(a) ? 0 : opacity, faded(b) ? 0 : opacity);
   }
 }
 
@@ -116,6 +116,10 @@ void placeFloor(Furniture& out, const Environment& environment) {
 }
 
 }  // namespace
+
+void addEdge(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, double opacity) {
+  addFaded(out, a, b, opacity, opacity);
+}
 
 double glowOf(const SceneWall& wall) {
   if (!hasTemperature(wall)) return 0;

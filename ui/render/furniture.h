@@ -17,6 +17,9 @@ struct EdgeVertex {
   std::array<float, 4> ribbon;
 };
 
+/// A thin line, which matter in front of it hides.
+void addEdge(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, double opacity);
+
 /// A convex polygon in space, counter-clockwise as seen from where its normal points.
 struct Face {
   std::vector<Vector3> corners;

@@ -62,6 +62,7 @@ void Passes::uploadPrepared(const Prepared& prepared) {
   const std::vector<Instance>& particles = prepared.instances.particles;
   m_particles.upload(GL_TEXTURE_BUFFER, particles.data(), particles.size() * sizeof(Instance));
   m_contact.upload(ContactMap::kCells, ContactMap::kCells, GL_RGBA, GL_UNSIGNED_BYTE, prepared.contact.texels.data());
+  m_guides.upload(GL_ARRAY_BUFFER, prepared.guides.data(), prepared.guides.size() * sizeof(EdgeVertex));
   if (m_furniture == prepared.furnitureRevision) return;
   m_furniture = prepared.furnitureRevision;
   const Furniture& furniture = prepared.furniture;
@@ -259,6 +260,8 @@ void Passes::drawGlass(const Job& job) {
   glUniform1f(m_programs.edge.at("width"),
               (frame.still ? 2.f : 1.f) * std::max(1.f, static_cast<float>(frame.height) / 1400));
   draw(m_programs.edge, m_edges, prepared.furniture.edges.size());
+  glUniform3fv(m_programs.edge.at("tint"), 1, sceneColour(prepared.look.dark, "guide").data());
+  draw(m_programs.edge, m_guides, prepared.guides.size());
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
 }

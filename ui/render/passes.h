@@ -94,7 +94,7 @@ class Passes {
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
-  Buffer m_particles, m_opaque, m_clear, m_edges;  // of what is prepared
+  Buffer m_particles, m_opaque, m_clear, m_edges, m_guides;  // of what is prepared
   Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles,
       m_ghostTiles;  // of the picture being drawn
   Fence m_fence;     // behind the last call, whose context may have been another

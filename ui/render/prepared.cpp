@@ -36,6 +36,8 @@ void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend,
   data = look.colour != kMatterColour;
   time = static_cast<float>(std::fmod(now.stats.time, 3600));  // so that a float stays precise in long runs
   furnish(scene.environment);
+  guides.clear();
+  for (const GuideLine& line : look.guides) addEdge(guides, line.from, line.to, line.opacity);
   collect(now, previous, blend);
   placeContactMap();
   fitShadow();

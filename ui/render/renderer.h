@@ -37,6 +37,13 @@ struct Ghost {
   bool operator==(const Ghost&) const = default;
 };
 
+/// A thin line that helps to draw: of a grid, a mirror, an axis. Matter in front hides it.
+struct GuideLine {
+  Vector3 from{0, 0, 0}, to{0, 0, 0};  ///< m
+  double opacity = 1;
+  bool operator==(const GuideLine&) const = default;
+};
+
 /// What a picture shows of its snapshot, from wherever it is seen.
 struct Look {
   std::string colour = kMatterColour;         ///< or a field; one that the snapshot has not is no colour
@@ -45,6 +52,7 @@ struct Look {
   double meltingPoint = 273.15;  ///< K, pivot of the temperature map
   std::optional<BodyOutline> outline;
   std::optional<Ghost> ghost;
+  std::vector<GuideLine> guides;
   bool operator==(const Look&) const = default;
 };
 

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/parameters/parameterset.h"
+#include "core/scene/project.h"
 
 #include <QtCore/QString>
 
+#include <array>
 #include <map>
 #include <string>
 
 namespace ps {
+
+/// What a stroke is drawn on.
+enum class DrawOn {
+  Surface,  ///< what is under the pointer: matter, the floor, else a plane that faces the view
+  Level,    ///< a level plane
+  AcrossX,  ///< an upright plane
+  AcrossZ,
+  View,  ///< the plane through what the view looks at, across the way one looks
+};
+inline constexpr std::array kDrawOnNames{"surface", "level", "across_x", "across_z", "view"};
 
 /// How the brush draws; shared by all views and the brush panel.
 struct BrushSettings {
@@ -15,12 +26,22 @@ struct BrushSettings {
   double radius = 0.05;         ///< m
   std::string material;         ///< SceneMaterial::id; "" takes the scene's first
   double temperature = 293.15;  ///< K
+  DrawOn drawOn = DrawOn::Surface;
+  double planeAt = 0;  ///< m, height of the level plane, or place of an upright one along its normal
+  double steady = 0;   ///< m, by which the brush trails behind the pointer, so that the hand's tremor does not show
+  VoxelShape::Symmetry symmetry;
   /// Of each brush by its id: its own parameters that differ from their defaults.
   std::map<std::string, ParameterSet> parameters;
   bool operator==(const BrushSettings&) const = default;
   /// Those of the chosen brush.
   ParameterSet shapeParameters() const;
 };
+
+/// What every brush has: its size, what it draws, on what, and what is drawn along with it.
+api::ParameterList brushParameters();
+ParameterSet valuesOf(const BrushSettings& brush);
+/// Sets one of them; a key that is none is ignored.
+void setValueOf(BrushSettings& brush, const std::string& key, const Value& value);
 
 inline constexpr double kBrushMinimum = 0.005, kBrushMaximum = 0.5;  ///< m
 /// One step of [ and ]: about 12 %.

@@ -20,15 +20,22 @@ void DrawTool::hover(const Pointer& pointer) {
   if (m_stroke.active()) return;
   m_cursor.reset();
   const Environment& environment = box().document().project().environment;
-  const auto surface = surfaceUnder(pointer, environment);
-  if (!surface) return;
   BrushCursor cursor;
-  std::tie(cursor.extent, cursor.box) = box().stamp();
   cursor.erase = m_erases != pointer.control;
   cursor.floor = floorHeight(environment);
-  m_plane = drawingPlaneFor(surface->point, pointer.forward);
-  cursor.centre = surface->point;
-  if (!cursor.erase) {
+  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase) {
+    m_plane = *plane;
+    const auto point = placeOf(pointer);
+    if (!point) return;
+    cursor.centre = *point;
+  } else {
+    const auto surface = surfaceUnder(pointer, environment);
+    if (!surface) return;
+    m_plane = drawingPlaneFor(surface->point, pointer.forward);
+    cursor.centre = surface->point;
+  }
+  std::tie(cursor.extent, cursor.box) = box().stamp(m_plane.normal);
+  if (!cursor.erase && box().brush().drawOn == DrawOn::Surface) {
     // A brush stands on the surface instead of half inside it.
     cursor.centre += m_plane.normal.cwiseProduct(cursor.extent);
     m_plane.point = cursor.centre;
@@ -40,9 +47,12 @@ bool DrawTool::press(const Pointer& pointer) {
   hover(pointer);
   if (!m_cursor) return true;  // nothing to draw on, and nothing to turn
   m_began = pointer.seconds;
+  m_before = m_cursor->erase ? pointer.scene : nullptr;
+  m_straight.stop();
+  m_trail.start(m_cursor->centre);
   static const Snapshot kNothing;
-  const QString problem =
-      m_stroke.begin(m_cursor->erase, pointer.scene ? *pointer.scene : kNothing, m_cursor->centre, pointer.pressure);
+  const QString problem = m_stroke.begin(m_cursor->erase, pointer.scene ? *pointer.scene : kNothing, m_cursor->centre,
+                                         m_plane.normal, pointer.pressure);
   if (problem.isEmpty()) return true;
   m_stroke.cancel();
   refuse(problem);
@@ -60,23 +70,64 @@ std::optional<Vector3> DrawTool::placeOf(const Pointer& pointer) const {
   return outside ? std::nullopt : point;
 }
 
+/// The nearer one of what is there and of what was there when the stroke began: what has come since is taken too, and a
+/// hole that the stroke has made counts as closed.
+std::optional<Vector3> DrawTool::matterUnder(const Pointer& pointer) const {
+  std::optional<Vector3> nearest;
+  for (const SnapshotPtr& scene : {m_before, pointer.scene}) {
+    Pointer looking = pointer;
+    looking.scene = scene;
+    const auto point = matterOn(looking);
+    const auto away = [&](const Vector3& p) { return (p - pointer.ray.origin).squaredNorm(); };
+    if (point && (!nearest || away(*point) < away(*nearest))) nearest = point;
+  }
+  return nearest;
+}
+
+/// Whether the way from the last place leads along what is seen: not where one thing hides another one.
+bool DrawTool::isJoined(const Vector3& point, const Pointer& pointer) const {
+  const Vector3 way = point - m_cursor->centre, look = pointer.ray.direction;
+  const double depth = std::abs(way.dot(look)), aside = (way - way.dot(look) * look).norm();
+  return depth <= 2 * box().brush().radius + 2 * aside;
+}
+
 void DrawTool::drag(const Pointer& pointer) {
-  if (!m_stroke.active()) return;
+  if (!m_stroke.active() || !m_cursor) return;
+  if (m_cursor->erase) {
+    if (const auto matter = matterUnder(pointer)) {
+      if (!isJoined(*matter, pointer))
+        if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return refuse(problem);
+      m_plane = drawingPlaneFor(*matter, pointer.forward);
+      draw(*matter, pointer);
+      return;
+    }
+  }
   const auto point = placeOf(pointer);
   if (!point) return;
-  if (m_cursor) m_cursor->centre = *point;
-  const QString problem = m_stroke.move(*point, pointer.seconds - m_began, pointer.pressure);
+  if (pointer.shift != m_straight.active()) {
+    pointer.shift ? m_straight.start(m_cursor->centre) : m_straight.stop();
+    m_trail.start(m_cursor->centre);
+  }
+  const Vector3 straight = m_straight.place(*point, m_plane, box().spacing());
+  draw(m_trail.follow(straight, box().brush().steady), pointer);
+}
+
+void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
+  m_cursor->centre = point;
+  const QString problem = m_stroke.move(point, pointer.seconds - m_began, pointer.pressure);
   if (problem.isEmpty()) return;
   m_stroke.finish();  // as far as it came
   refuse(problem);
 }
 
 void DrawTool::release(const Pointer&) {
+  m_before.reset();
   if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
 }
 
 bool DrawTool::cancel() {
   const bool busy = m_stroke.active();
+  m_before.reset();
   m_stroke.cancel();
   return busy;
 }
@@ -87,7 +138,7 @@ ToolPicture DrawTool::picture() const {
   ToolPicture picture;
   picture.pointer = PointerShape::Hidden;  // the brush itself is the pointer
   picture.cursor = m_cursor;
-  if (picture.cursor) std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp();
+  if (picture.cursor) std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp(m_plane.normal);
   return picture;
 }
 
@@ -111,6 +162,7 @@ std::vector<Gesture> DrawTool::gestures() const {
   std::vector<Gesture> list{m_erases ? erase : draw, m_erases ? draw : erase};
   list[0].keys = QStringLiteral("Drag");
   list[1].keys = QStringLiteral("Ctrl+Drag");
+  if (!m_erases) list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
   return list;
 }
 

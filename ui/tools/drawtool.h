@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/sketch/drawingplane.h"
+#include "ui/tools/guides.h"
 #include "ui/tools/livestroke.h"
 #include "ui/tools/tool.h"
 
 namespace ps {
 
-/// Draws matter with the brush; Control erases instead. A stroke stays on the plane on which it began.
+/// Draws matter with the brush; Control erases instead. A stroke stays on the plane on which it began; an eraser takes
+/// what is under the pointer, as the scene was when it was pressed, so that it does not dig into its own hole.
 class DrawTool : public Tool {
  public:
   explicit DrawTool(Toolbox& box) : DrawTool(box, false) {}
@@ -27,11 +29,17 @@ class DrawTool : public Tool {
 
  private:
   std::optional<Vector3> placeOf(const Pointer& pointer) const;
+  std::optional<Vector3> matterUnder(const Pointer& pointer) const;
+  bool isJoined(const Vector3& point, const Pointer& pointer) const;
+  void draw(const Vector3& point, const Pointer& pointer);
   void refuse(const QString& why);
 
   const bool m_erases;
   LiveStroke m_stroke;
   DrawingPlane m_plane;
+  SnapshotPtr m_before;  ///< the scene when an eraser was pressed
+  Straightener m_straight;
+  Trailing m_trail;
   double m_began = 0;  ///< s, on the pointer's clock
   std::optional<BrushCursor> m_cursor;
 };

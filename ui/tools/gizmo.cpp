@@ -117,7 +117,7 @@ std::optional<GizmoPart> partAt(const Gizmo& gizmo, const Pointer& pointer) {
 
 GizmoGrip::GizmoGrip(const Gizmo& gizmo, const GizmoPart& part, const Pointer& pressed)
     : m_gizmo(gizmo), m_part(part), m_pressed(pressed), m_arm(armOf(pressed, gizmo.centre)) {
-  m_pressed.scene = nullptr;  // lives no longer than this call
+  m_pressed.scene = nullptr;  // its memory is not held meanwhile
   if (part.kind == Part::Arm) m_from = along(pressed.ray);
   m_last = onPlane(pressed.ray).value_or(gizmo.centre);
 }

@@ -71,7 +71,7 @@ std::optional<Gizmo> GizmoTool::gizmo(const Placeable& things) const {
 void GizmoTool::see(const Snapshot* scene) { m_matter = matterOf(scene, box().selection().bodies()); }
 
 void GizmoTool::hover(const Pointer& pointer) {
-  m_matter = matterOf(pointer.scene, box().selection().bodies());
+  m_matter = matterOf(pointer.scene.get(), box().selection().bodies());
   const auto shown = gizmo(selected());
   m_hovered = shown ? partAt(*shown, pointer) : std::nullopt;
   if (m_hovered)
@@ -87,7 +87,7 @@ bool GizmoTool::press(const Pointer& pointer) {
   if (!shown || !m_hovered) return m_select.press(pointer);
   m_grip.emplace(*shown, *m_hovered, pointer);
   m_pressed = pointer;
-  m_pressed->scene = nullptr;  // lives no longer than this call
+  m_pressed->scene = nullptr;  // its memory is not held meanwhile
   m_before = placementOf(box().document(), things);
   m_matterBefore = m_matter;
   m_dragged = m_grip->exactly(m_kind == Kind::Scale ? 1 : 0);

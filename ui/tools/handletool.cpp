@@ -23,7 +23,7 @@ bool HandleTool::press(const Pointer& pointer) {
   if (!handle) return false;
   Document& document = box().document();
   m_grip = Grip{*handle, Emitter{}, pointer};
-  m_grip->pressed.scene = nullptr;  // lives no longer than this call
+  m_grip->pressed.scene = nullptr;  // its memory is not held meanwhile
   if (handle->port.sink) {
     m_grip->before = *document.sink(handle->port.id);
   } else {

@@ -34,30 +34,60 @@ bool takesMore(const Body& body, const std::string& material, double temperature
 
 }  // namespace
 
-StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing) {
+StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing, const Vector3& up) {
   StrokeSetup s;
   s.grid.spacing = spacing;
   // Cells stand on the level y = 0, half a spacing above it.
   s.grid.origin = {s.grid.spacing / 2, s.grid.spacing / 2, s.grid.spacing / 2};
   s.radius = brush.radius;
+  s.up = up;
+  if (brush.symmetry.turns > 1 || brush.symmetry.mirror != "none") s.symmetry = brush.symmetry;
   s.parameters = numbersOf(brush.shapeParameters(), plugins.parameters(brush.shape));
   return s;
 }
 
-Body LiveStroke::paintedBody(int& palette) const {
+/// The sketched body that takes more of the same matter and has some within the stamp at a place, where the document has
+/// it: what moved away goes on without what is drawn where it was.
+const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const {
+  if (!now.bodyIds) return nullptr;
+  const std::vector<Body>& bodies = m_box.document().project().bodies;
+  std::vector<const Body*> takers(now.bodyIds->size());
+  for (size_t b = 0; b < takers.size(); ++b) {
+    const auto found =
+        std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
+    if (found != bodies.end() && takesMore(*found, material, m_brush.temperature, m_setup.grid)) takers[b] = &*found;
+  }
+  const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
+  for (size_t i = 0; i < now.position.size(); ++i) {
+    const Body* body = now.body[i] < takers.size() ? takers[now.body[i]] : nullptr;
+    const Vector3 place = vectorOf(now.position[i]);
+    if (!body || ((place - point).cwiseAbs().array() > reach.array()).any()) continue;
+    const api::Cell cell = m_setup.grid.cellAt(place);
+    const auto holds = [&](const VoxelShape::Run& run) {
+      return run.y == cell.y && run.z == cell.z && run.x <= cell.x && cell.x < run.x + run.length;
+    };
+    const auto& runs = std::get<VoxelShape>(body->shape).runs;
+    if (std::any_of(runs.begin(), runs.end(), holds)) return body;
+  }
+  return nullptr;
+}
+
+Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& palette) const {
   const BrushSettings& brush = m_brush;
   const Document& document = m_box.document();
   const Project& project = document.project();
   const SceneMaterial* material = sceneMaterial(project, brush.material);
   palette = 0;
-  for (const Body& body : project.bodies) {
-    if (takesMore(body, material->id, brush.temperature, m_setup.grid)) return body;
-  }
+  if (const Body* body = bodyAt(now, point, material->id)) return *body;
   Body body;
   body.id = m_box.document().freeBodyId("sketch-" + material->id);
   const std::string label = material->label.empty() ? material->id : material->label;
   body.name = "Sketched " + label;
   body.name[9] = static_cast<char>(std::tolower(static_cast<unsigned char>(body.name[9])));
+  const std::string first = body.name;
+  const auto named = [&](const Body& other) { return other.name == body.name; };
+  for (int n = 2; std::any_of(project.bodies.begin(), project.bodies.end(), named); ++n)
+    body.name = first + " " + std::to_string(n);
   body.material = material->id;
   body.parameters.values["temperature"] = brush.temperature;
   VoxelShape voxels;
@@ -110,11 +140,12 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now) const {
   return {};
 }
 
-QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, double pressure) {
+QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, double pressure) {
   if (const QString problem = whyNot(erase, now); !problem.isEmpty()) return problem;
   m_brush = m_box.brush();
   m_atStart = now.stats.frame == 0;
-  m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing());
+  m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing(), up);
+  m_fed.reset();
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
   m_record = std::make_shared<StrokeRecord>();
@@ -122,12 +153,15 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_record->lattice.origin = m_setup.grid.origin;
   m_record->lattice.spacing = m_setup.grid.spacing;
   m_stroke = {};
+  m_pieces.clear();
   m_stroke.brush = m_brush.shape;
   m_stroke.parameters = m_brush.shapeParameters();
   m_stroke.erase = erase;
   m_stroke.radius = m_brush.radius;
+  m_stroke.up = up;
+  m_stroke.symmetry = m_setup.symmetry;
   if (!erase) {
-    m_body = std::make_shared<const Body>(paintedBody(m_record->palette));
+    m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
   }
@@ -137,7 +171,7 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
 QString LiveStroke::move(const Vector3& point, double seconds, double pressure) {
   if (!m_record) return {};
   m_stroke.samples.push_back({point[0], point[1], point[2], pressure, seconds});
-  return guarded([&] { feed(m_resampler->add({{point[0], point[1], point[2]}, pressure, seconds})); });
+  return guarded([&] { feed(m_resampler->add({double3Of(point), pressure, seconds, {}})); });
 }
 
 template <class Work>
@@ -168,9 +202,11 @@ bool LiveStroke::isInside(const api::Cell& cell) const {
   return true;
 }
 
-void LiveStroke::feed(const std::vector<api::StrokeSample>& samples) {
+void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (samples.empty() || !plugin) return;
+  if (m_fed) samples.insert(samples.begin(), *m_fed);
+  m_fed = samples.back();
   const bool erase = m_record->erase;
   const api::EditKind kind = erase ? api::EditKind::Remove : api::EditKind::Add;
   const std::optional<StrokeEdits> edits = inTime(
@@ -192,11 +228,22 @@ void LiveStroke::feed(const std::vector<api::StrokeSample>& samples) {
 
 void LiveStroke::collectErasure(StrokeRecord& record) const {
   const Project& project = m_box.document().project();
+  std::vector<VoxelShape::Stroke> strokes = m_pieces;
+  if (!m_stroke.samples.empty()) strokes.push_back(m_stroke);
   for (size_t i = 0; i < project.bodies.size(); ++i) {
     if (project.bodies[i].locked) continue;
-    auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells);
+    auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells, strokes);
     if (edit) record.edits.push_back(std::move(*edit));
   }
+}
+
+QString LiveStroke::lift() {
+  if (!m_record) return {};
+  const QString problem = guarded([&] { feed(m_resampler->finish()); });
+  m_fed.reset();
+  m_pieces.push_back(m_stroke);
+  m_stroke.samples.clear();
+  return problem;
 }
 
 QString LiveStroke::finish() {

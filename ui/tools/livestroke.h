@@ -18,8 +18,10 @@ class Toolbox;
 /// Cells that the box around one stamp of a brush may hold: what can be stamped at every movement of the pointer.
 inline constexpr double kMaximumStamp = 32768;
 
-/// How a brush of these settings draws on a scene of `spacing` m: its own parameters in the order of its declarations.
-StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing);
+/// How a brush of these settings draws on a scene of `spacing` m, and on what lies across `up`: its own parameters in the
+/// order of its declarations.
+StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing,
+                        const Vector3& up = {0, 1, 0});
 
 /// A stroke in the making: takes places along it, lets the brush plugin turn them into cells, sends new cells straight
 /// to the engine, and hands the document one command at the end.
@@ -27,12 +29,16 @@ class LiveStroke {
  public:
   explicit LiveStroke(Toolbox& box) : m_box(box) {}
 
-  /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on.
-  QString begin(bool erase, const Snapshot& now, const Vector3& point, double pressure);
+  /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on; `up`: away
+  /// from what it is drawn on. What is drawn goes on with the sketched body of the same matter that it begins on, where
+  /// there is one, else it is a body of its own.
+  QString begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, double pressure);
   /// "" or what went wrong; the stroke then ends as far as it came, or is given up where the brush failed. `seconds`
   /// since it began.
   QString move(const Vector3& point, double seconds, double pressure);
-  /// "" or what went wrong, as of move().
+  /// The next place is not joined to the last one. "" or what went wrong, as of move().
+  QString lift();
+  /// Likewise.
   QString finish();
   void cancel();
   bool active() const { return m_record != nullptr; }
@@ -41,8 +47,9 @@ class LiveStroke {
  private:
   void keep();
   QString whyNot(bool erase, const Snapshot& now) const;
-  Body paintedBody(int& palette) const;
-  void feed(const std::vector<api::StrokeSample>& samples);
+  Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
+  const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const;
+  void feed(std::vector<api::StrokeSample> samples);
   template <class Work>
   QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
   bool isInside(const api::Cell& cell) const;
@@ -54,9 +61,11 @@ class LiveStroke {
   std::shared_ptr<const Body> m_body;  ///< that an adding stroke paints, as it was before
   bool m_atStart = false;
   std::unique_ptr<StrokeResampler> m_resampler;
+  std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   StrokeSetup m_setup;
   CellSet m_cells;
   VoxelShape::Stroke m_stroke;
+  std::vector<VoxelShape::Stroke> m_pieces;  ///< before it was lifted
 };
 
 }  // namespace ps

@@ -21,7 +21,7 @@ class PlaceTool : public Tool {
   bool press(const Pointer& pointer) override {
     hover(pointer);
     m_pressed = pointer;
-    m_pressed->scene = nullptr;  // lives no longer than this call
+    m_pressed->scene = nullptr;  // its memory is not held meanwhile
     return true;
   }
   void drag(const Pointer& pointer) override { update(pointer); }

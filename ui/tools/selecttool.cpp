@@ -14,7 +14,7 @@ namespace ps {
 bool SelectTool::press(const Pointer& pointer) {
   if (!pointer.control) return m_handles.press(pointer);
   m_corner = pointer;
-  m_corner->scene = nullptr;  // lives no longer than this call
+  m_corner->scene = nullptr;  // its memory is not held meanwhile
   return true;
 }
 
@@ -58,7 +58,7 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
   };
   const Project& project = box().document().project();
   std::vector<SelectedItem> items;
-  if (const Snapshot* scene = to.scene; scene && scene->bodyIds) {
+  if (const Snapshot* scene = to.scene.get(); scene && scene->bodyIds) {
     std::vector<uint8_t> seen(scene->bodyIds->size());
     for (size_t i = 0; i < scene->position.size(); ++i) {
       const uint32_t body = scene->body[i];

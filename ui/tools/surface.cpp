@@ -46,16 +46,18 @@ double shownSpacing(const Pointer& pointer, double fallback) {
   return pointer.scene && pointer.scene->spacing > 0 ? pointer.scene->spacing : fallback;
 }
 
+std::optional<Vector3> matterOn(const Pointer& pointer) {
+  const Ray& ray = pointer.ray;
+  const auto hit = pointer.scene ? pickParticle(*pointer.scene, ray) : std::nullopt;
+  if (!hit) return std::nullopt;
+  const api::Float4& p = pointer.scene->position[*hit];
+  const double along = (vectorOf(p) - ray.origin).dot(ray.direction) - static_cast<double>(p.w);
+  return ray.origin + along * ray.direction;
+}
+
 std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment) {
   const Ray& ray = pointer.ray;
-  if (pointer.scene) {
-    if (const auto hit = pickParticle(*pointer.scene, ray)) {
-      const api::Float4& p = pointer.scene->position[*hit];
-      const double along = (vectorOf(p) - ray.origin).dot(ray.direction) - static_cast<double>(p.w);
-      const Vector3 point = ray.origin + along * ray.direction;
-      return Surface{point, normalAt(*pointer.scene, point)};
-    }
-  }
+  if (const auto point = matterOn(pointer)) return Surface{*point, normalAt(*pointer.scene, *point)};
   const auto floor = meet(ray, {{0, floorHeight(environment), 0}, {0, 1, 0}});
   const auto within = [&](int axis) {
     return (*floor)[axis] >= environment.boundsMinimum[axis] && (*floor)[axis] <= environment.boundsMaximum[axis];

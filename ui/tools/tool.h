@@ -28,7 +28,7 @@ struct Pointer {
   double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
   double seconds = 0;         ///< on any clock that runs on
   bool shift = false, control = false, alt = false;
-  const Snapshot* scene = nullptr;  ///< as the view shows it; nullptr: nothing yet
+  SnapshotPtr scene;                ///< as the view shows it; nullptr: nothing yet
 };
 
 /// The brush under the pointer.

@@ -93,27 +93,22 @@ double Toolbox::spacing() const {
   return numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
 }
 
-std::pair<Vector3, bool> Toolbox::stamp() {
+std::pair<Vector3, bool> Toolbox::stamp(const Vector3& up) {
   const PluginRegistry* plugins = m_document.plugins();
   const api::BrushPlugin* plugin = plugins ? plugins->brush(m_brush.shape) : nullptr;
   if (!plugin) return {Vector3::Constant(m_brush.radius), false};
-  const StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing());
+  const StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing(), up);
   if (m_stamp.brush == m_brush.shape && m_stamp.spacing == setup.grid.spacing && m_stamp.radius == setup.radius &&
-      m_stamp.parameters == setup.parameters)
+      m_stamp.parameters == setup.parameters && m_stamp.up == up)
     return {m_stamp.half, m_stamp.box};
   const auto asked = inTime(m_brush.shape, [plugin, setup]() -> std::pair<Vector3, bool> {
-    const api::StrokeContext context{setup.grid.spacing,
-                                     double3Of(setup.grid.origin),
-                                     setup.radius,
-                                     {0, 1, 0},
-                                     {setup.parameters.data(), setup.parameters.size()}};
-    return {vectorOf(plugin->extent(context)), plugin->extension(api::kBoxStamp) != nullptr};
+    return {vectorOf(plugin->extent(contextOf(setup))), plugin->extension(api::kBoxStamp) != nullptr};
   });
   if (!asked)
     QMetaObject::invokeMethod(
         this, [this, brush = m_brush.shape] { putAside(brush, kNotBack); }, Qt::QueuedConnection);
   const auto [half, box] = asked.value_or(std::pair(Vector3(Vector3::Constant(m_brush.radius)), false));
-  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, half, box};
+  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, up, half, box};
   return {half, box};
 }
 

@@ -43,7 +43,8 @@ class Toolbox : public QObject {
   void nextShape();               ///< of those installed, by id
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
-  std::pair<Vector3, bool> stamp();
+  /// `up`: away from what it draws on.
+  std::pair<Vector3, bool> stamp(const Vector3& up = {0, 1, 0});
 
   // For tools
   Document& document() const { return m_document; }
@@ -68,6 +69,7 @@ class Toolbox : public QObject {
     std::string brush;
     double spacing = 0, radius = 0;  ///< m
     std::vector<double> parameters;
+    Vector3 up{0, 0, 0};
     Vector3 half{0, 0, 0};  ///< m
     bool box = false;
   };

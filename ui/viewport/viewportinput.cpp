@@ -51,7 +51,7 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
   pointer.shift = modifiers & Qt::ShiftModifier;
   pointer.control = modifiers & Qt::ControlModifier;
   pointer.alt = modifiers & Qt::AltModifier;
-  pointer.scene = m_now.get();
+  pointer.scene = m_now;
   return pointer;
 }
 

@@ -6,6 +6,8 @@
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/theme/theme.h"
+#include "ui/tools/guides.h"
+#include "ui/tools/toolbox.h"
 #include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/viewport.h"
 
@@ -42,6 +44,7 @@ Look Viewport::look() {
   if (m_ghost)
     look.ghost = Ghost{m_ghost, channels(Theme::current()[Token::Curve]), channels(Theme::current()[Token::Field]),
                        1.5f * static_cast<float>(devicePixelRatioF())};
+  if (m_tools.tool().usesBrush()) look.guides = guideLines(m_tools.brush(), m_document.project().environment);
   return look;
 }
 
@@ -49,6 +52,7 @@ Look Viewport::shownLook() const {
   Look look = m_shown ? m_shown->look : Look{};
   look.outline.reset();
   look.ghost.reset();
+  look.guides.clear();
   return look;
 }
 

@@ -24,6 +24,12 @@ void SketchActions::makeMenu(QMenu* menu) {
                 {QKeySequence(QStringLiteral("]"))}, [this] { m_tools.stepBrush(1); });
   m_actions.add(menu, QStringLiteral("sketch.shape"), QStringLiteral("Next brush shape"),
                 {QKeySequence(QStringLiteral("N"))}, [this] { m_tools.nextShape(); });
+  m_actions.add(menu, QStringLiteral("sketch.mirror"), QStringLiteral("Mirror"), {QKeySequence(QStringLiteral("M"))},
+                [this] {
+                  BrushSettings brush = m_tools.brush();
+                  brush.symmetry.mirror = brush.symmetry.mirror == "none" ? "x" : "none";
+                  m_tools.setBrush(brush);
+                });
   m_shapes = menu->addMenu(QStringLiteral("Brush shape"));
   m_shapes->setEnabled(false);
 }

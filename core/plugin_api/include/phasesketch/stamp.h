@@ -5,7 +5,7 @@
 // Every plugin carries the version of the headers that it was built with, in words that the host finds in the file
 // before it loads any code: the metadata say what their author believes, this is what the compiler saw.
 #define PHASESKETCH_STAMP_HEAD "phasesketch-sdk:"
-#define PHASESKETCH_STAMP_VERSION "0.9:2"  // kVersionMajor.kVersionMinor:kLayout
+#define PHASESKETCH_STAMP_VERSION "0.9:3"  // kVersionMajor.kVersionMinor:kLayout
 
 namespace ps::api {
 constexpr bool stampAgrees() {

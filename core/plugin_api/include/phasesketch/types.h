@@ -22,7 +22,7 @@ namespace ps::api {
 inline constexpr int kVersionMajor = 0;
 inline constexpr int kVersionMinor = 9;
 /// Of what crosses. Raised by every change that is no growth in the manner above.
-inline constexpr int kLayout = 2;
+inline constexpr int kLayout = 3;
 
 /// A view of `size` values of T owned by somebody else. T is a number, a pointer or a struct that never changes.
 template <class T>

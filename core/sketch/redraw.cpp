@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/redraw.h"
+
+#include "core/base/error.h"
+#include "core/sketch/stroke.h"
+
+namespace ps {
+
+VoxelShape redrawn(const VoxelShape& shape, double spacing, const CellSet& taken, const BrushOf& brushOf) {
+  VoxelShape out = shape;
+  if (out.spacing != spacing) out.origin = Vector3::Constant(spacing / 2);
+  out.spacing = spacing;
+  VoxelCanvas canvas;
+  for (const VoxelShape::Stroke& stroke : shape.strokes) {
+    const api::BrushPlugin* brush = brushOf(stroke.brush);
+    if (!brush) throw InputError("the brush \"" + stroke.brush + "\" is not installed");
+    StrokeEdits edits = replayStroke(*brush, stroke, {out.origin, spacing});
+    edits.added.remove(taken.cells());
+    canvas.erase(edits.removed);
+    canvas.paint(edits.added, stroke.palette);
+  }
+  out.runs = canvas.runs();
+  return out;
+}
+
+}  // namespace ps

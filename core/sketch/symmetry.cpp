@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ps {
+namespace {
+
+SketchImage about(const Matrix3& turn, const Vector3& centre) { return {turn, centre - turn * centre}; }
+
+api::Double3 turned(const api::Double3& v, const Matrix3& turn) { return double3Of(turn * vectorOf(v)); }
+
+}  // namespace
+
+std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry) {
+  const int turns = std::clamp(symmetry.turns, 1, kMostTurns);
+  std::vector<SketchImage> images;
+  for (int k = 0; k < turns; ++k) {
+    const double angle = 2 * std::numbers::pi * k / turns, c = std::cos(angle), s = std::sin(angle);
+    Matrix3 turn;
+    turn << c, 0, s, 0, 1, 0, -s, 0, c;
+    images.push_back(about(k == 0 ? Matrix3(Matrix3::Identity()) : turn, symmetry.centre));
+  }
+  const size_t axis = std::string("xyz").find(symmetry.mirror);
+  if (symmetry.mirror.size() != 1 || axis == std::string::npos) return images;
+  Matrix3 mirror = Matrix3::Identity();
+  mirror(static_cast<int>(axis), static_cast<int>(axis)) = -1;
+  for (size_t k = 0; k < static_cast<size_t>(turns); ++k)
+    images.push_back(about(Matrix3(mirror * images[k].turn), symmetry.centre));
+  return images;
+}
+
+std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image) {
+  std::vector<api::StrokeSample> out = samples;
+  for (api::StrokeSample& sample : out) {
+    sample.position = double3Of(image.of(vectorOf(sample.position)));
+    sample.direction = turned(sample.direction, image.turn);
+  }
+  return out;
+}
+
+}  // namespace ps

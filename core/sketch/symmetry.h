@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/scene/project.h"
+
+#include <phasesketch/brush.h>
+
+#include <vector>
+
+namespace ps {
+
+/// Where a copy of a stroke lies: turned or mirrored about a point.
+struct SketchImage {
+  Matrix3 turn = Matrix3::Identity();  ///< orthogonal
+  Vector3 shift{0, 0, 0};              ///< m
+  Vector3 of(const Vector3& place) const { return turn * place + shift; }
+};
+
+/// All copies that are drawn at once, the stroke itself first: `turns` of them about the upright axis, and each in the
+/// mirror too. Fewer than one turn counts as one, more than kMostTurns as those.
+std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry);
+
+/// The samples as they lie in a copy.
+std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image);
+
+}  // namespace ps

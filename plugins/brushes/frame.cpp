@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame.h"
+
+#include "stamp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace ps::brushes {
+namespace {
+
+constexpr double kMostPieces = 1e5;  // of the way between two samples, which lie a spacing apart
+
+Double3 between(const Double3& a, const Double3& b, double t) { return sum(scaled(a, 1 - t), scaled(b, t)); }
+
+}  // namespace
+
+Frame frameOf(const api::StrokeContext& context, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {context.up, sum(scaled(context.side, c), scaled(context.front, s)),
+          sum(scaled(context.side, -s), scaled(context.front, c))};
+}
+
+Double3 extentOf(const Frame& frame, const Double3& half) {
+  const auto along = [&](double Double3::* axis) {
+    return std::abs(frame.up.*axis) * half.x + std::abs(frame.side.*axis) * half.y +
+           std::abs(frame.front.*axis) * half.z;
+  };
+  return {along(&Double3::x), along(&Double3::y), along(&Double3::z)};
+}
+
+void alongWay(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, double reach,
+              const std::function<void(const Section&)>& each) {
+  if (samples.count == 0) return;
+  api::StrokeSample last = samples.at(0);
+  if (samples.count == 1) return each({last.position, last.direction, last.pressure});
+  for (size_t s = 1; s < samples.count; ++s) {
+    const api::StrokeSample next = samples.at(s);
+    const bool begins = dot(last.direction, last.direction) == 0;
+    const Double3 from = begins ? next.direction : last.direction;
+    const double turn = std::acos(std::clamp(dot(from, next.direction), -1.0, 1.0));
+    const double way = std::max(norm(difference(next.position, last.position)), turn * reach);
+    const double pieces = std::ceil(way / (0.5 * context.spacing));
+    if (!(pieces < kMostPieces)) throw std::length_error("the brush is too large for the spacing of the particles");
+    for (double k = begins ? 0 : 1; k <= pieces; ++k) {
+      const double t = pieces > 0 ? k / pieces : 1;
+      const Double3 direction = unit(between(from, next.direction, t));
+      // Straight back there is no bend to fill.
+      each({between(last.position, next.position, t), dot(direction, direction) > 0 ? direction : next.direction,
+            std::lerp(last.pressure, next.pressure, t)});
+    }
+    last = next;
+  }
+}
+
+}  // namespace ps::brushes
