@@ -37,6 +37,7 @@ std::vector<Field<Project>> formatRows() {
               .writtenAs([](const Project&) { return Json("phasesketch " PS_VERSION); }),
           field("title", &Project::title, Text{}, "shown to people"),
           field("description", &Project::description, Text{}, "shown to people"),
+          field("toTry", &Project::toTry, Text{}, "what to try first in it, a sentence; shown among recent projects"),
           field("pluginsRequired", &Project::pluginsRequired, List{PluginId{}}, "missing ones are an error")};
 }
 

@@ -40,7 +40,7 @@ std::vector<std::string> usedPlugins(const Project& project) { return fields::pl
 std::string sceneHash(const Project& project) {
   json out = fields::projectFields().write(project);
   for (const char* key : {"description", "end", "generator", "graphs", "groups", "markers", "minVersion",
-                          "pluginsRequired", "pluginsUsed", "probes", "thumbnail", "title", "version", "view"})
+                          "pluginsRequired", "pluginsUsed", "probes", "thumbnail", "title", "toTry", "version", "view"})
     out.erase(key);
   return hashText(hashOf(writeJson(out)));
 }

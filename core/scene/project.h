@@ -319,6 +319,7 @@ struct RunEnd {
 struct Project {
   int version = 1, minVersion = 1;
   std::string generator, title, description;
+  std::string toTry;  ///< a sentence: what to change first
   std::vector<std::string> pluginsUsed, pluginsRequired;
   std::vector<SceneMaterial> materials;
   std::vector<std::shared_ptr<const SceneMesh>> meshes;  ///< of the file; bodies hold those that they are of

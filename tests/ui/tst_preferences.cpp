@@ -264,9 +264,22 @@ class TestPreferences : public SampleWindowTest {
     text->setPlainText(QStringLiteral("It melts.\nTry it."));
     const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
     if (!folder.isEmpty()) about->grab().save(folder + QStringLiteral("/tst_project_properties.png"));
+    QLineEdit* toTry = nullptr;
+    for (QLineEdit* line : about->findChildren<QLineEdit*>()) {
+      if (line->accessibleName() == QStringLiteral("To try")) toTry = line;
+    }
+    QVERIFY(toTry && toTry != title);
+    toTry->setText(QStringLiteral("Warm the plate."));
     about->close();
     QCOMPARE(document().about().description, std::string("It melts.\nTry it."));
-    QCOMPARE(document().undoStack().count(), 2);
+    QCOMPARE(document().project().toTry, std::string("Warm the plate."));
+    QCOMPARE(document().undoStack().count(), 3);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("what to try"));
+    document().undoStack().undo();
+    QCOMPARE(document().about().toTry, before.toTry);
+    document().undoStack().redo();
+    QCOMPARE(document().about().toTry, std::string("Warm the plate."));
+    document().undoStack().undo();
     document().undoStack().undo();
     QCOMPARE(document().about().description, before.description);
     document().undoStack().undo();

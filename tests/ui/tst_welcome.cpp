@@ -190,6 +190,9 @@ class TestWelcome : public QObject {
     startLater();
     const QString path = m_directory->filePath(QStringLiteral("mine.json"));
     QFile::remove(thumbnailPath(path));
+    ProjectAbout about = document().about();
+    about.toTry = "Let the plate glow, and count the drops.";
+    document().setAbout(about, QStringLiteral("what to try"));
     m_window->saveTo(path);
     QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(thumbnailPath(path)), kLong);
     const QImage image(thumbnailPath(path));
@@ -200,6 +203,9 @@ class TestWelcome : public QObject {
     m_window->action(QStringLiteral("help.welcome"))->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 1, kLong);
     QVERIFY(recent().front()->accessibleDescription() == path);
+    QCOMPARE(recent().front()->project().toTry, QString::fromStdString(about.toTry));
+    QVERIFY(recent().front()->toolTip().contains(recent().front()->project().toTry));
+    QVERIFY(recent().front()->height() > 60);  // a line more
     m_window->session().files().newProject();
     QVERIFY(!m_window->welcome().shown());
     m_window->action(QStringLiteral("help.welcome"))->trigger();

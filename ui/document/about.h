@@ -7,6 +7,7 @@ namespace ps {
 /// What a project says of itself.
 struct ProjectAbout {
   std::string title, description;
+  std::string toTry;  ///< a sentence
   bool operator==(const ProjectAbout&) const = default;
 };
 

@@ -310,6 +310,7 @@ void Document::applyState(const std::shared_ptr<const ProjectState>& state) {
 void Document::applyAbout(const ProjectAbout& about) {
   m_project.title = about.title;
   m_project.description = about.description;
+  m_project.toTry = about.toTry;
   ++m_changes;
   notify(AboutChanged{});
 }

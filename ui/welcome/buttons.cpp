@@ -112,7 +112,8 @@ RecentRow::RecentRow(RecentProject project, QWidget* parent) : PageButton(parent
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(m_project.title);
   setAccessibleDescription(m_project.path);
-  setToolTip(QDir::toNativeSeparators(m_project.path));
+  const QString toTry = m_project.toTry.isEmpty() ? QString() : QStringLiteral("\nTry it: ") + m_project.toTry;
+  setToolTip(QDir::toNativeSeparators(m_project.path) + toTry);
 }
 
 void RecentRow::paintEvent(QPaintEvent*) {
@@ -120,7 +121,7 @@ void RecentRow::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
   if (const QColor under = ground(); under.isValid()) paintBox(painter, QRectF(rect()), under, {}, 5);
-  const QRectF picture(6, 5, 56, height() - 10);
+  const QRectF picture(6, 5, 56, 40);
   paintBox(painter, picture, theme[Token::Field], {}, 4);
   if (m_project.picture.isNull()) {
     paintIcon(painter, QRectF(picture.center() - QPointF(8, 8), QSizeF(16, 16)), QStringLiteral("folder"),
@@ -141,6 +142,9 @@ void RecentRow::paintEvent(QPaintEvent*) {
       placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
   paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, where, Theme::font(TextRole::Small),
             theme[underMouse() ? Token::Text2 : Token::Muted]);
+  if (!m_project.toTry.isEmpty())
+    paintText(painter, words.translated(0, 36), Qt::AlignLeft | Qt::AlignVCenter,
+              QStringLiteral("Try it: ") + m_project.toTry, Theme::font(TextRole::Small), theme[Token::Text2]);
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()), 5);
 }
 

@@ -41,12 +41,13 @@ class Card : public PageButton {
   QPixmap m_scaled;  ///< the picture at the size and scale at which it was painted last
 };
 
-/// A project that was open lately: a small picture, its name, where it lies and of when it is.
+/// A project that was open lately: a small picture, its name, where it lies and of when it is, and what it says to try.
 class RecentRow : public PageButton {
   Q_OBJECT
  public:
   explicit RecentRow(RecentProject project, QWidget* parent = nullptr);
-  QSize sizeHint() const override { return {260, 50}; }
+  QSize sizeHint() const override { return {260, m_project.toTry.isEmpty() ? 50 : 68}; }
+  const RecentProject& project() const { return m_project; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -18,13 +18,18 @@ static void initGalleryResources() { Q_INIT_RESOURCE(gallery); }
 namespace ps {
 namespace {
 
-constexpr qint64 kMostBytes = 4 << 20;  // of a file that is read for its title alone
+constexpr qint64 kMostBytes = 4 << 20;  // of a file that is read for its words alone
 
-/// "" where the file cannot be read, is none of ours, or is too large to be looked into.
-QString titleIn(const QString& path) {
+struct Words {
+  QString title, toTry;
+};
+
+/// Empty where the file cannot be read, is none of ours, or is too large to be looked into.
+Words wordsIn(const QString& path) {
   QFile file(path);
   if (file.size() > kMostBytes || !file.open(QIODevice::ReadOnly)) return {};
-  return QJsonDocument::fromJson(file.readAll()).object()[QLatin1String("title")].toString();
+  const QJsonObject project = QJsonDocument::fromJson(file.readAll()).object();
+  return {project[QLatin1String("title")].toString(), project[QLatin1String("toTry")].toString()};
 }
 
 std::vector<Sample> readList(const QJsonArray& list, const QString& folder) {
@@ -34,10 +39,11 @@ std::vector<Sample> readList(const QJsonArray& list, const QString& folder) {
     const QString name = entry[QLatin1String("file")].toString();
     Sample sample;
     sample.path = folder + QLatin1Char('/') + name + QStringLiteral(".json");
-    sample.title = titleIn(sample.path);
+    const Words words = wordsIn(sample.path);
+    sample.title = words.title;
     if (sample.title.isEmpty()) continue;  // not installed
     sample.summary = entry[QLatin1String("summary")].toString();
-    sample.toTry = entry[QLatin1String("toTry")].toString();
+    sample.toTry = entry[QLatin1String("toTry")].toString(words.toTry);
     for (const QJsonValue& tag : entry[QLatin1String("tags")].toArray()) sample.tags << tag.toString();
     sample.picture = QImage(QStringLiteral(":/gallery/%1.jpg").arg(name));
     samples.push_back(std::move(sample));
@@ -87,9 +93,9 @@ void Gallery::readRecent(std::function<void(std::vector<RecentProject>)> then) {
     for (const QString& path : DocumentFiles::recent()) {
       if (!folder.isEmpty() && path.startsWith(folder + QLatin1Char('/'))) continue;
       const QFileInfo info(path);
-      const QString title = titleIn(path);
-      recent.push_back(
-          {path, title.isEmpty() ? info.completeBaseName() : title, info.lastModified(), QImage(thumbnailPath(path))});
+      const Words words = wordsIn(path);
+      recent.push_back({path, words.title.isEmpty() ? info.completeBaseName() : words.title, words.toTry,
+                        info.lastModified(), QImage(thumbnailPath(path))});
     }
     QMetaObject::invokeMethod(this, [then, recent = std::move(recent)]() mutable { then(std::move(recent)); });
   });

@@ -25,6 +25,7 @@ struct Sample {
 /// A project that was opened or saved lately.
 struct RecentProject {
   QString path, title;
+  QString toTry;   ///< what the project says; "": nothing
   QDateTime time;  ///< of its file
   QImage picture;  ///< null: none was made yet
 };

@@ -31,7 +31,7 @@ class ProjectProperties : public QDialog {
   void showAbout();
   void take();
   Document& m_document;
-  QLineEdit* m_title;
+  QLineEdit *m_title, *m_toTry;
   QPlainTextEdit* m_description;
   QLabel* m_file;
 };
@@ -40,6 +40,7 @@ ProjectProperties::ProjectProperties(MainWindow& window)
     : QDialog(&window),
       m_document(window.session().document()),
       m_title(new QLineEdit),
+      m_toTry(new QLineEdit),
       m_description(new QPlainTextEdit),
       m_file(new QLabel) {
   setObjectName(kName);
@@ -59,11 +60,13 @@ ProjectProperties::ProjectProperties(MainWindow& window)
   add(QStringLiteral("Title"), m_title);
   add(QStringLiteral("Description"), m_description);
   m_description->setTabChangesFocus(true);
-  m_description->setPlaceholderText(QStringLiteral("What the scene shows, and what to try in it"));
+  m_description->setPlaceholderText(QStringLiteral("What the scene shows"));
+  add(QStringLiteral("To try"), m_toTry);
+  m_toTry->setPlaceholderText(QStringLiteral("A sentence: what to change first"));
   m_file->setProperty("role", "muted");
   m_file->setWordWrap(true);
   column->addWidget(m_file);
-  connect(m_title, &QLineEdit::editingFinished, this, &ProjectProperties::take);
+  for (QLineEdit* line : {m_title, m_toTry}) connect(line, &QLineEdit::editingFinished, this, &ProjectProperties::take);
   connect(&m_document, &Document::changed, this, &ProjectProperties::showAbout);
   showAbout();
   resize(460, 340);
@@ -72,8 +75,13 @@ ProjectProperties::ProjectProperties(MainWindow& window)
 /// What is being typed stays; what an undo brings back is shown.
 void ProjectProperties::showAbout() {
   const ProjectAbout about = m_document.about();
-  const QString title = QString::fromStdString(about.title), text = QString::fromStdString(about.description);
-  if (m_title->text() != title && !(m_title->hasFocus() && m_title->isModified())) m_title->setText(title);
+  const auto show = [](QLineEdit& line, const std::string& value) {
+    const QString text = QString::fromStdString(value);
+    if (line.text() != text && !(line.hasFocus() && line.isModified())) line.setText(text);
+  };
+  show(*m_title, about.title);
+  show(*m_toTry, about.toTry);
+  const QString text = QString::fromStdString(about.description);
   const bool typing = m_description->hasFocus() && m_description->document()->isModified();
   if (m_description->toPlainText() != text && !typing) m_description->setPlainText(text);
   const QString& path = m_document.path();
@@ -84,15 +92,21 @@ void ProjectProperties::take() {
   ProjectAbout about = m_document.about();
   const std::string title = m_title->text().trimmed().toStdString();
   const std::string text = m_description->toPlainText().trimmed().toStdString();
+  const std::string toTry = m_toTry->text().trimmed().toStdString();
   m_title->setModified(false);
+  m_toTry->setModified(false);
   m_description->document()->setModified(false);
   if (about.title != title) {
     about.title = title;
     m_document.setAbout(about, QStringLiteral("title"));
   }
-  if (about.description == text) return;
-  about.description = text;
-  m_document.setAbout(about, QStringLiteral("description"));
+  if (about.description != text) {
+    about.description = text;
+    m_document.setAbout(about, QStringLiteral("description"));
+  }
+  if (about.toTry == toTry) return;
+  about.toTry = toTry;
+  m_document.setAbout(about, QStringLiteral("what to try"));
 }
 
 bool ProjectProperties::eventFilter(QObject* watched, QEvent* event) {
