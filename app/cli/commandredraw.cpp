@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
-#include "core/scene/declared.h"
+#include "core/simulation/declared.h"
 #include "core/sketch/redraw.h"
 
 #include <cstdio>
