@@ -45,7 +45,6 @@ double Impacts::restitutionOf(const ParticleStore& store, uint32_t i) const {
 void Impacts::sweep(ParticleStore& store, const Neighbours& neighbours, const Structure& structure) {
   m_impacts.clear();
   m_stops.clear();
-  m_surface.clear(0);
   findFast(store, neighbours, structure);
   if (m_impacts.empty()) return;
   sortByTime(store);
@@ -71,12 +70,24 @@ void Impacts::stop(ParticleStore& store, uint32_t i) {
 void Impacts::collect(const ParticleStore& store, const SolidContact& contact, ConstraintSystem& constraints,
                       std::span<const uint8_t> rigid) {
   const StructureGraph& graph = constraints.graph(store.size());
-  Impact impact;
-  contact.forPairs([&](uint32_t i, uint32_t j, const api::Float4& face) {
-    if (test(store, graph, i, j, face, impact) && !impact.crosses) m_impacts.push_back(impact);
+  startChunks(contact.pairChunks());
+  contact.forPairs([&](size_t chunk, uint32_t i, uint32_t j, const api::Float4& face) {
+    Impact impact;
+    if (test(store, graph, i, j, face, impact) && !impact.crosses) m_found[chunk].push_back(impact);
   });
+  takeChunks(contact.pairChunks());
   findWalls(store, rigid);
   if (!m_impacts.empty()) sortByTime(store);
+}
+
+void Impacts::startChunks(size_t count) {
+  m_found.resize(std::max(m_found.size(), count));
+  for (size_t c = 0; c < count; ++c) m_found[c].clear();
+}
+
+/// In order of chunks, for any number of threads.
+void Impacts::takeChunks(size_t count) {
+  for (size_t c = 0; c < count; ++c) m_impacts.insert(m_impacts.end(), m_found[c].begin(), m_found[c].end());
 }
 
 /// A pair may have been found twice; what it says is the same.
@@ -114,10 +125,9 @@ bool Impacts::isFast(const ParticleStore& store, uint32_t i) const { return wayO
 void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rigid) {
   if (m_planes.empty()) return;
   const size_t chunks = chunkCount(store.size(), grain::kParticles);
-  m_wallImpacts.resize(std::max(m_wallImpacts.size(), chunks));
+  startChunks(chunks);
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
-    std::vector<Impact>& found = m_wallImpacts[first / grain::kParticles];
-    found.clear();
+    std::vector<Impact>& found = m_found[first / grain::kParticles];
     const double fastest = fastestSolid(store, first, last);
     if (fastest <= m_slowest) return;
     const PlaceBox box = PlaceBox::around({store.previous() + first, last - first});
@@ -126,8 +136,7 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
       if (!(box.leastHeight(m_planes[plane]) > reach)) findImpacts(store, rigid, plane, first, last, found);
     }
   });
-  for (size_t c = 0; c < chunks; ++c)
-    m_impacts.insert(m_impacts.end(), m_wallImpacts[c].begin(), m_wallImpacts[c].end());
+  takeChunks(chunks);
 }
 
 void Impacts::findImpacts(const ParticleStore& store, std::span<const uint8_t> rigid, uint32_t plane, size_t first,
@@ -209,37 +218,65 @@ bool Impacts::test(const ParticleStore& store, const StructureGraph& graph, uint
   return true;
 }
 
-/// Where two that belong to lattices and meet as spheres face each other, as SolidContact has it.
-api::Float4 Impacts::faceOf(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
-                            const Impact& impact) {
+/// Those of fast pairs that m_found has as spheres meet along the faces of their lattices, as SolidContact has it.
+void Impacts::turnToFaces(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
+                          size_t chunks) {
   const StructureGraph& graph = structure.constraints.graph(store.size());
   const std::span<const uint32_t> pieceOf = structure.pieceOf;
   const auto isStatic = [&](uint32_t i) { return store.motion()[i] == api::Motion::Static; };
   const auto isGrain = [&](uint32_t i) { return graph.isFree(i) && !isStatic(i); };
-  if (isGrain(impact.a) || isGrain(impact.b)) return kRound;
-  if (pieceOf[impact.a] != ConstraintSystem::kNoPiece && pieceOf[impact.a] == pieceOf[impact.b]) return kRound;
-  if (m_surface.size() == 0) m_surface.clear(store.size());
-  const auto normalOf = [&](uint32_t i) {
-    if (!m_surface.has(i)) {
-      m_surface.find(store, neighbours, m_surface.add(i),
-                     [&](uint32_t p, uint32_t q) { return (isStatic(p) && isStatic(q)) || sameLattice(graph, p, q); });
-    }
-    return m_surface.normalOf(store, i);
+  const auto isRound = [&](const Impact& k) {
+    const bool together = pieceOf[k.a] != ConstraintSystem::kNoPiece && pieceOf[k.a] == pieceOf[k.b];
+    return together || isGrain(k.a) || isGrain(k.b);
   };
-  const LatticeSurface::Normal a = normalOf(impact.a), b = normalOf(impact.b);
-  if (a.neighbours + b.neighbours == 0) return kRound;
-  const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * impact.normal);
-  return facing.face ? float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing + facing.lift)) : kRound;
+  m_surface.clear(0);
+  for (size_t c = 0; c < chunks; ++c) {
+    for (const Impact& k : m_found[c]) {
+      if (isRound(k)) continue;
+      if (m_surface.size() == 0) m_surface.clear(store.size());
+      m_surface.add(k.a);
+      m_surface.add(k.b);
+    }
+  }
+  if (m_surface.size() == 0) return;
+  m_surface.find(store, neighbours,
+                 [&](uint32_t p, uint32_t q) { return (isStatic(p) && isStatic(q)) || sameLattice(graph, p, q); });
+  forChunks(chunks, 1, [&](size_t first, size_t last) {
+    for (size_t c = first; c < last; ++c) {
+      std::erase_if(m_found[c], [&](Impact& k) {
+        if (isRound(k)) return false;
+        const LatticeSurface::Normal a = m_surface.normalOf(store, k.a), b = m_surface.normalOf(store, k.b);
+        if (a.neighbours + b.neighbours == 0) return false;
+        const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * k.normal);
+        if (!facing.face) return false;
+        const auto distance = static_cast<float>(kFaceDistance * m_spacing + facing.lift);
+        return !test(store, graph, k.a, k.b, float4Of(facing.normal, distance), k);
+      });
+    }
+  });
 }
 
-void Impacts::addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,
-                      uint32_t j) {
+/// All solids that may be met in passing, and their ways; returns the longest way, m.
+double Impacts::findSolids(const ParticleStore& store, const Structure& structure) {
   const StructureGraph& graph = structure.constraints.graph(store.size());
-  Impact impact;
-  if (!test(store, graph, i, j, kRound, impact)) return;
-  const api::Float4 face = faceOf(store, neighbours, structure, impact);
-  if (face.w > 0 && !test(store, graph, i, j, face, impact)) return;
-  m_impacts.push_back(impact);
+  const auto mayMeet = [&](size_t i) { return api::holds(store.motion()[i]) && structure.rigid[i] == 0; };
+  m_longest.assign(chunkCount(store.size(), grain::kParticles), 0);
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
+    double& longest = m_longest[first / grain::kParticles];
+    for (size_t i = first; i < last; ++i) {
+      if (!mayMeet(i)) continue;
+      const double way = wayOf(store, static_cast<uint32_t>(i));
+      if (std::isfinite(way)) longest = std::max(longest, way);
+    }
+  });
+  // Only what is not enclosed by its own structure can be met in passing.
+  findIndices(store.size(), m_solids,
+              [&](size_t i) { return mayMeet(i) && graph.ties(static_cast<uint32_t>(i)) < SolidContact::kEnclosed; });
+  m_ways.resize(m_solids.size());
+  forChunks(m_solids.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_ways[k] = wayOf(store, m_solids[k]);
+  });
+  return m_longest.empty() ? 0 : *std::max_element(m_longest.begin(), m_longest.end());
 }
 
 /// Pairs of fast particles, from a grid of the places where the substep began.
@@ -248,38 +285,35 @@ void Impacts::findFast(const ParticleStore& store, const Neighbours& neighbours,
     return fastestSolid(store, first, last) * m_dt > kFast * m_spacing;
   });
   if (!any) return;
+  const double longest = findSolids(store, structure);
+  if (!(longest > kFast * m_spacing)) return;
   const StructureGraph& graph = structure.constraints.graph(store.size());
-  m_solids.clear();
-  double fastest = 0;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    const api::Motion motion = store.motion()[i];
-    if (!api::holds(motion) || structure.rigid[i] != 0) continue;
-    const double way = wayOf(store, i);
-    m_solids.push_back({i, way});
-    if (std::isfinite(way)) fastest = std::max(fastest, way);
-  }
-  if (!(fastest > kFast * m_spacing)) return;
-  // Only what is not enclosed by its own structure can be met in passing, and the cells are as wide as the longest way
-  // needs.
-  std::erase_if(m_solids, [&](const Sought& s) { return graph.ties(s.particle) >= SolidContact::kEnclosed; });
   const auto placeOf = [&](size_t k) {
-    const api::Float4& p = store.previous()[m_solids[k].particle];
+    const api::Float4& p = store.previous()[m_solids[k]];
     return store.period().wrapped({p.x, p.y, p.z});
   };
-  m_grid.sort(m_solids.size(), 2 * fastest + m_diameter, store.period(), placeOf);
-  for (uint32_t k = 0; k < m_solids.size(); ++k) {
-    if (!(m_solids[k].way > kFast * m_spacing) || !std::isfinite(m_solids[k].way)) continue;
-    m_grid.around(placeOf(k), [&](uint32_t first, uint32_t last) {
-      for (const uint32_t other : m_grid.order().subspan(first, last - first)) {
-        // A pair of two fast ones is asked by the first of them.
-        if (other == k || (m_solids[other].way > kFast * m_spacing && other < k)) continue;
-        uint32_t i = m_solids[k].particle, j = m_solids[other].particle;
-        if (store.velocity()[i].w == 0) std::swap(i, j);
-        if (store.velocity()[i].w == 0) continue;
-        addFast(store, neighbours, structure, i, j);
-      }
-    });
-  }
+  // The cells are as wide as the longest way needs.
+  m_grid.sort(m_solids.size(), 2 * longest + m_diameter, store.period(), placeOf);
+  const size_t chunks = chunkCount(m_solids.size(), grain::kNeighbours);
+  startChunks(chunks);
+  forChunks(m_solids.size(), grain::kNeighbours, [&](size_t from, size_t to) {
+    std::vector<Impact>& found = m_found[from / grain::kNeighbours];
+    for (size_t k = from; k < to; ++k) {
+      if (!(m_ways[k] > kFast * m_spacing) || !std::isfinite(m_ways[k])) continue;
+      m_grid.around(placeOf(k), [&](uint32_t first, uint32_t last) {
+        for (const uint32_t other : m_grid.order().subspan(first, last - first)) {
+          // A pair of two fast ones is asked by the first of them.
+          if (other == k || (m_ways[other] > kFast * m_spacing && other < k)) continue;
+          uint32_t i = m_solids[k], j = m_solids[other];
+          if (store.velocity()[i].w == 0) std::swap(i, j);
+          Impact impact;
+          if (store.velocity()[i].w > 0 && test(store, graph, i, j, kRound, impact)) found.push_back(impact);
+        }
+      });
+    }
+  });
+  turnToFaces(store, neighbours, structure, chunks);
+  takeChunks(chunks);
 }
 
 /// Impulse in kg m/s that a wall or a fixed particle gave.

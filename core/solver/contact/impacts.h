@@ -14,8 +14,9 @@ namespace ps {
 /// of the face where two lattices meet, as in SolidContact: along the line of centres a smooth belt that goes a good
 /// part of a spacing in a substep would carry what lies on it. Pairs take the larger restitution of their materials,
 /// walls that of what meets them. What meets more slowly than gravity pulls in two substeps does not bounce. What waits
-/// loses up to a substep of its way, never of its velocity. Serial, in order of time: impacts are few. It cannot do:
-/// find what a particle would hit after its first impact of a substep, where that is not static.
+/// loses up to a substep of its way, never of its velocity. Found on all threads; taken one by one, in order of time:
+/// they are few. It cannot do: find what a particle would hit after its first impact of a substep, where that is not
+/// static.
 class Impacts {
  public:
   static constexpr uint32_t kNone = ~0u;
@@ -56,10 +57,6 @@ class Impacts {
     uint32_t particle;
     Vector3 left;  ///< m/s, share of the velocity that it has not travelled at
   };
-  struct Sought {
-    uint32_t particle;
-    double way;  ///< m
-  };
   double restitutionOf(const ParticleStore& store, uint32_t i) const;
   double wayOf(const ParticleStore& store, uint32_t i) const;  ///< m, in this substep
   bool isFast(const ParticleStore& store, uint32_t i) const;
@@ -68,10 +65,10 @@ class Impacts {
                    size_t last, std::vector<Impact>& found) const;
   double fastestSolid(const ParticleStore& store, size_t first, size_t last) const;
   void findFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure);
-  void addFast(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, uint32_t i,
-               uint32_t j);
-  api::Float4 faceOf(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure,
-                     const Impact& impact);
+  double findSolids(const ParticleStore& store, const Structure& structure);
+  void turnToFaces(const ParticleStore& store, const Neighbours& neighbours, const Structure& structure, size_t chunks);
+  void startChunks(size_t count);
+  void takeChunks(size_t count);
   bool test(const ParticleStore& store, const StructureGraph& graph, uint32_t i, uint32_t j, const api::Float4& face,
             Impact& impact) const;
   double timeOf(const Vector3& line, const Vector3& way, const api::Float4& face) const;
@@ -85,14 +82,16 @@ class Impacts {
   std::vector<Plane> m_planes;
   std::vector<double> m_restitution;  ///< by material
   std::vector<Impact> m_impacts;
-  std::vector<std::vector<Impact>> m_wallImpacts;  ///< by chunk of particles
+  std::vector<std::vector<Impact>> m_found;  ///< by chunk of what is looked through
   std::vector<Stop> m_stops;
   ExternalImpulse m_externalImpulse;
   Reactions* m_reactions = &Reactions::none();
-  std::vector<Sought> m_solids;
-  CellGrid m_grid;              ///< of m_solids
-  LatticeSurface m_surface;     ///< of fast pairs that meet
-  std::vector<double> m_first;  ///< by particle: time of its first impact; 2: none
+  std::vector<uint32_t> m_solids;  ///< that may be met in passing
+  std::vector<double> m_ways;      ///< of them, m
+  std::vector<double> m_longest;   ///< way by chunk of particles, m
+  CellGrid m_grid;                 ///< of m_solids
+  LatticeSurface m_surface;        ///< of fast pairs that meet
+  std::vector<double> m_first;     ///< by particle: time of its first impact; 2: none
 };
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #include "core/solver/contact/rebound.h"
 
 #include "core/base/statestream.h"
+#include "core/solver/contact/membersums.h"
 
 #include <Eigen/Geometry>
 
@@ -111,15 +112,22 @@ void Rebound::read(const ParticleStore& store, uint32_t index) {
   Piece& piece = m_pieces[index];
   piece.readAt = m_now;
   piece.spread = massSpread(store, piece.members, store.position());
-  Vector3 momentum = Vector3::Zero(), angular = Vector3::Zero();
-  piece.kinetic = 0;
-  for (const uint32_t i : piece.members) {
+  struct Sums {
+    Vector3 momentum, angular;
+    double kinetic = 0;
+    void operator+=(const Sums& other) {
+      momentum += other.momentum, angular += other.angular;
+      kinetic += other.kinetic;
+    }
+  };
+  const Sums all = sumOver<Sums>(piece.members, [&](Sums& sum, uint32_t i) {
     const Vector3 v = vectorOf(store.velocity()[i]), p = double{store.mass()[i]} * v;
-    momentum += p;
-    angular += (vectorOf(store.position()[i]) - piece.spread.centre).cross(p);
-    piece.kinetic += 0.5 * p.dot(v);
-  }
-  piece.motion = {momentum / piece.spread.mass, piece.spread.inverseInertia * angular};
+    sum.momentum += p;
+    sum.angular += (vectorOf(store.position()[i]) - piece.spread.centre).cross(p);
+    sum.kinetic += 0.5 * p.dot(v);
+  });
+  piece.kinetic = all.kinetic;
+  piece.motion = {all.momentum / piece.spread.mass, piece.spread.inverseInertia * all.angular};
   piece.before = piece.motion;
 }
 

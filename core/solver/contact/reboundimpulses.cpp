@@ -2,6 +2,8 @@
 // The impulses by which soft pieces part, over the speeds of rigid bodies.
 #include "core/solver/contact/rebound.h"
 
+#include "core/solver/contact/membersums.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -137,10 +139,10 @@ void Rebound::hand(ParticleStore& store, uint32_t index) {
   Piece& piece = m_pieces[index];
   const Vector3 shift = piece.motion.velocity - piece.before.velocity, turn = piece.motion.spin - piece.before.spin;
   if (shift.isZero(0) && turn.isZero(0)) return;
-  for (const uint32_t i : piece.members) {
+  forMembers(piece.members, [&](uint32_t i) {
     const Vector3 arm = vectorOf(store.position()[i]) - piece.spread.centre;
     addTo(store.velocity()[i], shift + turn.cross(arm));
-  }
+  });
   piece.readAt = 0;
 }
 

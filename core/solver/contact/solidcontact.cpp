@@ -66,7 +66,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   const StructureGraph& graph = constraints.graph(store.size());
   findKinds(store, neighbours, graph, rigid);
   findPairs(store, neighbours, graph, pieceOf);
-  addMirrored(chunkCount(m_solids.size(), grain::kNeighbours));
+  addMirrored(chunkCount(m_solids.size(), grain::kNeighbours), store.size());
   size_t squeezed = 0;
   m_pairs = 0;
   for (Chunk& chunk : m_chunks) {
@@ -124,7 +124,7 @@ void SolidContact::findKinds(const ParticleStore& store, const Neighbours& neigh
 void SolidContact::findPairs(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
                              std::span<const uint32_t> pieceOf) {
   const NearNeighbours near(store, neighbours);
-  m_chunks.resize(std::max(m_chunks.size(), chunkCount(m_solids.size(), grain::kNeighbours) + 1));
+  m_chunks.resize(std::max(m_chunks.size(), chunkCount(m_solids.size(), grain::kNeighbours)));
   for (Chunk& chunk : m_chunks) {
     chunk.who.clear();
     chunk.other.clear();
@@ -174,22 +174,33 @@ void SolidContact::findPairsOf(uint32_t i, const ParticleStore& store, std::span
 }
 
 /// What an open particle meets inside of a lattice feels it too: each of a pair moves its own share.
-void SolidContact::addMirrored(size_t chunks) {
-  Chunk& last = m_chunks[chunks];
-  for (size_t c = 0; c < chunks; ++c)
-    last.mirrored.insert(last.mirrored.end(), m_chunks[c].mirrored.begin(), m_chunks[c].mirrored.end());
-  std::sort(last.mirrored.begin(), last.mirrored.end());
-  last.begin.assign(1, 0);
-  last.other.clear();
-  for (const auto& [i, j] : last.mirrored) {
-    if (last.who.empty() || last.who.back() != i) {
-      last.who.push_back(i);
-      last.begin.push_back(last.begin.back());
-    }
-    last.other.push_back(j);
-    ++last.begin.back();
+void SolidContact::addMirrored(size_t chunks, size_t particles) {
+  size_t count = 0;
+  for (size_t c = 0; c < chunks; ++c) count += m_chunks[c].mirrored.size();
+  if (count == 0) return;
+  m_place.assign(particles + 1, 0);
+  for (size_t c = 0; c < chunks; ++c) {
+    for (const auto& [i, j] : m_chunks[c].mirrored) ++m_place[i + size_t{1}];
   }
-  last.correction.resize(last.who.size());
+  for (size_t i = 0; i < particles; ++i) m_place[i + 1] += m_place[i];
+  m_mirrored.resize(count);
+  for (size_t c = 0; c < chunks; ++c) {  // those of a particle stay in order of who met it
+    for (const auto& [i, j] : m_chunks[c].mirrored) m_mirrored[m_place[i]++] = j;
+  }
+  Chunk* chunk = nullptr;
+  uint32_t begin = 0;
+  for (uint32_t i = 0; i < particles; begin = m_place[i++]) {
+    if (m_place[i] == begin) continue;
+    if (!chunk || chunk->who.size() == grain::kNeighbours) {
+      if (chunks == m_chunks.size()) m_chunks.emplace_back();
+      chunk = &m_chunks[chunks++];
+      chunk->begin.assign(1, 0);
+    }
+    chunk->who.push_back(i);
+    chunk->other.insert(chunk->other.end(), m_mirrored.begin() + begin, m_mirrored.begin() + m_place[i]);
+    chunk->begin.push_back(static_cast<uint32_t>(chunk->other.size()));
+    chunk->correction.resize(chunk->who.size());
+  }
 }
 
 /// What belongs to no lattice is round, and so are all of one piece to each other.

@@ -56,18 +56,26 @@ class SolidContact {
   ExternalImpulse& externalImpulse() { return m_externalImpulse; }
   /// Where walls and fixed particles are told what they get.
   void tell(Reactions& reactions) { m_reactions = &reactions; }
-  /// visit(i, j, normal) for every pair that may touch, i a solid; pairs of two solids may come from both sides. The
-  /// normal from j to i is that of a face, its w the distance in m at which the two rest; 0 for round ones.
+  /// visit(chunk, i, j, normal) for every pair that may touch, i a solid; pairs of two solids may come from both sides.
+  /// The normal from j to i is that of a face, its w the distance in m at which the two rest; 0 for round ones. From
+  /// several threads, those of one chunk, below pairChunks(), from one of them in their order.
   template <class Visit>
-  void forPairs(Visit&& visit) const {
+  void forPairs(const Visit& visit) const {
     if (!m_any) return;
-    for (const Chunk& chunk : m_chunks) {
-      for (size_t k = 0; k < chunk.who.size(); ++k) {
-        for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q)
-          visit(chunk.who[k], chunk.other[q], chunk.facing[q]);
-      }
-    }
+    forChunks(
+        m_chunks.size(), 1,
+        [&](size_t first, size_t last) {
+          for (size_t c = first; c < last; ++c) {
+            const Chunk& chunk = m_chunks[c];
+            for (size_t k = 0; k < chunk.who.size(); ++k) {
+              for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q)
+                visit(c, chunk.who[k], chunk.other[q], chunk.facing[q]);
+            }
+          }
+        },
+        kMicrosecondsPerPair * static_cast<double>(m_pairs));
   }
+  size_t pairChunks() const { return m_chunks.size(); }
   /// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
   /// fills all places around it, so that nothing else can touch it unless it is squeezed.
   static constexpr size_t kEnclosed = 18;
@@ -108,7 +116,7 @@ class SolidContact {
   /// Adds to the chunk what particle i may touch.
   void findPairsOf(uint32_t i, const ParticleStore& store, std::span<const api::Float4> at, const StructureGraph& graph,
                    std::span<const uint32_t> pieceOf, const NearNeighbours& near, Chunk& chunk) const;
-  void addMirrored(size_t chunks);
+  void addMirrored(size_t chunks, size_t particles);
   void findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   template <class Body>
   void everywhere(const Body& body) {
@@ -126,8 +134,9 @@ class SolidContact {
   double m_spacing = 0, m_diameter = 0, m_reach = 0, m_faceReach = 0;  ///< m
   uint32_t m_crowded = 0;  ///< neighbours that a particle has when its lattice is squeezed
   double m_squeezedShare = 0;
-  std::vector<Friction> m_friction;  ///< per material
-  std::vector<Chunk> m_chunks;
+  std::vector<Friction> m_friction;           ///< per material
+  std::vector<Chunk> m_chunks;                ///< of m_solids, and behind them of those that are mirrored
+  std::vector<uint32_t> m_mirrored, m_place;  ///< who mirrored ones meet, and where those of a particle end
   ExternalImpulse m_externalImpulse;
   Reactions* m_reactions = &Reactions::none();
   std::vector<uint32_t> m_solids;
