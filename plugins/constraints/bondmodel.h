@@ -43,6 +43,7 @@ class BondModel : public api::Described<api::StructuralPlugin>, public api::Stru
 
   BondModel();
 
+  void attach(api::Host& host) override { m_threads = static_cast<const api::Threads*>(host.extension(api::kThreads)); }
   bool traits(api::StructuralTraits* out) const noexcept override;
   const void* extension(const char* name) const noexcept override;
   double perParticle(api::Span<const double> parameters) const noexcept override;
@@ -74,6 +75,8 @@ class BondModel : public api::Described<api::StructuralPlugin>, public api::Stru
   };
   static void addBond(const api::ParticleView& particles, uint32_t i, uint32_t j, const Length& length,
                       api::ConstraintSink& sink);
+
+  const api::Threads* m_threads = nullptr;
 };
 
 }  // namespace ps::constraint

@@ -4,6 +4,7 @@
 #include "joining.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace ps::constraint {
@@ -21,6 +22,9 @@ constexpr float kDryRadius = 1.05f;
 /// Of the thesis: how far what is freezing reaches, in spacings, and how many bonds it makes.
 constexpr float kThesisRadius = 1.1f;
 constexpr uint32_t kThesisMost = 4;
+/// Particles and bonds that threads take at a time, and what one thread takes for each, microseconds.
+constexpr size_t kSharedParticles = 256, kSharedBonds = 4096;
+constexpr double kMicrosecondsPerList = 0.03, kMicrosecondsPerBond = 0.002;
 
 float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
   const api::Float4 d = api::separation(p, i, j);
@@ -50,11 +54,15 @@ uint32_t mostBonds(const ConstraintContext& context, const ParticleView& p, uint
 /// would stay for good. Its rule is that of a bond's first particle.
 class LettingGo {
  public:
-  LettingGo(const ConstraintContext& context, const ParticleView& p) : m_state(p.count) {
-    for (uint32_t i = 0; i < p.count; ++i) {
-      const unsigned loose = holds(p.motion[i]) ? 0 : kLoose, melting = p.solidFraction[i] < 1 ? kMelting : 0;
-      m_state[i] = static_cast<uint8_t>(loose | melting | (byThesis(context, p, i) ? kThesis : 0));
-    }
+  LettingGo(const ConstraintContext& context, const ParticleView& p, const api::Threads* threads) : m_state(p.count) {
+    const auto find = [&](size_t first, size_t last) {
+      for (size_t k = first; k < last; ++k) {
+        const auto i = static_cast<uint32_t>(k);
+        const unsigned loose = holds(p.motion[i]) ? 0 : kLoose, melting = p.solidFraction[i] < 1 ? kMelting : 0;
+        m_state[i] = static_cast<uint8_t>(loose | melting | (byThesis(context, p, i) ? kThesis : 0));
+      }
+    };
+    api::shareAmong(threads, p.count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(p.count), find);
   }
   bool operator()(uint32_t i, uint32_t j) const {
     const unsigned a = m_state[i], b = m_state[j];
@@ -70,24 +78,22 @@ class LettingGo {
 class BondGraph {
  public:
   template <class Open>
-  BondGraph(size_t particles, const ConstraintBatch& all, const std::vector<uint8_t>& gone, const Open& open)
-      : m_degree(particles), m_begin(particles + 1) {
-    const auto eachEnd = [&](auto&& visit) {
-      for (size_t k = 0; k < all.count; ++k) {
-        if (gone[k] != 0) continue;
-        visit(all.particles[2 * k], all.particles[2 * k + 1]);
-        visit(all.particles[2 * k + 1], all.particles[2 * k]);
-      }
-    };
-    eachEnd([&](uint32_t i, uint32_t) { ++m_degree[i]; });
-    for (uint32_t i = 0; i < particles; ++i) m_begin[i + 1] = m_begin[i] + (open(i, m_degree[i]) ? m_degree[i] : 0);
-    m_partner.resize(m_begin[particles]);
+  BondGraph(std::vector<uint32_t> degree, const ConstraintBatch& all, const std::vector<uint8_t>& gone,
+            const Open& open)
+      : m_degree(std::move(degree)), m_begin(m_degree.size() + 1) {
+    for (uint32_t i = 0; i < m_degree.size(); ++i)
+      m_begin[i + 1] = m_begin[i] + (open(i, m_degree[i]) ? m_degree[i] : 0);
+    m_partner.resize(m_begin[m_degree.size()]);
     std::vector<uint32_t> next(m_begin.begin(), m_begin.end());
-    eachEnd([&](uint32_t i, uint32_t j) {
+    for (size_t k = 0; k < all.count; ++k) {
+      if (gone[k] != 0) continue;
+      const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
       if (m_begin[i] != m_begin[i + 1]) m_partner[next[i]++] = j;
-    });
+      if (m_begin[j] != m_begin[j + 1]) m_partner[next[j]++] = i;
+    }
   }
   uint32_t degree(uint32_t i) const { return m_degree[i]; }
+  const std::vector<uint32_t>& degrees() const { return m_degree; }
   bool tied(uint32_t i, uint32_t j) const {
     return std::find(m_partner.begin() + m_begin[i], m_partner.begin() + m_begin[i + 1], j) !=
            m_partner.begin() + m_begin[i + 1];
@@ -104,22 +110,28 @@ class Search {
          const BondGraph& bonds)
       : m_context(context), m_p(p), m_lists(lists), m_joining(joining), m_bonds(bonds) {}
 
-  std::vector<Candidate> candidates() && {
+  std::vector<Candidate> candidates(const api::Threads* threads) const {
     const bool looseDry = anybodyLooseAndDry();
-    for (uint32_t i = 0; i < m_p.count; ++i) {
-      if (byThesis(m_context, m_p, i)) {
-        freezeByThesis(i);
-      } else if (m_p.motion[i] == Motion::Solid) {
-        // A dry member of a rigid body joins what is none: most bodies need not look for it.
-        const bool dry = m_joining.dryJoiner(i) && (looseDry || !m_joining.isRigid(i));
-        if (m_joining.fresh(i) || dry) join(i);
-      }
-    }
-    std::sort(m_found.begin(), m_found.end(), nearer);
-    return std::move(m_found);
+    std::vector<std::vector<Candidate>> found((m_p.count + kSharedParticles - 1) / kSharedParticles);
+    api::shareAmong(threads, m_p.count, kSharedParticles, kMicrosecondsPerList * static_cast<double>(m_p.count),
+                    [&](size_t first, size_t last) {
+                      for (size_t i = first; i < last; ++i)
+                        look(static_cast<uint32_t>(i), looseDry, found[first / kSharedParticles]);
+                    });
+    std::vector<Candidate> all;
+    for (const std::vector<Candidate>& some : found) all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end(), nearer);
+    return all;
   }
 
  private:
+  void look(uint32_t i, bool looseDry, std::vector<Candidate>& found) const {
+    if (byThesis(m_context, m_p, i)) return freezeByThesis(i, found);
+    if (m_p.motion[i] != Motion::Solid) return;
+    // A dry member of a rigid body joins what is none: most bodies need not look for it.
+    const bool dry = m_joining.dryJoiner(i) && (looseDry || !m_joining.isRigid(i));
+    if (m_joining.fresh(i) || dry) join(i, found);
+  }
   bool anybodyLooseAndDry() const {
     for (uint32_t i = 0; i < m_p.count; ++i) {
       if (holds(m_p.motion[i]) && m_joining.dryJoiner(i) && !m_joining.isRigid(i)) return true;
@@ -127,19 +139,19 @@ class Search {
     return false;
   }
   template <class Takes>
-  void collect(uint32_t i, float reach, Takes&& takes) {
+  void collect(uint32_t i, float reach, std::vector<Candidate>& found, Takes&& takes) const {
     for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
       const uint32_t j = m_lists.index[q];
       const float d2 = distanceSquared(m_p, i, j);
       if (!(d2 < reach * reach) || !takes(j) || m_bonds.tied(i, j)) continue;
-      m_found.push_back({d2, std::min(m_p.id[i], m_p.id[j]), std::max(m_p.id[i], m_p.id[j]), i, j});
+      found.push_back({d2, std::min(m_p.id[i], m_p.id[j]), std::max(m_p.id[i], m_p.id[j]), i, j});
     }
   }
-  void join(uint32_t i) {
+  void join(uint32_t i, std::vector<Candidate>& found) const {
     if (m_bonds.degree(i) >= mostBonds(m_context, m_p, i)) return;  // as deep inside a block
     const bool fresh = m_joining.fresh(i);
     const float reach = fresh ? m_joining.reach(i) : kDryRadius * static_cast<float>(m_context.spacing);
-    collect(i, reach, [&](uint32_t j) {
+    collect(i, reach, found, [&](uint32_t j) {
       if (!holds(m_p.motion[j]) || (m_joining.isRigid(i) && m_joining.isRigid(j))) return false;
       // Each pair once: by the fresh one, or by the lower of two alike.
       const bool alike = m_joining.fresh(j) == fresh && m_p.motion[j] == Motion::Solid;
@@ -152,9 +164,9 @@ class Search {
     const bool pieces = m_p.body[i] != m_p.body[j] || (m_bonds.degree(i) > 0 && m_bonds.degree(j) > 0);
     return pieces && m_joining.maySinter(i, j);
   }
-  void freezeByThesis(uint32_t i) {
+  void freezeByThesis(uint32_t i, std::vector<Candidate>& found) const {
     if (m_p.phase[i] != Phase::Melting || !m_joining.fresh(i)) return;
-    collect(i, kThesisRadius * static_cast<float>(m_context.spacing),
+    collect(i, kThesisRadius * static_cast<float>(m_context.spacing), found,
             [&](uint32_t j) { return holds(m_p.motion[j]) && m_p.phase[j] == Phase::Solid; });
   }
 
@@ -163,7 +175,6 @@ class Search {
   const NeighbourView& m_lists;
   const Joining& m_joining;
   const BondGraph& m_bonds;
-  std::vector<Candidate> m_found;
 };
 
 }  // namespace
@@ -174,30 +185,33 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   joining.noteFluid();
   std::vector<uint8_t> gone(all.count, 0);
   auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
-  std::fill(ties, ties + p.count, uint8_t{0});
-  const LettingGo letsGo(context, p);
+  const LettingGo letsGo(context, p, m_threads);
+  api::shareAmong(m_threads, all.count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(all.count),
+                  [&](size_t first, size_t last) {
+                    for (size_t k = first; k < last; ++k)
+                      gone[k] = letsGo(all.particles[2 * k], all.particles[2 * k + 1]) ? 1 : 0;
+                  });
+  std::vector<uint32_t> degree(p.count, 0);
   for (size_t k = 0; k < all.count; ++k) {
-    const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
-    if (letsGo(i, j)) {
-      gone[k] = 1;
+    if (gone[k] != 0) {
       sink.remove(k);
       continue;
     }
-    ++ties[i], ++ties[j];
+    ++degree[all.particles[2 * k]], ++degree[all.particles[2 * k + 1]];
   }
+  for (size_t i = 0; i < p.count; ++i) ties[i] = static_cast<uint8_t>(degree[i]);
   const auto thesisRules = [](api::Span<const double> parameters) {
     return parameters.size > BondModel::kBondRule && parameters[BondModel::kBondRule] > 0.5;
   };
   const bool thesis = std::any_of(context.bodyParameters.begin(), context.bodyParameters.end(), thesisRules) ||
                       thesisRules(context.parameters);
   if (!thesis && !joining.anybody()) return;
-  const BondGraph bonds(p.count, all, gone, [&](uint32_t i, uint32_t degree) {
-    return byThesis(context, p, i) || degree < mostBonds(context, p, i);
+  const BondGraph bonds(std::move(degree), all, gone, [&](uint32_t i, uint32_t count) {
+    return byThesis(context, p, i) || count < mostBonds(context, p, i);
   });
-  const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates();
+  const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates(m_threads);
   if (candidates.empty()) return;
-  std::vector<uint32_t> degree(p.count);
-  for (uint32_t i = 0; i < p.count; ++i) degree[i] = bonds.degree(i);
+  degree = bonds.degrees();
   for (const Candidate& c : candidates) {
     const auto full = [&](uint32_t i) { return degree[i] >= mostBonds(context, p, i); };
     if (byThesis(context, p, c.i) ? degree[c.i] >= kThesisMost : full(c.i) || full(c.j)) continue;

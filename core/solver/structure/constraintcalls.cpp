@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of ConstraintSystem that calls plugins of structure and of neighbours, batch by batch.
 #include "core/base/error.h"
-#include "core/base/parallel.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
@@ -14,6 +13,8 @@ namespace ps {
 namespace {
 
 constexpr size_t kLongestName = 200, kMostLimits = 100;  // of a body
+/// Constraints that a thread projects at a time: the colours of a scene of 80,000 particles have some ten thousand.
+constexpr size_t kProjected = 256;
 
 /// J that a plugin says.
 double finite(double joules) {
@@ -41,7 +42,7 @@ void ConstraintSystem::forRuns(const Set& set, size_t first, size_t last, Call&&
 }
 
 template <class Call>
-void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call) {
+void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call, size_t chunk) {
   const auto run = [&](size_t first, size_t last) {
     const CalleeScope callee(set.name.c_str());
     forRuns(set, first, last, [&](uint32_t body, size_t from, size_t to) {
@@ -54,10 +55,12 @@ void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration
   for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
     const size_t begin = set.colourStart[colour], count = set.colourStart[colour + 1] - begin;
     if (count == 0) continue;
-    if (count <= grain::kConstraints)
+    if (count <= chunk)
       run(begin, begin + count);
     else
-      forChunks(count, grain::kConstraints, [&](size_t first, size_t last) { run(begin + first, begin + last); });
+      forChunks(
+          count, chunk, [&](size_t first, size_t last) { run(begin + first, begin + last); },
+          static_cast<double>(count) * grain::microseconds(grain::kConstraints));
   }
 }
 
@@ -123,8 +126,9 @@ void ConstraintSystem::projectStructure(ParticleStore& store, uint32_t substep, 
   const api::MovableParticles particles = movable(store, view);
   for (Set& set : m_sets) {
     moving(set, store, [&] {
-      forBatches(set, substep, iteration,
-                 [&](const auto& c, const auto& b) { set.structural->project(c, particles, b); });
+      forBatches(
+          set, substep, iteration, [&](const auto& c, const auto& b) { set.structural->project(c, particles, b); },
+          kProjected);
     });
   }
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 namespace ps {
@@ -21,11 +22,11 @@ constexpr double kMostTies = 32;  ///< that room is made for before they come
 }  // namespace
 
 struct ConstraintSystem::Edits {
-  std::vector<uint8_t> removed;  ///< per constraint; empty: none
-  size_t removedCount = 0;
+  std::vector<uint8_t> removed;   ///< per constraint; empty: none
+  std::vector<size_t> removedAt;  ///< the same as a list
   std::vector<uint32_t> particles;
   std::vector<float> values;
-  bool empty() const { return removedCount == 0 && particles.empty(); }
+  bool empty() const { return removedAt.empty() && particles.empty(); }
 };
 
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
@@ -53,7 +54,7 @@ class ConstraintSystem::Sink final : public api::ConstraintSink {
     if (m_edits.removed[k] != 0) return;
     m_system.lookUp(m_set, m_store);
     m_edits.removed[k] = 1;
-    ++m_edits.removedCount;
+    m_edits.removedAt.push_back(k);
     m_set.keys.erase(m_system.keyOf(m_set, m_store, m_set.particles.data() + k * m_set.arity));
   }
 
@@ -216,17 +217,19 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
   if (edits.empty()) return;
   m_graphValid = false;
   const size_t arity = set.arity, added = edits.particles.size() / arity;
+  const auto colourOf = [&](size_t k) {
+    return static_cast<size_t>(std::upper_bound(set.colourStart.begin(), set.colourStart.end(), k) -
+                               set.colourStart.begin() - 1);
+  };
   // Colours that removed constraints give back are free for new ones.
-  for (size_t colour = 0; edits.removedCount > 0 && colour + 1 < set.colourStart.size(); ++colour) {
-    for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
-      if (edits.removed[k] == 0) continue;
-      for (size_t a = 0; a < arity; ++a) {
-        const uint32_t particle = set.particles[k * arity + a];
-        if (particle != kGone) set.coloursInUse[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
-      }
+  for (const size_t k : edits.removedAt) {
+    const size_t colour = colourOf(k);
+    for (size_t a = 0; a < arity; ++a) {
+      const uint32_t particle = set.particles[k * arity + a];
+      if (particle != kGone) set.coloursInUse[colour / 64][store.id()[particle]] &= ~(uint64_t{1} << (colour % 64));
     }
   }
-  if (added == 0) return closeGaps(set, edits.removed);
+  if (added == 0) return closeGaps(set, edits.removedAt);
   std::vector<std::vector<uint32_t>> newOfColour(set.colourStart.size() - 1);
   inSlices(0, added, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
@@ -235,52 +238,66 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
       newOfColour[colour].push_back(static_cast<uint32_t>(k));
     }
   });
-  m_keptParticles.clear();
+  const size_t colours = newOfColour.size();
+  set.colourStart.resize(colours + 1, set.count);
+  std::vector<size_t> starts(colours + 1, 0);
+  for (size_t colour = 0; colour < colours; ++colour)
+    starts[colour + 1] = set.colourStart[colour + 1] - set.colourStart[colour] + newOfColour[colour].size();
+  for (const size_t k : edits.removedAt) --starts[colourOf(k) + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  set.count = starts.back();
+  m_keptParticles.resize(set.count * arity);
   m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
-  for (auto& v : m_keptValues) v.clear();
-  if (t_progress) {  // as above; in a running scene they keep their room from edit to edit
-    m_keptParticles.reserve((set.count + added) * arity);
-    for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].reserve(set.count + added);
+  for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].resize(set.count);
+  std::vector<std::vector<Run>> runs(colours);
+  const auto merge = [&](size_t colour) {
+    runs[colour] = mergeColour(set, store, edits, newOfColour[colour], colour, starts[colour]);
+  };
+  if (t_progress) {  // who watches sees it go on, and that is this thread's
+    for (size_t colour = 0; colour < colours; ++colour) merge(colour);
+  } else {
+    constexpr double kMicrosecondsEach = 0.02;
+    forChunks(
+        colours, 1, [&](size_t first, size_t) { merge(first); }, kMicrosecondsEach * static_cast<double>(set.count));
   }
-  std::vector<size_t> starts(1, 0);
-  std::vector<Run> runs;
+  set.particles.swap(m_keptParticles);
+  for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
+  set.colourStart = std::move(starts);
+  set.runs.clear();
+  for (const std::vector<Run>& own : runs) set.runs.insert(set.runs.end(), own.begin(), own.end());
+}
+
+/// Puts what stays and what is new of a colour in order of bodies, from `first` on among what is kept; returns its
+/// runs. Colours may be merged on several threads.
+std::vector<ConstraintSystem::Run> ConstraintSystem::mergeColour(const Set& set, const ParticleStore& store,
+                                                                 const Edits& edits, std::span<const uint32_t> added,
+                                                                 size_t colour, size_t first) {
   struct Place {
     uint32_t body;
     bool isNew;
     size_t k;
   };
+  const size_t arity = set.arity;
   std::vector<Place> places;
-  for (size_t colour = 0; colour < newOfColour.size(); ++colour) {
-    places.clear();
-    const bool old = colour + 1 < set.colourStart.size();
-    for (size_t k = old ? set.colourStart[colour] : 0; old && k < set.colourStart[colour + 1]; ++k) {
-      if (edits.removedCount > 0 && edits.removed[k] != 0) continue;
-      places.push_back({store.body()[set.particles[k * arity]], false, k});
-    }
-    for (const uint32_t k : newOfColour[colour]) {
-      places.push_back({store.body()[edits.particles[k * arity]], true, k});
-    }
-    const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
-    if (!std::is_sorted(places.begin(), places.end(), byBody)) std::stable_sort(places.begin(), places.end(), byBody);
-    const auto keep = [&](size_t first, size_t last) {
-      for (size_t q = first; q < last; ++q) {
-        const Place& place = places[q];
-        if (q == 0 || place.body != places[q - 1].body) runs.push_back({m_keptParticles.size() / arity, place.body});
-        const uint32_t* from = (place.isNew ? edits.particles : set.particles).data() + place.k * arity;
-        m_keptParticles.insert(m_keptParticles.end(), from, from + arity);
-        for (size_t v = 0; v < set.valueCount; ++v) {
-          m_keptValues[v].push_back(place.isNew ? edits.values[place.k * set.valueCount + v] : set.values[v][place.k]);
-        }
-      }
-    };
-    inSlices(0, places.size(), keep);
-    starts.push_back(m_keptParticles.size() / arity);
+  for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
+    if (!edits.removed.empty() && edits.removed[k] != 0) continue;
+    places.push_back({store.body()[set.particles[k * arity]], false, k});
   }
-  set.particles.swap(m_keptParticles);
-  for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
-  set.colourStart = std::move(starts);
-  set.runs = std::move(runs);
-  set.count = set.particles.size() / arity;
+  for (const uint32_t k : added) places.push_back({store.body()[edits.particles[k * arity]], true, k});
+  const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
+  if (!std::is_sorted(places.begin(), places.end(), byBody)) std::stable_sort(places.begin(), places.end(), byBody);
+  std::vector<Run> runs;
+  inSlices(0, places.size(), [&](size_t from, size_t to) {
+    for (size_t q = from; q < to; ++q) {
+      const auto [body, isNew, k] = places[q];
+      if (q == 0 || body != places[q - 1].body) runs.push_back({first + q, body});
+      std::copy_n((isNew ? edits.particles : set.particles).data() + k * arity, arity,
+                  m_keptParticles.data() + (first + q) * arity);
+      for (size_t v = 0; v < set.valueCount; ++v)
+        m_keptValues[v][first + q] = isNew ? edits.values[k * set.valueCount + v] : set.values[v][k];
+    }
+  });
+  return runs;
 }
 
 /// Ties of `members`, or places in groups: each is found, coloured and put in order, three steps of the stage that
@@ -337,6 +354,7 @@ void ConstraintSystem::remap(std::span<const uint32_t> order) {
   for (Set& set : m_sets) {
     for (uint32_t& i : set.particles) i = m_newIndex[i];
     if (set.groups) set.groups->renumber(m_newIndex);
+    sortByParticle(set, order.size());
   }
   forgetMembers();
   m_graphValid = false;

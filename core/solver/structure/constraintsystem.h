@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/base/callee.h"
+#include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/base/shorttext.h"
 #include "core/matter/material.h"
@@ -230,10 +231,13 @@ class ConstraintSystem {
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
   // In constraintgaps.cpp.
-  static void closeGaps(Set& set, std::span<const uint8_t> removed);
+  std::vector<Run> mergeColour(const Set& set, const ParticleStore& store, const Edits& edits,
+                               std::span<const uint32_t> added, size_t colour, size_t first);
+  void sortByParticle(Set& set, size_t particles);
+  static void closeGaps(Set& set, std::vector<size_t> gaps);
   // In constraintcalls.cpp.
   template <class Call>
-  void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call);
+  void forBatches(Set& set, uint32_t substep, uint32_t iteration, Call&& call, size_t chunk = grain::kConstraints);
   template <class Call>
   static void forRuns(const Set& set, size_t first, size_t last, Call&& call);
   void findMembers(Set& set, const ParticleStore& store) const;
@@ -263,9 +267,9 @@ class ConstraintSystem {
   std::vector<Set> m_sets;
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
-  std::vector<uint32_t> m_groupBegin, m_groupMembers, m_open;  ///< of findPieces()
-  std::vector<uint8_t> m_groupSeen;                            ///< likewise
-  std::vector<uint8_t> m_hangs, m_setHangs;                    ///< of findHanging(): by particle, by set
+  std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): lowest member of each
+  std::vector<uint32_t> m_open;              ///< of takeAlong(), still to be followed
+  std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
   std::vector<api::Float4> m_correction;
   std::vector<uint8_t> m_thin;
   ImplicitTies m_carried;

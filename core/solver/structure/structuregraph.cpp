@@ -2,30 +2,88 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
-#include <utility>
+#include <atomic>
+#include <span>
 
 namespace ps {
+namespace {
+
+/// Ties of a particle by which pieces are joined first.
+constexpr uint32_t kSampled = 2;
+
+/// Who belongs together, from any number of threads: each knows somebody of its tree with a lower index, the lowest
+/// itself, so that the root does not depend on who came first (Sutton et al. 2018, "Optimizing parallel graph
+/// connectivity computation via subgraph sampling").
+class Forest {
+ public:
+  explicit Forest(std::span<uint32_t> parents) : m_parents(parents) {}
+  uint32_t parent(uint32_t i) const { return at(i).load(std::memory_order_relaxed); }
+  void link(uint32_t i, uint32_t j) const {
+    uint32_t a = parent(i), b = parent(j);
+    while (a != b) {
+      const uint32_t high = std::max(a, b), low = std::min(a, b);
+      uint32_t above = parent(high);
+      if (above == low) return;
+      if (above == high && at(high).compare_exchange_strong(above, low, std::memory_order_relaxed)) return;
+      a = parent(parent(high));
+      b = parent(low);
+    }
+  }
+  void flatten(uint32_t i) const {
+    for (uint32_t a = parent(i), b = parent(a); a != b; a = b, b = parent(a)) at(i).store(b, std::memory_order_relaxed);
+  }
+  /// The root of most of some that lie evenly apart, where all are flat.
+  uint32_t commonest() const {
+    constexpr size_t kAsked = 512;
+    std::vector<uint32_t> roots;
+    for (size_t k = 0; k < std::min(kAsked, m_parents.size()); ++k)
+      roots.push_back(m_parents[k * m_parents.size() / std::min(kAsked, m_parents.size())]);
+    std::sort(roots.begin(), roots.end());
+    uint32_t best = 0;
+    size_t most = 0;
+    for (size_t first = 0, last = 0; first < roots.size(); first = last) {
+      while (last < roots.size() && roots[last] == roots[first]) ++last;
+      if (last - first > most) most = last - first, best = roots[first];
+    }
+    return best;
+  }
+
+ private:
+  std::atomic_ref<uint32_t> at(uint32_t i) const { return std::atomic_ref(m_parents[i]); }
+  std::span<uint32_t> m_parents;
+};
+
+}  // namespace
 
 const StructureGraph& ConstraintSystem::graph(size_t particles) {
   if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
   std::vector<uint32_t>& begin = m_graph.begin;
   begin.assign(particles + 1, 0);
-  for (const Set& set : m_sets) {
-    for (const uint32_t i : set.particles) begin[i + 1] += static_cast<uint32_t>(set.arity) - 1;
-  }
+  // Constraints of one colour share no particle.
+  const auto eachConstraint = [&](const auto& visit) {
+    for (const Set& set : m_sets) {
+      for (size_t colour = 0; colour + 1 < set.colourStart.size(); ++colour) {
+        const size_t start = set.colourStart[colour];
+        forChunks(set.colourStart[colour + 1] - start, grain::kConstraints, [&](size_t first, size_t last) {
+          for (size_t k = start + first; k < start + last; ++k)
+            visit(std::span(set.particles).subspan(k * set.arity, set.arity));
+        });
+      }
+    }
+  };
+  eachConstraint([&](std::span<const uint32_t> tied) {
+    for (const uint32_t i : tied) begin[i + size_t{1}] += static_cast<uint32_t>(tied.size()) - 1;
+  });
   for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
   m_graph.partner.resize(begin[particles]);
   m_newIndex.assign(begin.begin(), begin.end());
-  for (const Set& set : m_sets) {
-    for (size_t k = 0; k < set.count; ++k) {
-      const uint32_t* p = set.particles.data() + k * set.arity;
-      for (size_t a = 0; a < set.arity; ++a) {
-        for (size_t b = 0; b < set.arity; ++b) {
-          if (a != b) m_graph.partner[m_newIndex[p[a]]++] = p[b];
-        }
+  eachConstraint([&](std::span<const uint32_t> tied) {
+    for (const uint32_t i : tied) {
+      for (const uint32_t j : tied) {
+        if (i != j) m_graph.partner[m_newIndex[i]++] = j;
       }
     }
-  }
+  });
   addGroupsTo(m_graph, particles);
   m_graphValid = true;
   return m_graph;
@@ -39,40 +97,38 @@ std::vector<uint32_t> ConstraintSystem::pieces(size_t particles) {
 
 void ConstraintSystem::findPieces(size_t particles, std::vector<uint32_t>& piece) {
   const StructureGraph& ties = graph(particles);
-  piece.assign(particles, kNoPiece);
-  // Members of groups, by their serial: first how many, then where the next one goes.
-  m_groupBegin.clear();
-  for (const uint32_t group : ties.group) {
-    if (group >= m_groupBegin.size()) m_groupBegin.resize(group + size_t{1}, 0);
-    ++m_groupBegin[group];
-  }
-  uint32_t members = 0;
-  for (uint32_t& begin : m_groupBegin) begin = std::exchange(members, members + begin);
-  m_groupMembers.resize(members);
+  piece.resize(particles);
+  const auto everywhere = [&](const auto& visit) {
+    forChunks(particles, grain::kParticles, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) visit(static_cast<uint32_t>(i));
+    });
+  };
+  Forest forest(piece);
+  everywhere([&](uint32_t i) { piece[i] = i; });
+  m_groupFirst.clear();
   for (uint32_t i = 0; i < particles; ++i) {
-    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k)
-      m_groupMembers[m_groupBegin[ties.group[k]]++] = i;
-  }
-  m_groupSeen.assign(m_groupBegin.size(), 0);
-  m_open.clear();
-  for (uint32_t first = 0; first < particles; ++first) {
-    if (piece[first] != kNoPiece || ties.isFree(first)) continue;
-    const auto reach = [&](uint32_t i) {
-      if (piece[i] == kNoPiece) piece[i] = first, m_open.push_back(i);
-    };
-    reach(first);
-    while (!m_open.empty()) {
-      const uint32_t i = m_open.back();
-      m_open.pop_back();
-      for (uint32_t k = ties.begin[i]; k < ties.begin[i + 1]; ++k) reach(ties.partner[k]);
-      for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
-        const uint32_t group = ties.group[k];
-        if (std::exchange(m_groupSeen[group], uint8_t{1}) != 0) continue;
-        const uint32_t begin = group > 0 ? m_groupBegin[group - 1] : 0;  // each has moved on to its end
-        for (uint32_t m = begin; m < m_groupBegin[group]; ++m) reach(m_groupMembers[m]);
-      }
+    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
+      if (ties.group[k] >= m_groupFirst.size()) m_groupFirst.resize(ties.group[k] + size_t{1}, kNoPiece);
+      uint32_t& first = m_groupFirst[ties.group[k]];
+      first = std::min(first, i);
     }
   }
+  everywhere([&](uint32_t i) {
+    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) forest.link(i, m_groupFirst[ties.group[k]]);
+    const uint32_t end = std::min(ties.begin[i + 1], ties.begin[i] + kSampled);
+    for (uint32_t k = ties.begin[i]; k < end; ++k) forest.link(i, ties.partner[k]);
+  });
+  everywhere([&](uint32_t i) { forest.flatten(i); });
+  // Most hang together by now: the ties of the largest piece to the others are found from the others' side.
+  const uint32_t largest = forest.commonest();
+  everywhere([&](uint32_t i) {
+    if (forest.parent(i) == largest) return;
+    for (uint32_t k = ties.begin[i] + kSampled; k < ties.begin[i + 1]; ++k) forest.link(i, ties.partner[k]);
+  });
+  everywhere([&](uint32_t i) { forest.flatten(i); });
+  everywhere([&](uint32_t i) {
+    if (ties.isFree(i)) piece[i] = kNoPiece;
+  });
 }
 
 bool ConstraintSystem::groups() const {
