@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/workers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <system_error>
 #include <utility>
@@ -32,8 +33,9 @@ class Patience {
 }  // namespace
 
 Workers::Workers(int count) {
+  for (Loop& loop : m_loops) loop.parts = std::vector<Part>(static_cast<size_t>(std::max(count, 0)) + 1);
   try {
-    for (int k = 0; k < count; ++k) m_threads.emplace_back([this] { work(); });
+    for (int k = 0; k < count; ++k) m_threads.emplace_back([this, k] { work(static_cast<size_t>(k) + 1); });
   } catch (const std::system_error&) {  // no more threads are to be had: those that are there do
   }
 }
@@ -58,12 +60,15 @@ void Workers::share(int helpers, size_t chunks, const std::function<void(size_t)
     return;
   }
   loop->body = &body;
-  loop->chunks = chunks;
-  loop->next.store(0, std::memory_order_relaxed);
+  loop->used = std::min(static_cast<size_t>(helpers) + 1, loop->parts.size());
+  for (size_t p = 0; p < loop->used; ++p) {
+    loop->parts[p].next.store(chunks * p / loop->used, std::memory_order_relaxed);
+    loop->parts[p].end = chunks * (p + 1) / loop->used;
+  }
   loop->places.store(static_cast<uint32_t>(helpers) * kPlace, std::memory_order_release);
   ++m_posted;
   if (m_sleeping > 0) m_posted.notify_one();
-  run(*loop);
+  run(*loop, 0);
   loop->places.fetch_and(kTaken);  // who comes now comes too late
   for (Patience patience; loop->places.load(std::memory_order_acquire) != 0;) patience.wait();
   const std::exception_ptr error = std::exchange(loop->error, nullptr);
@@ -71,24 +76,27 @@ void Workers::share(int helpers, size_t chunks, const std::function<void(size_t)
   if (error) std::rethrow_exception(error);
 }
 
-void Workers::run(Loop& loop) {
+void Workers::run(Loop& loop, size_t self) {
   try {
-    for (size_t chunk = loop.next++; chunk < loop.chunks; chunk = loop.next++) (*loop.body)(chunk);
+    for (size_t p = 0; p < loop.used; ++p) {
+      Part& part = loop.parts[(self + p) % loop.used];
+      for (size_t chunk = part.next++; chunk < part.end; chunk = part.next++) (*loop.body)(chunk);
+    }
   } catch (...) {
     const std::lock_guard lock(loop.mutex);
     if (!loop.error) loop.error = std::current_exception();
-    loop.next = loop.chunks;
+    for (size_t p = 0; p < loop.used; ++p) loop.parts[p].next = loop.parts[p].end;
   }
 }
 
 /// Whether there was a loop with a free place; it has then ended.
-bool Workers::help() {
+bool Workers::help(size_t self) {
   for (Loop& loop : m_loops) {
     uint32_t places = loop.places.load(std::memory_order_acquire);
     while (places >= kPlace) {
       if (!loop.places.compare_exchange_weak(places, places - kPlace + 1, std::memory_order_acq_rel)) continue;
       if (places >= 2 * kPlace && m_sleeping > 0) m_posted.notify_one();
-      run(loop);
+      run(loop, self);
       loop.places.fetch_sub(1, std::memory_order_release);
       return true;
     }
@@ -96,13 +104,13 @@ bool Workers::help() {
   return false;
 }
 
-void Workers::work() {
+void Workers::work(size_t self) {
   Patience patience;
   auto last = Clock::now();
   for (;;) {
     const int posted = m_posted;
     if (m_stop) return;  // asked after: who stops raises m_posted behind it, and nobody sleeps through that
-    if (help()) {
+    if (help(self)) {
       patience = {};
       last = Clock::now();
     } else if (Clock::now() - last < kAwake) {

@@ -30,21 +30,27 @@ class Workers {
   void share(int helpers, size_t chunks, const std::function<void(size_t chunk)>& body);
 
  private:
+  /// Chunks that are one thread's: it has them first, and then helps others with theirs. What a chunk of one loop has
+  /// read lies in the caches of who takes it in the next one.
+  struct alignas(64) Part {
+    std::atomic<size_t> next = 0;  ///< chunk
+    size_t end = 0;
+  };
   /// A loop that is shared. Helpers take a place, and leave it when no chunk is left.
   struct alignas(64) Loop {
     std::atomic<bool> taken = false;
     const std::function<void(size_t)>* body = nullptr;
-    size_t chunks = 0;
+    std::vector<Part> parts;  ///< for as many threads as there are
+    size_t used = 0;          ///< of them
     std::mutex mutex;
     std::exception_ptr error;
     alignas(64) std::atomic<uint32_t> places = 0;  ///< free ones in the upper half, taken ones in the lower
-    alignas(64) std::atomic<size_t> next = 0;      ///< chunk
   };
 
   Loop* freeLoop();
-  static void run(Loop& loop);
-  bool help();
-  void work();
+  static void run(Loop& loop, size_t self);
+  bool help(size_t self);
+  void work(size_t self);
 
   std::array<Loop, 4> m_loops;  // of the engine's thread, the viewport's, and a few that chunks share
   std::atomic<bool> m_stop = false;

@@ -151,8 +151,11 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     forChunks(m_fluid.size(), grain::kNeighbours, [&](size_t first, size_t last) {
       for (size_t k = first; k < last; ++k) {
         const uint32_t i = m_fluid[k];
-        for (uint32_t q = view.begin[i]; q < view.last[i]; ++q)
-          std::atomic_ref(m_touched[view.index[q]]).store(1, std::memory_order_relaxed);
+        for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
+          // Many tell it: who only looks takes it from nobody.
+          const std::atomic_ref touched(m_touched[view.index[q]]);
+          if (touched.load(std::memory_order_relaxed) == 0) touched.store(1, std::memory_order_relaxed);
+        }
       }
     });
     forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
