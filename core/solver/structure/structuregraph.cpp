@@ -150,6 +150,19 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
       for (const uint32_t i : set.groups->members(g)) each(i);
     }
   };
+  const auto anyOf = [&](const Set& set, const auto& asked) {
+    const std::vector<uint32_t>& tied = set.particles;
+    const bool any = anyChunk(tied.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      return std::any_of(tied.begin() + static_cast<std::ptrdiff_t>(first),
+                         tied.begin() + static_cast<std::ptrdiff_t>(last), asked);
+    });
+    if (any) return true;
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
+      const auto members = set.groups->members(g);
+      if (std::any_of(members.begin(), members.end(), asked)) return true;
+    }
+    return false;
+  };
   bool anyFixed = false;
   for (uint32_t i = 0; i < store.size() && !anyFixed; ++i) anyFixed = isFixed(i);
   hanging.clear();
@@ -159,9 +172,7 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
   for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
     grown = false;
     for (size_t s = 0; s < m_sets.size(); ++s) {
-      bool any = false;
-      if (m_setHangs[s] == 0) visit(m_sets[s], [&](uint32_t i) { any = any || isFixed(i) || m_hangs[i] != 0; });
-      if (!any) continue;
+      if (m_setHangs[s] != 0 || !anyOf(m_sets[s], [&](uint32_t i) { return isFixed(i) || m_hangs[i] != 0; })) continue;
       visit(m_sets[s], [&](uint32_t i) { m_hangs[i] = 1; });
       m_setHangs[s] = 1;
       grown = true;
