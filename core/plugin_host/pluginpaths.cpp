@@ -37,7 +37,11 @@ class Directories {
     const QFileInfo info(path);
     const QString canonical = info.exists() ? info.canonicalFilePath() : QDir::cleanPath(info.absoluteFilePath());
     const std::string text = canonical.toStdString();
-    std::erase_if(m_list, [&](const PluginDirectory& known) { return known.path == text; });
+    const auto known = std::find_if(m_list.begin(), m_list.end(), [&](const auto& d) { return d.path == text; });
+    if (known != m_list.end()) {
+      own = own || known->own;  // the program's own stay that, whoever names them again
+      m_list.erase(known);
+    }
     m_list.push_back({text, origin, asked, own});
   }
   std::vector<PluginDirectory> result() { return std::move(m_list); }

@@ -201,16 +201,16 @@ class TestPluginHost : public QObject {
     QTest::addColumn<QByteArray>("stamp");
     QTest::addColumn<QString>("expected");
     QTest::newRow("other layout") << QByteArray("phasesketch-sdk:0.9:9")
-                                  << "built with the plugin headers 0.9:9, which do not fit this program's, 0.9:2";
+                                  << "built with the plugin headers 0.9:9, which do not fit this program's, 0.9:3";
     QTest::newRow("other major") << QByteArray("phasesketch-sdk:1.9:1") << "built with the plugin headers 1.9:1";
-    QTest::newRow("older than it says") << QByteArray("phasesketch-sdk:0.8:2") << "ask for a later version";
+    QTest::newRow("older than it says") << QByteArray("phasesketch-sdk:0.8:3") << "ask for a later version";
     QTest::newRow("none") << QByteArray("no stamp is to be had") << "carries no stamp";
   }
   void stampsAreCheckedBeforeLoading() {
     QFETCH(QByteArray, stamp);
     QFETCH(QString, expected);
     const QString path = withSoundPlugins(QString("stamp ") + QTest::currentDataTag());
-    const QByteArray sound("phasesketch-sdk:0.9:2");
+    const QByteArray sound("phasesketch-sdk:0.9:3");
     QByteArray bytes = contents(fixture("fixture_material"));
     QVERIFY(bytes.contains(sound) && stamp.size() == sound.size());  // one for each source
     bytes.replace(sound, stamp);
@@ -442,6 +442,20 @@ class TestPluginHost : public QObject {
     qunsetenv("PHASESKETCH_PLUGIN_PATH");
     QCOMPARE(registry.ids(PluginKind::Material), (std::vector<std::string>{"candle", "soap"}));
     QCOMPARE(registry.material("soap")->properties.at("density_solid").constant, 1060.0);
+  }
+
+  /// Who names the program's own folder once more does not make strangers of its plugins.
+  void ownFolderNamedAgainStaysOwn() {
+    qputenv("PHASESKETCH_PLUGIN_PATH", PS_BINARY_DIR "/lib/phasesketch/plugins");
+    PluginRegistry::Options options;
+    options.userDirectory = false;
+    const PluginRegistry registry(options);
+    qunsetenv("PHASESKETCH_PLUGIN_PATH");
+    const auto& all = registry.plugins();
+    const auto bonds = std::find_if(all.begin(), all.end(), [](const PluginInfo& p) { return p.id == "bonds"; });
+    QVERIFY(bonds != all.end());
+    QVERIFY2(bonds->state == PluginInfo::State::Loaded, bonds->problem.c_str());
+    QVERIFY(bonds->own);
   }
 
   void standardComesWithTheProgram() {
@@ -810,7 +824,8 @@ class TestPluginHost : public QObject {
     size_t mirrored = 0;
     for (const api::Cell& cell : whole.cells()) mirrored += both.contains({-1 - cell.x, cell.y, cell.z}) ? 1 : 0;
     // Cells whose centres or faces lie on a rim may fall to the other side.
-    if (brush != "spray") QVERIFY2(mirrored >= 0.97 * static_cast<double>(whole.size()), qPrintable(QString::number(mirrored)));
+    if (brush != "spray")
+      QVERIFY2(mirrored >= 0.97 * static_cast<double>(whole.size()), qPrintable(QString::number(mirrored)));
     QVERIFY(both.size() > whole.size());
   }
 
@@ -847,7 +862,8 @@ class TestPluginHost : public QObject {
     for (int x = -26; x <= 26; ++x)
       for (int z = 2; z <= 26; ++z) {
         const double r = std::hypot(x + 0.5, z + 0.5);
-        if (r > 16.8 && r < 23.2) QVERIFY2(cells.contains({x, 0, z}), qPrintable(QStringLiteral("%1 %2").arg(x).arg(z)));
+        if (r > 16.8 && r < 23.2)
+          QVERIFY2(cells.contains({x, 0, z}), qPrintable(QStringLiteral("%1 %2").arg(x).arg(z)));
         if (r < 15 || r > 25) QVERIFY(!cells.contains({x, 0, z}));
       }
     for (const api::Cell& cell : cells.cells()) QCOMPARE(cell.y, 0);
