@@ -32,7 +32,8 @@ class TestMarkers : public SampleWindowTest {
   void everyEditIsAStepThereAndBack() {
     const auto text = [this] { return writeProject(document().project()); };
     QUndoStack& stack = document().undoStack();
-    std::vector<std::string> states{text()};
+    std::vector<std::string> states;
+    states.push_back(text());
     QCOMPARE(document().addMarker(2.5), size_t{0});
     states.push_back(text());
     document().addMarker(1);
