@@ -74,8 +74,8 @@ def table_and_water():
         "Table and water",
         "A table is drawn with four legs at once, its top with a thick brush and then made flat by the eraser. On it stands "
         "a tube with a bottom, and in it water. Move the table, and see what becomes of the water.",
-        [OAK, material("glass", "Glass"), WATER],
-        [drawn("table", "Table", "oak", table, d, holds="rigid"), drawn("bowl", "Bowl", "glass", bowl, d, holds="rigid"),
+        [OAK, material("tin", "Tin"), WATER],
+        [drawn("table", "Table", "oak", table, d, holds="rigid"), drawn("bowl", "Bowl", "tin", bowl, d, holds="rigid"),
          drawn("water", "Water", "water", water, d)],
         tray(0.5, 0.5), ((-0.6, -0.1, -0.6), (0.6, 1.2, 0.6)), solver(d, 8),
         [probe("Water", "position_y_min", "lowest", body="water"), probe("Table", "height", "table", body="table"),
@@ -93,18 +93,17 @@ def tree():
                stroke("sphere", 0.075, (0.2, 0.66, 0), (0.23, 0.64, 0.03), palette=1, turns=5),
                stroke("sphere", 0.085, (0, 0.8, 0), palette=1),
                stroke("sphere", 0.07, (0.12, 0.78, 0.06), palette=1, turns=3)]
-    rain = [stroke("spray", 0.3, (-0.1, 1.15, 0), (0.1, 1.15, 0), flow=0.02)]
+    rain = [stroke("spray", 0.3, (-0.1, 1.15, 0), (0.1, 1.15, 0), flow=0.006)]
+    wood = drawn("tree", "Tree", "oak", strokes, d, also=["leaves"], fixed=True)
     return project(
         "Tree in the rain",
         "Trunk, roots and boughs are drawn with a pen that presses less and less, five boughs at once, and leaves of another "
         "matter on them: one body of two materials. Rain falls on it, drawn with the spray.",
         [OAK, material("jelly", "Leaves", "leaves", color_red=0.25, color_green=0.52, color_blue=0.18), WATER],
-        [drawn("tree", "Tree", "oak", strokes, d, also=["leaves"], holds="bonds",
-               pins=[{"minimum": [-0.2, -0.01, -0.2], "maximum": [0.2, 0.03, 0.2]}]),
-         drawn("rain", "Rain", "water", rain, d)],
+        [wood, drawn("rain", "Rain", "water", rain, d)],
         tray(0.45, 0.45), ((-0.55, -0.1, -0.55), (0.55, 1.5, 0.55)), solver(d, 8),
         [probe("Tree", "height_max", "top", body="tree"), probe("Rain", "position_y_min", "rain", body="rain")],
-        20, view((0, 0.5, 0), 2.2, 25, 12, "material", ["material/oak/youngs_modulus", "scene/gravity"]))
+        20, view((0, 0.5, 0), 2.2, 25, 12, "material", ["material/water/viscosity", "scene/gravity"]))
 
 
 def pail_and_pulley():
@@ -208,5 +207,9 @@ if __name__ == "__main__":
     for name in sys.argv[1:] or SKETCHES:
         path = ROOT / "projects" / "sketched" / (name + ".json")
         path.parent.mkdir(exist_ok=True)
-        write(path, SKETCHES[name]())
-        subprocess.run([PROGRAM, "redraw", path, "--out", path], check=True)
+        undrawn = path.with_suffix(".undrawn.json")
+        write(undrawn, SKETCHES[name]())
+        try:
+            subprocess.run([PROGRAM, "redraw", undrawn, "--out", path], check=True)
+        finally:
+            undrawn.unlink()
