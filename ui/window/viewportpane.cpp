@@ -13,6 +13,7 @@
 #include "ui/tools/tooltable.h"
 #include "ui/window/noticebar.h"
 
+#include <QtGui/QAction>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
@@ -20,6 +21,7 @@
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
 
@@ -62,6 +64,8 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_buttons(new QButtonGroup(this)),
       m_shapes(new QButtonGroup(this)),
       m_brushBar(new QWidget),
+      m_shapeBox(new QWidget),
+      m_shapeMenu(new QToolButton),
       m_radius(new QLabel),
       m_colourLabel(new QLabel(QStringLiteral("Colour"))),
       m_colour(new QComboBox) {
@@ -142,20 +146,31 @@ QWidget* ViewportPane::makeBar() {
 void ViewportPane::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   m_colourLabel->setVisible(width() >= kLabelled);
+  showShapes();
+}
+
+/// Brushes lie side by side where there is room for all of them, or else in a menu.
+void ViewportPane::showShapes() {
+  const bool room = width() >= m_bar->minimumSizeHint().width() + m_shapeBox->sizeHint().width();
+  m_shapeBox->setVisible(room);
+  m_shapeMenu->setVisible(!room);
 }
 
 void ViewportPane::makeBrushBar() {
   auto* brush = new QHBoxLayout(m_brushBar);
   brush->setContentsMargins(10, 0, 0, 0);
   brush->setSpacing(4);
-  m_shapeRow = new QHBoxLayout;
-  m_shapeRow->setSpacing(4);
-  brush->addLayout(m_shapeRow);
-  connect(m_shapes, &QButtonGroup::buttonClicked, this, [this](const QAbstractButton* button) {
-    BrushSettings settings = m_tools.brush();
-    settings.shape = button->property(kShape).toString().toStdString();
-    m_tools.setBrush(settings);
-  });
+  auto* row = new QHBoxLayout(m_shapeBox);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(4);
+  m_shapeBox->setMinimumWidth(1);  // see showShapes()
+  brush->addWidget(m_shapeBox);
+  m_shapeMenu->setMenu(new QMenu(m_shapeMenu));
+  m_shapeMenu->setPopupMode(QToolButton::InstantPopup);
+  m_shapeMenu->setFocusPolicy(Qt::TabFocus);
+  brush->addWidget(m_shapeMenu);
+  connect(m_shapes, &QButtonGroup::buttonClicked, this,
+          [this](const QAbstractButton* button) { chooseShape(button->property(kShape).toString()); });
   auto* label = new QLabel(QStringLiteral("Radius"));
   label->setProperty("role", "muted");
   brush->addSpacing(8);
@@ -188,9 +203,20 @@ void ViewportPane::addShapes() {
     }
     button->setProperty(kShape, name);
     m_shapes->addButton(button);
-    m_shapeRow->addWidget(button);
+    m_shapeBox->layout()->addWidget(button);
+    QAction* action = m_shapeMenu->menu()->addAction(button->icon(), asButtonText(label));
+    action->setData(name);
+    action->setCheckable(true);
+    connect(action, &QAction::triggered, this, [this, name] { chooseShape(name); });
   }
+  showShapes();
   showBrush();
+}
+
+void ViewportPane::chooseShape(const QString& shape) {
+  BrushSettings settings = m_tools.brush();
+  settings.shape = shape.toStdString();
+  m_tools.setBrush(settings);
 }
 
 /// Matter itself, and the fields that particles have; those of plugins once they are known.
@@ -215,11 +241,19 @@ void ViewportPane::showTool() {
     if (m_tools.active() == toolTable()[i].id) m_buttons->button(static_cast<int>(i))->setChecked(true);
   }
   m_brushBar->setVisible(m_tools.tool().usesBrush());
+  showShapes();
 }
 
 void ViewportPane::showBrush() {
   const QString shape = QString::fromStdString(m_tools.brush().shape);
   for (QAbstractButton* button : m_shapes->buttons()) button->setChecked(button->property(kShape).toString() == shape);
+  for (QAction* action : m_shapeMenu->menu()->actions()) {
+    action->setChecked(action->data().toString() == shape);
+    if (!action->isChecked()) continue;
+    m_shapeMenu->setIcon(action->icon());
+    m_shapeMenu->setToolTip(QStringLiteral("Brush: %1").arg(action->text()));
+    m_shapeMenu->setAccessibleName(m_shapeMenu->toolTip());
+  }
   m_radius->setText(lengthText(m_tools.brush().radius));
 }
 

@@ -6,7 +6,6 @@
 
 class QButtonGroup;
 class QComboBox;
-class QHBoxLayout;
 class QLabel;
 class QToolButton;
 
@@ -36,6 +35,8 @@ class ViewportPane : public QWidget {
   void showColour();
   void showTool();
   void showBrush();
+  void showShapes();
+  void chooseShape(const QString& shape);
 
   Session& m_session;
   Toolbox& m_tools;
@@ -44,7 +45,8 @@ class ViewportPane : public QWidget {
   NoticeBar* m_notice;
   QButtonGroup *m_buttons, *m_shapes;
   QWidget* m_brushBar;
-  QHBoxLayout* m_shapeRow = nullptr;
+  QWidget* m_shapeBox;       ///< a button for each brush
+  QToolButton* m_shapeMenu;  ///< in its place where there is no room
   QLabel* m_radius;
   QLabel* m_colourLabel;
   QComboBox* m_colour;
