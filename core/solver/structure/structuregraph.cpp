@@ -2,6 +2,7 @@
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <span>
 
@@ -34,10 +35,9 @@ class Forest {
   }
   /// The root of most of some that lie evenly apart, where all are flat.
   uint32_t commonest() const {
-    constexpr size_t kAsked = 512;
-    std::vector<uint32_t> roots;
-    for (size_t k = 0; k < std::min(kAsked, m_parents.size()); ++k)
-      roots.push_back(m_parents[k * m_parents.size() / std::min(kAsked, m_parents.size())]);
+    std::array<uint32_t, 512> all;
+    const auto roots = std::span(all).first(std::min(all.size(), m_parents.size()));
+    for (size_t k = 0; k < roots.size(); ++k) roots[k] = m_parents[k * m_parents.size() / roots.size()];
     std::sort(roots.begin(), roots.end());
     uint32_t best = 0;
     size_t most = 0;
