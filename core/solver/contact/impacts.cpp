@@ -241,17 +241,21 @@ void Impacts::turnToFaces(const ParticleStore& store, const Neighbours& neighbou
   if (m_surface.size() == 0) return;
   m_surface.find(store, neighbours,
                  [&](uint32_t p, uint32_t q) { return (isStatic(p) && isStatic(q)) || sameLattice(graph, p, q); });
+  const auto faceOf = [&](const Impact& k) {
+    if (isRound(k)) return kRound;
+    const LatticeSurface::Normal a = m_surface.normalOf(store, k.a), b = m_surface.normalOf(store, k.b);
+    if (a.neighbours + b.neighbours == 0) return kRound;
+    const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * k.normal);
+    return facing.face ? float4Of(facing.normal, static_cast<float>(kFaceDistance * m_spacing + facing.lift)) : kRound;
+  };
   forChunks(chunks, 1, [&](size_t first, size_t last) {
     for (size_t c = first; c < last; ++c) {
-      std::erase_if(m_found[c], [&](Impact& k) {
-        if (isRound(k)) return false;
-        const LatticeSurface::Normal a = m_surface.normalOf(store, k.a), b = m_surface.normalOf(store, k.b);
-        if (a.neighbours + b.neighbours == 0) return false;
-        const LatticeSurface::Facing facing = m_surface.facing(a, b, m_diameter * k.normal);
-        if (!facing.face) return false;
-        const auto distance = static_cast<float>(kFaceDistance * m_spacing + facing.lift);
-        return !test(store, graph, k.a, k.b, float4Of(facing.normal, distance), k);
-      });
+      size_t stays = 0;
+      for (Impact k : m_found[c]) {
+        const auto face = faceOf(k);
+        if (!(face.w > 0) || test(store, graph, k.a, k.b, face, k)) m_found[c][stays++] = k;
+      }
+      m_found[c].resize(stays);
     }
   });
 }

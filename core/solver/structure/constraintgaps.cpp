@@ -62,13 +62,17 @@ void ConstraintSystem::sortByParticle(Set& set, size_t particles) {
   });
   if (static_cast<double>(behind) <= kMostDisorder * static_cast<double>(set.count)) return;
   // Through all particles in order, each to the end of what its run has so far.
-  std::vector<uint32_t> end(particles + 1, 0), ofParticle(set.count), runOf(set.count), from(set.count);
+  static thread_local std::vector<uint32_t> endRoom, ofParticleRoom, runOfRoom, fromRoom, nextRoom;  // used again
+  std::vector<uint32_t>&end = endRoom, &ofParticle = ofParticleRoom, &runOf = runOfRoom, &from = fromRoom,
+  &next = nextRoom;
+  end.assign(particles + 1, 0);
+  for (std::vector<uint32_t>* room : {&ofParticle, &runOf, &from}) room->resize(set.count);
   for (size_t k = 0; k < set.count; ++k) ++end[firstOf(k) + size_t{1}];
   for (size_t i = 0; i < particles; ++i) end[i + 1] += end[i];
   for (size_t k = 0; k < set.count; ++k) ofParticle[end[firstOf(k)]++] = static_cast<uint32_t>(k);
-  std::vector<size_t> next;
+  next.clear();
   eachRun([&](size_t r, size_t first, size_t last) {
-    next.push_back(first);
+    next.push_back(static_cast<uint32_t>(first));
     std::fill(runOf.begin() + static_cast<std::ptrdiff_t>(first), runOf.begin() + static_cast<std::ptrdiff_t>(last),
               static_cast<uint32_t>(r));
   });

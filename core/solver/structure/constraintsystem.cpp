@@ -239,16 +239,17 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
     }
   });
   const size_t colours = newOfColour.size();
-  set.colourStart.resize(colours + 1, set.count);
   std::vector<size_t> starts(colours + 1, 0);
-  for (size_t colour = 0; colour < colours; ++colour)
-    starts[colour + 1] = set.colourStart[colour + 1] - set.colourStart[colour] + newOfColour[colour].size();
+  for (size_t colour = 0; colour < colours; ++colour) {
+    const bool old = colour + 1 < set.colourStart.size();
+    starts[colour + 1] = newOfColour[colour].size() + (old ? set.colourStart[colour + 1] - set.colourStart[colour] : 0);
+  }
   for (const size_t k : edits.removedAt) --starts[colourOf(k) + 1];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  set.count = starts.back();
-  m_keptParticles.resize(set.count * arity);
+  const size_t count = starts.back();
+  m_keptParticles.resize(count * arity);
   m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
-  for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].resize(set.count);
+  for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].resize(count);
   std::vector<std::vector<Run>> runs(colours);
   const auto merge = [&](size_t colour) {
     runs[colour] = mergeColour(set, store, edits, newOfColour[colour], colour, starts[colour]);
@@ -258,11 +259,12 @@ void ConstraintSystem::apply(Set& set, const ParticleStore& store, const Edits& 
   } else {
     constexpr double kMicrosecondsEach = 0.02;
     forChunks(
-        colours, 1, [&](size_t first, size_t) { merge(first); }, kMicrosecondsEach * static_cast<double>(set.count));
+        colours, 1, [&](size_t first, size_t) { merge(first); }, kMicrosecondsEach * static_cast<double>(count));
   }
   set.particles.swap(m_keptParticles);
   for (size_t v = 0; v < set.valueCount; ++v) set.values[v].swap(m_keptValues[v]);
   set.colourStart = std::move(starts);
+  set.count = count;
   set.runs.clear();
   for (const std::vector<Run>& own : runs) set.runs.insert(set.runs.end(), own.begin(), own.end());
 }
@@ -279,7 +281,8 @@ std::vector<ConstraintSystem::Run> ConstraintSystem::mergeColour(const Set& set,
   };
   const size_t arity = set.arity;
   std::vector<Place> places;
-  for (size_t k = set.colourStart[colour]; k < set.colourStart[colour + 1]; ++k) {
+  const bool old = colour + 1 < set.colourStart.size();
+  for (size_t k = old ? set.colourStart[colour] : 0; old && k < set.colourStart[colour + 1]; ++k) {
     if (!edits.removed.empty() && edits.removed[k] != 0) continue;
     places.push_back({store.body()[set.particles[k * arity]], false, k});
   }
