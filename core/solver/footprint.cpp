@@ -65,8 +65,9 @@ double bytesOf(const StructureFootprint& s) {
   const double own = (ties ? static_cast<double>(s.arity) : 1) * kIndex + static_cast<double>(s.values) * kFloat;
   const double group = s.groupsPerMembership * (static_cast<double>(s.groupValues) * kFloat + 2 * kPlace);
   const double key = ties ? 2 * 2 * kPlace : 0;
-  const double graph = kGrown * 2 * kIndex;
-  return s.perParticle * (kGrown * (own + group) + kLastGood * (own + group) + key + graph);
+  const double graph = kGrown * (ties ? 2 : 1) * kIndex;
+  // Ties come and go one by one; groups are made at once, when it is known how many there are.
+  return s.perParticle * ((ties ? kGrown : 1) * (own + group) + kLastGood * (own + group) + key + graph);
 }
 
 }  // namespace
