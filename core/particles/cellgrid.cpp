@@ -2,15 +2,12 @@
 #include "core/particles/cellgrid.h"
 
 #include <atomic>
-#include <cmath>
 
 namespace ps {
 namespace {
 
 /// Places from which on several threads sort them: below that, sharing the work costs more than it saves.
 constexpr size_t kMany = 1 << 16;
-/// From the origin: numbers of cells stay exact.
-constexpr double kFarthestCell = 1e15;
 
 /// Each number becomes the sum of all up to it; `sums` is room for one of each chunk.
 void sumUp(std::vector<uint32_t>& numbers, std::vector<uint32_t>& sums) {
@@ -36,26 +33,25 @@ uint32_t next(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, st
 }  // namespace
 
 void CellGrid::fit(const Bounds& bounds, size_t count, double edge, const Period& period) {
-  double low[3], high[3];
+  double extent[3];
   for (size_t a = 0; a < 3; ++a) {
     const bool any = bounds.low[a] <= bounds.high[a];
-    low[a] = any ? bounds.low[a] : 0;
-    high[a] = any ? bounds.high[a] : 0;
+    m_low[a] = any ? bounds.low[a] : 0;
+    extent[a] = any ? bounds.high[a] - bounds.low[a] : 0;
   }
   const auto most = static_cast<double>(8 * count + 4096);
-  const auto cellAt = [&](double coordinate) { return std::floor(coordinate * (1 / edge)); };  // as along() has it
   const auto cellsAlong = [&](size_t a) {
     if (period.length(a) > 0) return std::max(3.0, std::floor(double{period.length(a)} / edge));
-    return cellAt(high[a]) - cellAt(low[a]) + 1;
+    return std::floor(extent[a] / edge) + 1;
   };
-  const double farthest = *std::max_element(high, high + 3) - std::min({low[0], low[1], low[2], 0.0});
-  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most || farthest > kFarthestCell * edge) edge *= 1.25;
+  while (cellsAlong(0) * cellsAlong(1) * cellsAlong(2) > most) edge *= 1.25;
   for (size_t a = 0; a < 3; ++a) {
     m_cells[a] = static_cast<int>(cellsAlong(a));
+    m_perMetre[a] = 1 / edge;
     m_repeats[a] = period.length(a) > 0;
-    m_low[a] = m_repeats[a] ? period.low(a) : 0;
-    m_first[a] = m_repeats[a] ? 0 : cellAt(low[a]);
-    m_perMetre[a] = m_repeats[a] ? m_cells[a] * double{period.inverse(a)} : 1 / edge;
+    if (!m_repeats[a]) continue;
+    m_low[a] = period.low(a);
+    m_perMetre[a] = m_cells[a] * double{period.inverse(a)};
   }
   m_cellOf.resize(count);
 }

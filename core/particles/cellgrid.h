@@ -13,8 +13,7 @@ namespace ps {
 
 /// Cells of one size over the box around some places, and which places lie in each: whoever looks for what is near asks
 /// the cells around it. A counting sort: rows of cells along x are one range of slots, and places of a cell keep their
-/// order, whoever put them there. Where cells meet does not depend on the box: as long as they keep their size, two
-/// places stay in the order that they have, and in one cell or in two.
+/// order, whoever put them there.
 class CellGrid {
  public:
   /// `placeOf(i)`, an api::Double3 in m within the period, for i < count. Cells are `edge` m wide or more, since there
@@ -42,14 +41,9 @@ class CellGrid {
   /// Cell along an axis, of those that there are.
   int along(double coordinate, size_t axis) const {
     const double t = (coordinate - m_low[axis]) * m_perMetre[axis];
-    if (!(t > m_first[axis])) return 0;
-    if (t - m_first[axis] >= m_cells[axis]) return m_cells[axis] - 1;
-    const auto whole = static_cast<int64_t>(t);
-    const int64_t below = static_cast<double>(whole) > t ? whole - 1 : whole;
-    return std::min(m_cells[axis] - 1, static_cast<int>(below - static_cast<int64_t>(m_first[axis])));
+    if (!(t > 0)) return 0;
+    return t >= m_cells[axis] ? m_cells[axis] - 1 : static_cast<int>(t);
   }
-  /// Cells of one metre, along an axis.
-  double perMetre(size_t axis) const { return m_perMetre[axis]; }
   /// visit(first, last) for slots that hold all places within `edge` m of a place, across the faces of a period too.
   template <class Visit>
   void around(const api::Double3& place, Visit&& visit) const {
@@ -109,7 +103,6 @@ class CellGrid {
 
   static constexpr size_t kSpareSlots = 16;
   double m_low[3] = {0, 0, 0}, m_perMetre[3] = {1, 1, 1};  ///< m, 1/m
-  double m_first[3] = {0, 0, 0};                           ///< cell, from m_low on; a whole number
   int m_cells[3] = {1, 1, 1};
   bool m_repeats[3] = {false, false, false};
   std::vector<Bounds> m_bounds;  ///< by chunk

@@ -8,11 +8,9 @@
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace ps {
@@ -21,11 +19,6 @@ namespace {
 constexpr size_t kSpareSlots = 16;
 /// Of what was needed, one part in so many is kept spare.
 constexpr size_t kSpareShare = 32;
-/// Rooms that chunks have left may be one part in so many of what all need.
-constexpr size_t kMostEmpty = 4;
-
-/// Share of all that stand still from which on lists are looked at that need not be made.
-constexpr double kLeastStanding = 0.25;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -51,7 +44,6 @@ void Neighbours::sortAndBuild(ParticleStore& store) {
   if (!m_grid.sorted()) {
     store.permute(m_grid.order());
     m_grid.reorder();
-    m_built.clear();  // of another order
   }
   makeLists(placesOf(store), store.period());
 }
@@ -135,55 +127,8 @@ bool Neighbours::giveMoreRoom() {
   return any;
 }
 
-/// Lists are of indices in order of cells, whose places do not depend on who else is there: where all around stand as
-/// they stood, they come out the same.
-void Neighbours::findKept(std::span<const api::Float4> position, const Period& period) {
-  m_keeps.clear();
-  const size_t n = position.size();
-  const bool sameCells = m_grid.perMetre(0) == m_perMetre && !period.any();
-  m_perMetre = m_grid.perMetre(0);
-  if (m_built.size() != n || !sameCells || n == 0) return;
-  const auto stands = [&](size_t i) {
-    const api::Float4 &a = position[i], &b = m_built[i];
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-  };
-  const double standing = parallelSum(n, grain::kNumbers, [&](size_t first, size_t last) {
-    size_t count = 0;
-    for (size_t i = first; i < last; ++i) count += stands(i) ? 1 : 0;
-    return static_cast<double>(count);
-  });
-  if (standing < kLeastStanding * static_cast<double>(n)) return;
-  m_stirred.assign(m_grid.cell(0, 0, m_grid.cells(2)), 0);
-  const auto stir = [&](const api::Float4& p) {
-    const int at[3] = {m_grid.along(p.x, 0), m_grid.along(p.y, 1), m_grid.along(p.z, 2)};
-    for (int z = std::max(at[2] - 1, 0); z <= std::min(at[2] + 1, m_grid.cells(2) - 1); ++z) {
-      for (int y = std::max(at[1] - 1, 0); y <= std::min(at[1] + 1, m_grid.cells(1) - 1); ++y) {
-        for (int x = std::max(at[0] - 1, 0); x <= std::min(at[0] + 1, m_grid.cells(0) - 1); ++x) {
-          const std::atomic_ref cell(m_stirred[m_grid.cell(x, y, z)]);
-          if (cell.load(std::memory_order_relaxed) == 0) cell.store(1, std::memory_order_relaxed);
-        }
-      }
-    }
-  };
-  forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) {
-      if (stands(i)) continue;
-      stir(position[i]);
-      stir(m_built[i]);
-    }
-  });
-  m_keeps.assign(chunkCount(n, grain::kNeighbours), 0);
-  const std::span<const uint32_t> cellOf = m_grid.cellOfEach();
-  forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
-    bool kept = true;
-    for (size_t i = first; i < last && kept; ++i) kept = m_stirred[cellOf[i]] == 0;
-    m_keeps[first / grain::kNeighbours] = kept ? 1 : 0;
-  });
-}
-
 void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
   const size_t n = position.size();
-  findKept(position, period);
   m_built.clear();  // there are no lists until all are whole
   loadSlots(position, period);
   advance(n);
@@ -204,15 +149,12 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   const auto search = [&](size_t first, size_t last) {
     if (progress) progress->advance(last - first);
     const size_t c = first / grain::kNeighbours;
-    if (all ? !m_keeps.empty() && m_keeps[c] != 0 : m_short[c] == 0) return;
+    if (!all && m_short[c] == 0) return;
     const ListRoom room{m_rooms[c].first, m_rooms[c].count, m_index.data(),          m_begin.data(),
                         m_last.data(),    m_end.data(),     static_cast<uint32_t>(n)};
     m_needs[c] = static_cast<uint32_t>(searchLists(grid, first, last, room));
   };
-  // What outgrew its room has left it empty.
-  const size_t needed = std::accumulate(m_needs.begin(), m_needs.end(), size_t{0});
-  if (m_slots > needed + needed / kMostEmpty + kListPad * m_rooms.size()) m_keeps.clear();
-  if (m_keeps.empty()) layOut(chunkCount(n, grain::kNeighbours));
+  layOut(chunkCount(n, grain::kNeighbours));
   parallelFor(n, grain::kNeighbours, std::cref(search));
   progress = nullptr;
   all = false;

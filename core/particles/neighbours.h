@@ -45,8 +45,6 @@ class Neighbours {
   bool giveMoreRoom();
   void makeRoom();
   void makeLists(std::span<const api::Float4> position, const Period& period);
-  /// Which chunks of particles would get the lists that they have: 1 in m_keeps.
-  void findKept(std::span<const api::Float4> position, const Period& period);
   /// Puts places where the search reads them.
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
@@ -56,13 +54,10 @@ class Neighbours {
   struct Room {
     uint32_t first, count;
   };
-  std::vector<uint32_t> m_needs;   ///< entries that each chunk of particles needed
-  std::vector<Room> m_rooms;       ///< of each
-  std::vector<uint8_t> m_short;    ///< 1 where that was too little
-  std::vector<uint8_t> m_keeps;    ///< 1 where nobody has moved, nor anybody around; empty: all lists are made
-  std::vector<uint8_t> m_stirred;  ///< by cell: 1 where somebody has moved in it or next to it
-  double m_perMetre = 0;           ///< of the grid that the lists were made with; 0: lists of another order
-  size_t m_slots = 0;              ///< of all
+  std::vector<uint32_t> m_needs;  ///< entries that each chunk of particles needed
+  std::vector<Room> m_rooms;      ///< of each
+  std::vector<uint8_t> m_short;   ///< 1 where that was too little
+  size_t m_slots = 0;             ///< of all
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.
