@@ -62,9 +62,7 @@ void ConstraintSystem::sortByParticle(Set& set, size_t particles) {
   });
   if (static_cast<double>(behind) <= kMostDisorder * static_cast<double>(set.count)) return;
   // Through all particles in order, each to the end of what its run has so far.
-  static thread_local std::vector<uint32_t> endRoom, ofParticleRoom, runOfRoom, fromRoom, nextRoom;  // used again
-  std::vector<uint32_t>&end = endRoom, &ofParticle = ofParticleRoom, &runOf = runOfRoom, &from = fromRoom,
-  &next = nextRoom;
+  auto& [end, ofParticle, runOf, from, next] = m_sorting;
   end.assign(particles + 1, 0);
   for (std::vector<uint32_t>* room : {&ofParticle, &runOf, &from}) room->resize(set.count);
   for (size_t k = 0; k < set.count; ++k) ++end[firstOf(k) + size_t{1}];
@@ -80,10 +78,11 @@ void ConstraintSystem::sortByParticle(Set& set, size_t particles) {
   m_keptParticles.resize(set.count * set.arity);
   m_keptValues.resize(std::max(m_keptValues.size(), set.valueCount));
   for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v].resize(set.count);
+  const std::vector<uint32_t>& source = from;
   forChunks(set.count, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
-      std::copy_n(set.particles.data() + from[k] * set.arity, set.arity, m_keptParticles.data() + k * set.arity);
-      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v][k] = set.values[v][from[k]];
+      std::copy_n(set.particles.data() + source[k] * set.arity, set.arity, m_keptParticles.data() + k * set.arity);
+      for (size_t v = 0; v < set.valueCount; ++v) m_keptValues[v][k] = set.values[v][source[k]];
     }
   });
   set.particles.swap(m_keptParticles);

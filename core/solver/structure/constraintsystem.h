@@ -267,6 +267,10 @@ class ConstraintSystem {
   std::vector<Set> m_sets;
   std::vector<uint32_t> m_newIndex, m_keptParticles;
   std::vector<std::vector<float>> m_keptValues;
+  /// Room of sortByParticle(): by particle, in order of particles, and by constraint, run and new place.
+  struct Sorting {
+    std::vector<uint32_t> end, ofParticle, runOf, from, next;
+  } m_sorting;
   std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): lowest member of each
   std::vector<uint32_t> m_open;              ///< of takeAlong(), still to be followed
   std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
