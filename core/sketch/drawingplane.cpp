@@ -12,7 +12,12 @@ std::optional<Vector3> meet(const Ray& ray, const DrawingPlane& plane, double re
   if (!(std::abs(approach) > kGrazing * directionLength * plane.normal.norm())) return std::nullopt;
   const double t = (plane.point - ray.origin).dot(plane.normal) / approach;
   if (!(t >= 0) || t * directionLength > reach) return std::nullopt;
-  return ray.origin + t * ray.direction;
+  Vector3 place = ray.origin + t * ray.direction;
+  // On a plane across an axis exactly: it may lie on faces of cells, and one of both sides is meant.
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (std::abs(plane.normal[axis]) == plane.normal.norm()) place[axis] = plane.point[axis];
+  }
+  return place;
 }
 
 DrawingPlane drawingPlaneFor(const Vector3& point, const Vector3& viewDirection) {

@@ -14,6 +14,15 @@ constexpr double kMostPieces = 1e5;  // of the way between two samples, which li
 
 Double3 between(const Double3& a, const Double3& b, double t) { return sum(scaled(a, 1 - t), scaled(b, t)); }
 
+/// From one unit vector to another in equal steps of the angle between them, rad (Shoemake 1985). Straight on and
+/// straight back there is no bend: the second.
+Double3 turning(const Double3& a, const Double3& b, double angle, double t) {
+  constexpr double kStraight = 1e-6;
+  const double sine = std::sin(angle);
+  if (!(sine > kStraight)) return b;
+  return sum(scaled(a, std::sin((1 - t) * angle) / sine), scaled(b, std::sin(t * angle) / sine));
+}
+
 }  // namespace
 
 Frame frameOf(const api::StrokeContext& context, double angle) {
@@ -23,7 +32,7 @@ Frame frameOf(const api::StrokeContext& context, double angle) {
 }
 
 Double3 extentOf(const Frame& frame, const Double3& half) {
-  const auto along = [&](double Double3::* axis) {
+  const auto along = [&](double Double3::*axis) {
     return std::abs(frame.up.*axis) * half.x + std::abs(frame.side.*axis) * half.y +
            std::abs(frame.front.*axis) * half.z;
   };
@@ -45,9 +54,7 @@ void alongWay(const api::StrokeContext& context, const api::List<api::StrokeSamp
     if (!(pieces < kMostPieces)) throw std::length_error("the brush is too large for the spacing of the particles");
     for (double k = begins ? 0 : 1; k <= pieces; ++k) {
       const double t = pieces > 0 ? k / pieces : 1;
-      const Double3 direction = unit(between(from, next.direction, t));
-      // Straight back there is no bend to fill.
-      each({between(last.position, next.position, t), dot(direction, direction) > 0 ? direction : next.direction,
+      each({between(last.position, next.position, t), turning(from, next.direction, turn, t),
             std::lerp(last.pressure, next.pressure, t)});
     }
     last = next;

@@ -28,19 +28,19 @@ LineBrush::LineBrush()
 void LineBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   const Frame frame = frameOf(context, parameter(context, 0, 0));
-  const double dx = context.spacing, hair = 1e-9 * dx;
+  const double dx = context.spacing, hair = kHair * dx;
   const Double3 extent = extentOf(frame, {dx, context.radius, dx});
-  // Half open, as a cell is; the allowance is far above rounding.
-  const auto within = [&](double offset, double half) { return offset >= -half - hair && offset < half - hair; };
   std::vector<ps::api::Cell> cells;
   alongWay(context, samples, 0, [&](const Section& section) {
     cells.clear();
     const auto inside = [&](const Double3& d) {
       const double along = dot(d, frame.side);
       const Double3 off = difference(d, scaled(frame.side, along));
-      return within(along, context.radius) && within(off.x, dx / 2) && within(off.y, dx / 2) && within(off.z, dx / 2);
+      return reaches(along, context.radius, hair) && reaches(off.x, dx / 2, hair) && reaches(off.y, dx / 2, hair) &&
+             reaches(off.z, dx / 2, hair);
     };
-    stamp(context, section.centre, extent, inside, cells);
+    cellsAround(context, section.centre, extent, inside, cells);
+    if (cells.empty()) cells.push_back(cellAt(context, section.centre));  // smaller than a cell
     sink.submit(kind, {cells.data(), cells.size()});
   });
 }

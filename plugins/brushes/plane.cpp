@@ -17,17 +17,18 @@ constexpr ps::api::ParameterDeclaration kParameters[] = {
 }  // namespace
 
 PlaneBrush::PlaneBrush()
-    : Described({"Plane",
-                 "Draws with a square sheet, one particle thick, that lies on what is drawn on: a table top at a touch. "
-                 "Its half edge is the brush's radius. It knows the lattice only, not what stands in the way; occupied "
-                 "cells are left as they are.",
-                 ps::api::listOf(kParameters)}) {}
+    : Described(
+          {"Plane",
+           "Draws with a square sheet, one particle thick, that lies on what is drawn on: a table top at a touch. "
+           "Its half edge is the brush's radius. It knows the lattice only, not what stands in the way; occupied "
+           "cells are left as they are.",
+           ps::api::listOf(kParameters)}) {}
 
 void PlaneBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                         const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
-  const double low = -context.radius - 1e-9 * context.spacing, high = context.radius - 1e-9 * context.spacing;
+  const double hair = kHair * context.spacing;
   const auto inside = [&](double side, double front) {
-    return side >= low && side < high && front >= low && front < high;
+    return reaches(side, context.radius, hair) && reaches(front, context.radius, hair);
   };
   stampSheets(context, frameOf(context, parameter(context, 0, 0)), context.radius, samples, kind, inside, sink);
 }

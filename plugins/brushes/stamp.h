@@ -25,11 +25,32 @@ void stamp(const api::StrokeContext& context, const api::Double3& sample, const 
            const Inside& inside, std::vector<api::Cell>& cells);
 /// The cell whose cube holds a place; one on a face belongs to the higher one. Throws std::range_error like these.
 api::Cell cellAt(const api::StrokeContext& context, const api::Double3& place);
+/// In spacings, far above rounding: of a place on a face it must not waver which of two cells is meant.
+inline constexpr double kHair = 1e-9;
+/// Whether the cell at an offset from a place lies within `half` of it, both in m: half open, as in cellAt().
+inline bool reaches(double offset, double half, double hair) { return offset > -half + hair && offset <= half + hair; }
 
 /// The declaration by which a light touch makes a brush smaller; to be read by pressedRadius().
 constexpr api::ParameterDeclaration pressureSize(double fallback, const char* help) {
-  return {"pressure_size", "Pen pressure", "", "", api::ParameterKind::Number, api::Scale::Linear, fallback, 0, 1, 0, 1,
-          "%", 100, 0, "", "Brush", help, "0 % the same size always, 100 % from a single particle to full size", ""};
+  return {"pressure_size",
+          "Pen pressure",
+          "",
+          "",
+          api::ParameterKind::Number,
+          api::Scale::Linear,
+          fallback,
+          0,
+          1,
+          0,
+          1,
+          "%",
+          100,
+          0,
+          "",
+          "Brush",
+          help,
+          "0 % the same size always, 100 % from a single particle to full size",
+          ""};
 }
 /// m, at a pressure of 0 .. 1; `index` of that declaration.
 double pressedRadius(const api::StrokeContext& context, size_t index, double fallback, double pressure);

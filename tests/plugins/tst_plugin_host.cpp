@@ -847,6 +847,70 @@ class TestPluginHost : public QObject {
       for (int y = -2; y <= 2; ++y) QVERIFY(!cells.contains({x, y, 0}));
   }
 
+  /// On a plane that lies between two layers of cells, as the levels of the guides do, a sheet is the layer above,
+  /// whichever side one looks at it from, and nothing besides; a row is a thread of it.
+  void sheetsOnFacesOfCellsLieAboveThem() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    for (const char* brush : {"plane", "disc", "line"}) {
+      for (const double up : {1.0, -1.0}) {
+        for (const int level : {0, 3, 37}) {
+          StrokeSetup setup;
+          setup.grid = {{0.01, 0.01, 0.01}, 0.02};
+          setup.radius = 0.1;
+          setup.up = {0, up, 0};
+          const double y = 0.02 * level;
+          const std::vector<api::StrokeSample> raw{{{0.0, y, 0.0}, 1, 0, {}}, {{0.3, y, 0.05}, 1, 1, {}}};
+          const CellSet cells =
+              applyBrush(*registry.brush(brush), setup, api::EditKind::Add, resampleStroke(raw, 0.02)).added;
+          QVERIFY(cells.size() > 20);
+          for (const api::Cell& cell : cells.cells())
+            QVERIFY2(cell.y == level, qPrintable(QStringLiteral("%1 %2 %3").arg(brush).arg(cell.y).arg(level)));
+        }
+      }
+    }
+  }
+
+  /// A tube whose wall fills it is a strand without a pinhole, askew too; one thinner than a cell is a thread.
+  void thinAndSolidTubesHaveNoHoles() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    StrokeSetup setup;
+    setup.grid = {{0.5, 0.5, 0.5}, 1.0};
+    setup.parameters = {0.5, 8};
+    const std::vector<api::StrokeSample> askew{{{0.5, 0.5, 0.5}, 1, 0, {}}, {{40.5, 20.5, 30.5}, 1, 1, {}}};
+    const auto drawn = [&](double radius, const std::vector<api::StrokeSample>& raw) {
+      setup.radius = radius;
+      return applyBrush(*registry.brush("tube"), setup, api::EditKind::Add, resampleStroke(raw, 1.0)).added;
+    };
+    const CellSet strand = drawn(4, askew);
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = 0.001 * k;
+      const api::Cell cell = setup.grid.cellAt({0.5 + 40 * t, 0.5 + 20 * t, 0.5 + 30 * t});
+      QVERIFY(strand.contains(cell));
+    }
+    const CellSet thread = drawn(0.25, {{{0.5, 0.1, 0.1}, 1, 0, {}}, {{12.5, 0.1, 0.1}, 1, 1, {}}});  // off all centres
+    for (int x = 0; x <= 12; ++x) QVERIFY(thread.contains({x, 0, 0}));
+  }
+
+  /// Where the hand nearly turns back, the fan of a ribbon is filled as well.
+  void aRibbonHasNoHolesAtASharpBend() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    StrokeSetup setup;
+    setup.grid = {{0.5, 0.5, 0.5}, 1.0};
+    setup.radius = 20;
+    setup.parameters = {0.5};
+    const double bend = 160 * M_PI / 180;
+    const std::vector<api::StrokeSample> raw{{{-30, 0.5, 0}, 1, 0, {}},
+                                             {{0, 0.5, 0}, 1, 1, {}},
+                                             {{30 * std::cos(bend), 0.5, 30 * std::sin(bend)}, 1, 2, {}}};
+    const CellSet cells =
+        applyBrush(*registry.brush("ribbon"), setup, api::EditKind::Add, resampleStroke(raw, 1.0)).added;
+    for (int x = 1; x <= 20; ++x)  // what lies ahead of the bend is the fan's alone
+      for (int z = -20; z <= 20; ++z)
+        if (std::hypot(x + 0.5, z + 0.5) < 19 && std::atan2(std::abs(z + 0.5), x + 0.5) < 1.2)
+          QVERIFY2(cells.contains({x, 0, z}) || cells.contains({x, 0, -1 - z}),
+                   qPrintable(QStringLiteral("%1 %2").arg(x).arg(z)));
+  }
+
   /// A ribbon is one cell thick and without a hole: of each column across the sheet it has a cell.
   void aRibbonHasNoHoles() {
     const PluginRegistry registry{PluginRegistry::Options{}};
