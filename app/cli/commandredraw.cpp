@@ -6,6 +6,8 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "core/sketch/redraw.h"
+#include "core/sketch/stroke.h"
+#include "ui/document/strokerecord.h"
 
 #include <cstdio>
 
@@ -23,22 +25,39 @@ size_t countOf(const VoxelShape& shape) {
   return cells;
 }
 
-/// In the order of the bodies: what one has drawn, those after it leave free.
+/// In the order of the bodies: as in the editor, a stroke leaves free what others hold, those that are still to be
+/// drawn left out.
 void redraw(Project& project, const std::string& path, double spacing, const PluginRegistry& plugins) {
-  CellSet taken;
   const auto brushOf = [&](const std::string& id) { return plugins.brush(id); };
-  for (size_t i = 0; i < project.bodies.size(); ++i) {
-    Body& body = project.bodies[i];
+  std::vector<VoxelShape> sketches;
+  for (Body& body : project.bodies) {
     auto* sketch = std::get_if<VoxelShape>(&body.shape);
-    if (!sketch || sketch->strokes.empty()) continue;
+    sketches.push_back(sketch ? *sketch : VoxelShape{});
+    if (sketch && !sketch->strokes.empty()) sketch->runs.clear();
+  }
+  for (size_t i = 0; i < project.bodies.size(); ++i) {
+    if (sketches[i].strokes.empty()) continue;
+    Body& body = project.bodies[i];
+    const auto freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
+      std::vector<api::Cell> inside;
+      for (const api::Cell& cell : cells.cells()) {
+        if (isInScene(project.environment, grid, cell)) inside.push_back(cell);
+      }
+      VoxelShape lattice;
+      lattice.origin = grid.origin, lattice.spacing = grid.spacing;
+      std::vector<api::Cell> free;
+      for (const auto& [x, y, z] : freeAtStart(project, body.id, lattice, CellSet(inside).indices()))
+        free.push_back({x, y, z});
+      return CellSet(free);
+    };
     try {
-      *sketch = redrawn(*sketch, spacing, taken, brushOf);
+      body.shape = redrawn(sketches[i], spacing, freeOf, brushOf);
     } catch (const Error& error) {
       throw InputError(path + ":/bodies/" + std::to_string(i) + ": " + error.what());
     }
-    if (sketch->runs.empty()) throw InputError(path + ":/bodies/" + std::to_string(i) + ": its strokes fill no cell");
-    taken.add(VoxelCanvas(sketch->runs).cells().cells());
-    std::printf("%s: %zu strokes, %zu cells\n", body.id.c_str(), sketch->strokes.size(), countOf(*sketch));
+    const size_t cells = countOf(std::get<VoxelShape>(body.shape));
+    std::printf("%s: %zu strokes, %zu cells%s\n", body.id.c_str(), sketches[i].strokes.size(), cells,
+                cells == 0 ? ": they lie where others are, or outside of the scene" : "");
   }
 }
 

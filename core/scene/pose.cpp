@@ -50,8 +50,10 @@ std::array<int, 3> cellsOf(const VoxelShape& voxels, const Vector3& shift) {
 void moveCells(VoxelShape& voxels, const std::array<int, 3>& cells) {
   for (VoxelShape::Run& run : voxels.runs) run.x += cells[0], run.y += cells[1], run.z += cells[2];
   for (VoxelShape::Stroke& stroke : voxels.strokes) {
-    for (auto& sample : stroke.samples) {
-      for (size_t a = 0; a < 3; ++a) sample[a] += cells[a] * voxels.spacing;
+    for (size_t a = 0; a < 3; ++a) {
+      const double way = cells[a] * voxels.spacing;
+      for (auto& sample : stroke.samples) sample[a] += way;
+      if (stroke.symmetry) stroke.symmetry->centre[static_cast<Eigen::Index>(a)] += way;
     }
   }
 }

@@ -6,7 +6,7 @@
 
 namespace ps {
 
-VoxelShape redrawn(const VoxelShape& shape, double spacing, const CellSet& taken, const BrushOf& brushOf) {
+VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf) {
   VoxelShape out = shape;
   if (out.spacing != spacing) out.origin = Vector3::Constant(spacing / 2);
   out.spacing = spacing;
@@ -14,10 +14,10 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const CellSet& taken
   for (const VoxelShape::Stroke& stroke : shape.strokes) {
     const api::BrushPlugin* brush = brushOf(stroke.brush);
     if (!brush) throw InputError("the brush \"" + stroke.brush + "\" is not installed");
-    StrokeEdits edits = replayStroke(*brush, stroke, {out.origin, spacing});
-    edits.added.remove(taken.cells());
+    const SketchGrid grid{out.origin, spacing};
+    const StrokeEdits edits = replayStroke(*brush, stroke, grid);
     canvas.erase(edits.removed);
-    canvas.paint(edits.added, stroke.palette);
+    canvas.paint(freeOf(grid, edits.added), stroke.palette);
   }
   out.runs = canvas.runs();
   return out;

@@ -172,6 +172,17 @@ void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::Ed
   cells.add(edits.added.cells());
 }
 
+bool isInScene(const Environment& environment, const SketchGrid& grid, const api::Cell& cell) {
+  const Vector3 c = grid.centreOf(cell);
+  const double radius = 0.49 * grid.spacing;
+  for (int i = 0; i < 3; ++i) {
+    if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
+  }
+  return std::none_of(environment.walls.begin(), environment.walls.end(), [&](const SceneWall& wall) {
+    return (c - wall.point).dot(wall.normal) < radius * wall.normal.norm();
+  });
+}
+
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());

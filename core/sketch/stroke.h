@@ -66,13 +66,16 @@ inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 /// allows. Borrows the setup's numbers.
 api::StrokeContext contextOf(const StrokeSetup& setup);
 
-/// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than kMaxStrokeCells, and BrushFault for
-/// what the brush itself throws.
+/// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than
+/// kMaxStrokeCells, and BrushFault for what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
 /// The same into a set of cells: Add puts cells in, Remove takes them out.
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                 std::span<const api::StrokeSample> samples, CellSet& cells);
+/// Whether a cell's particle has room within the scene's bounds and before its walls.
+bool isInScene(const Environment& environment, const SketchGrid& grid, const api::Cell& cell);
+
 /// Draws a saved stroke again (its samples are the raw ones).
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 

@@ -10,8 +10,6 @@ namespace {
 
 SketchImage about(const Matrix3& turn, const Vector3& centre) { return {turn, centre - turn * centre}; }
 
-api::Double3 turned(const api::Double3& v, const Matrix3& turn) { return double3Of(turn * vectorOf(v)); }
-
 }  // namespace
 
 std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry) {
@@ -36,7 +34,7 @@ std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& sam
   std::vector<api::StrokeSample> out = samples;
   for (api::StrokeSample& sample : out) {
     sample.position = double3Of(image.of(vectorOf(sample.position)));
-    sample.direction = turned(sample.direction, image.turn);
+    sample.direction = double3Of(image.turn * vectorOf(sample.direction));
   }
   return out;
 }

@@ -19,6 +19,7 @@ class TestCli : public QObject {
  private Q_SLOTS:
   void exitCodesAndOneLine_data();
   void exitCodesAndOneLine();
+  void sketchesAreDrawnAgain();
   void tablesKeepTheirColumns();
   void simulateWritesTheReportsKeys();
   void reportsHoldWarningsAndWhoseLimitsTheyAre();
@@ -66,7 +67,8 @@ void TestCli::exitCodesAndOneLine_data() {
   row("help", {"--help"}, 0, "");
   row("simulate help", {"simulate", "--help"}, 0, "");
   row("no command", {}, 2,
-      "which command? simulate, render, export, bench, validate, cases, fit, import, redraw, share, soak, plugins, schema;");
+      "which command? simulate, render, export, bench, validate, cases, fit, import, redraw, share, soak, plugins, "
+      "schema;");
   row("unknown command", {"simmulate"}, 2, "unknown command 'simmulate'");
   row("unknown option", {"simulate", kSample, "--fast"}, 2, "unknown option --fast");
   row("missing value", {"simulate", kSample, "--seconds"}, 2, "--seconds needs a value");
@@ -87,6 +89,8 @@ void TestCli::exitCodesAndOneLine_data() {
       2, "/tracks/0/keys/0/value: must be at least 0 m/s²");
   row("sample is fine", {"validate", kSample}, 0, "");
   row("one of two", {"validate", kSample, "nowhere.json"}, 2, "nowhere.json: no such file");
+  row("redraw where", {"redraw", kSample}, 2, "which project? give --out");
+  row("redraw onto itself", {"redraw", kSample, "--out", kSample}, 2, "is the file that is read as well");
   row("no way to write", {"simulate", kSample, "--frames", "0", "--report", "/nowhere/r.json"}, 1, "not saved");
   row("render where", {"render", kSample}, 2, "--out is missing");
   row("render size", {"render", kSample, "--out", "x", "--size", "big"}, 2, "--size must be");
@@ -95,6 +99,46 @@ void TestCli::exitCodesAndOneLine_data() {
   row("nothing to compare", {"bench", "tank", "--compare", kSample}, 2, "is no file that bench wrote");
   row("no table of cases", {"cases", kSample}, 2, "ice-on-hot-plate.json: has no cases");
   row("nothing to allow", {"plugins", "--allow", "no-such-plugin"}, 2, "no plugin 'no-such-plugin'");
+}
+
+/// As they were, with half the spacing with about eight times the cells; a stroke leaves free what others hold and what
+/// lies outside.
+void TestCli::sketchesAreDrawnAgain() {
+  const QTemporaryDir folder;
+  const QString sketched = PS_SOURCE_DIR "/projects/sketched/leaking-container.json", out = folder.filePath("out.json");
+  const auto cellsOf = [](const nlohmann::json& project, const char* body) {
+    int cells = 0;
+    for (const nlohmann::json& b : project.value("bodies", nlohmann::json::array())) {
+      if (b.value("id", "") != body) continue;
+      for (const nlohmann::json& run : b["shape"]["voxels"]["runs"]) cells += run[3].get<int>();
+    }
+    return cells;
+  };
+  Ran ran = cli({"redraw", sketched, "--out", out});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  nlohmann::json before = jsonFile(sketched), project = jsonFile(out);
+  QVERIFY(project["bodies"] == before["bodies"]);
+  ran = cli({"redraw", sketched, "--out", out, "--spacing", "0.01"});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const double finer = cellsOf(jsonFile(out), "stand"), coarse = cellsOf(before, "stand");
+  QVERIFY2(finer > 6 * coarse && finer < 10 * coarse, qPrintable(QString("%1 of %2").arg(finer).arg(coarse)));
+  // A block in the middle of the water, which no stroke made, and a lid of the scene at half its height.
+  nlohmann::json block = {{"id", "block"}, {"name", "Block"}, {"material", before["bodies"][0]["material"]}};
+  block["shape"] = {{"box", {{"center", {0.0, 0.4, 0.0}}, {"size", {0.08, 0.08, 0.08}}}}};
+  block["temperature"] = 293.15;
+  project = before;
+  project["bodies"].insert(project["bodies"].begin(), block);
+  project["environment"]["bounds"]["maximum"][1] = 0.5;
+  const QString changed = folder.filePath("changed.json");
+  QFile file(changed);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray::fromStdString(project.dump()));
+  file.close();
+  ran = cli({"redraw", changed, "--out", out});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json again = jsonFile(out);
+  const int water = cellsOf(before, "water"), left = cellsOf(again, "water"), layers = 16, lost = 6;
+  QCOMPARE(left, water * (layers - lost) / layers - 4 * 4 * 4);
 }
 
 void TestCli::exitCodesAndOneLine() {

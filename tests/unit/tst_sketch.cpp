@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
+#include "core/scene/pose.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
 #include "core/sketch/redraw.h"
@@ -316,7 +317,8 @@ class TestSketch : public QObject {
     setup.symmetry.reset();
     const CellSet alone = applyBrush(BallBrush(), setup, EditKind::Add, samples).added;
     QCOMPARE(cells.size(), 2 * alone.size());
-    for (const Cell& cell : alone.cells()) QVERIFY(cells.contains(cell) && cells.contains({-1 - cell.x, cell.y, cell.z}));
+    for (const Cell& cell : alone.cells())
+      QVERIFY(cells.contains(cell) && cells.contains({-1 - cell.x, cell.y, cell.z}));
   }
 
   void savedStrokeIsDrawnAgain() {
@@ -348,24 +350,28 @@ class TestSketch : public QObject {
     shape.strokes = {stroke, eraser};
     shape.runs = {{40, 40, 40, 1, 0}};  // of no stroke
     const SketchGrid grid{{0, 0, 0}, 1.0};
-    const VoxelShape again = redrawn(shape, 1, {}, brushOf);
+    const FreeOf all = [](const SketchGrid&, const CellSet& some) { return some; };
+    const VoxelShape again = redrawn(shape, 1, all, brushOf);
     CellSet cells = replayStroke(ball, stroke, grid).added;
     QVERIFY(cells.contains({4, 3, 0}));
     cells.remove(replayStroke(ball, eraser, grid).removed.cells());
     QVERIFY(VoxelCanvas(again.runs).cells() == cells);
     for (const VoxelShape::Run& run : again.runs) QCOMPARE(run.palette, 1);
     // What others hold stays free; the order of strokes counts; half the spacing has eight times the cells, nearly.
-    const CellSet taken = cellsOf({{0, 0, 0}, {1, 0, 0}});
-    QCOMPARE(VoxelCanvas(redrawn(shape, 1, taken, brushOf).runs).size(), cells.size() - 2);
+    const FreeOf butTwo = [](const SketchGrid&, CellSet some) {
+      some.remove(cellsOf({{0, 0, 0}, {1, 0, 0}}).cells());
+      return some;
+    };
+    QCOMPARE(VoxelCanvas(redrawn(shape, 1, butTwo, brushOf).runs).size(), cells.size() - 2);
     std::swap(shape.strokes[0], shape.strokes[1]);
-    QCOMPARE(VoxelCanvas(redrawn(shape, 1, {}, brushOf).runs).size(), replayStroke(ball, stroke, grid).added.size());
+    QCOMPARE(VoxelCanvas(redrawn(shape, 1, all, brushOf).runs).size(), replayStroke(ball, stroke, grid).added.size());
     shape.strokes.pop_back();
     shape.strokes[0] = stroke;
-    const double coarse = static_cast<double>(VoxelCanvas(redrawn(shape, 0.5, {}, brushOf).runs).size());
-    const double fine = static_cast<double>(VoxelCanvas(redrawn(shape, 0.25, {}, brushOf).runs).size());
+    const double coarse = static_cast<double>(VoxelCanvas(redrawn(shape, 0.5, all, brushOf).runs).size());
+    const double fine = static_cast<double>(VoxelCanvas(redrawn(shape, 0.25, all, brushOf).runs).size());
     QVERIFY2(std::abs(fine / coarse - 8) < 0.8, qPrintable(QString::number(fine / coarse)));  // the rim's cells: 1 / 12
     shape.strokes[0].brush = "gone";
-    QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, {}, brushOf), InputError);
+    QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, all, brushOf), InputError);
   }
 
   void rayMeetsThePlane_data() {
@@ -391,6 +397,46 @@ class TestSketch : public QObject {
     if (!hit) return;
     QVERIFY(std::abs((*hit)[0] - x) < 1e-12 && std::abs((*hit)[1] - 0.5) < 1e-12);
     QVERIFY(!meet({{0, 2.5, 0}, {dx, dy, 0}}, {{7, 0.5, -3}, {0, 4, 0}}, 1.0));  // farther than the reach
+  }
+
+  /// A sketch that is moved takes along what its strokes were mirrored at.
+  void strokesMoveWithTheirMirrors() {
+    VoxelShape shape;
+    shape.spacing = 0.02;
+    shape.palette.resize(1);
+    shape.runs = {{0, 0, 0, 3, 0}};
+    VoxelShape::Stroke stroke;
+    stroke.samples = {{0.1, 0.2, 0.3, 1, 0}};
+    stroke.symmetry = VoxelShape::Symmetry{"x", 3, Vector3(0.5, 0, 0.25)};
+    shape.strokes = {stroke};
+    Body body;
+    body.shape = shape;
+    const Body after = moved(body, {Quaternion::Identity(), {0.04, 0.06, -0.02}});
+    const auto& there = std::get<VoxelShape>(after.shape);
+    QVERIFY((there.strokes[0].symmetry->centre - Vector3(0.54, 0.06, 0.23)).norm() < 1e-12);
+    QVERIFY(std::abs(there.strokes[0].samples[0][0] - 0.14) < 1e-12);
+  }
+
+  /// To the bit: a plane may lie on faces of cells, and the pointer must not draw now above, now below it.
+  void aPlaneAcrossAnAxisIsMetExactly() {
+    for (int k = 1; k < 200; ++k) {
+      const double level = 0.02 * k;
+      const auto hit = meet({{0.1 * k, 7.3, 0.7}, {0.37, -1.0 - 0.01 * k, 0.013 * k}}, {{0, level, 0}, {0, 1, 0}});
+      QVERIFY(hit);
+      QCOMPARE((*hit)[1], level);
+    }
+  }
+
+  /// What has no room before a wall or within the bounds is no cell to fill.
+  void cellsHaveRoomInTheScene() {
+    Environment environment;
+    environment.boundsMinimum = {-1, -1, -1}, environment.boundsMaximum = {1, 1, 1};
+    SceneWall floor;
+    floor.point = {0, 0, 0}, floor.normal = {0, 2, 0};
+    environment.walls = {floor};
+    const SketchGrid grid{{0.05, 0.05, 0.05}, 0.1};
+    QVERIFY(isInScene(environment, grid, {0, 0, 0}) && isInScene(environment, grid, {9, 9, 9}));
+    QVERIFY(!isInScene(environment, grid, {0, -1, 0}) && !isInScene(environment, grid, {10, 0, 0}));
   }
 
   void drawingPlaneFacesTheViewer_data() {

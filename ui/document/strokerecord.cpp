@@ -220,7 +220,9 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   if (canvas.empty()) return BodyEdit{body.id, body, std::nullopt, index};
   const bool drawn = !voxels.strokes.empty();
   if (stays) return CellsEdit{body.id, true, erased.runs(), drawn ? strokes : std::vector<VoxelShape::Stroke>{}};
-  std::get<VoxelShape>(rest->shape).runs = canvas.runs();
+  auto& left = std::get<VoxelShape>(rest->shape);
+  left.runs = canvas.runs();
+  if (drawn) left.strokes.insert(left.strokes.end(), strokes.begin(), strokes.end());
   return BodyEdit{body.id, body, std::move(rest), index};
 }
 

@@ -95,9 +95,12 @@ void DrawTool::drag(const Pointer& pointer) {
   if (!m_stroke.active() || !m_cursor) return;
   if (m_cursor->erase) {
     if (const auto matter = matterUnder(pointer)) {
-      if (!isJoined(*matter, pointer))
-        if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return refuse(problem);
+      if (!isJoined(*matter, pointer)) {
+        if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return endAsItIs(problem);
+      }
       m_plane = drawingPlaneFor(*matter, pointer.forward);
+      m_straight.stop();  // the guides go on from where it leaves the matter
+      m_trail.start(*matter);
       draw(*matter, pointer);
       return;
     }
@@ -115,8 +118,12 @@ void DrawTool::drag(const Pointer& pointer) {
 void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_cursor->centre = point;
   const QString problem = m_stroke.move(point, pointer.seconds - m_began, pointer.pressure);
-  if (problem.isEmpty()) return;
-  m_stroke.finish();  // as far as it came
+  if (!problem.isEmpty()) endAsItIs(problem);
+}
+
+/// What went wrong ends the stroke where it came to.
+void DrawTool::endAsItIs(const QString& problem) {
+  m_stroke.finish();
   refuse(problem);
 }
 
@@ -162,7 +169,8 @@ std::vector<Gesture> DrawTool::gestures() const {
   std::vector<Gesture> list{m_erases ? erase : draw, m_erases ? draw : erase};
   list[0].keys = QStringLiteral("Drag");
   list[1].keys = QStringLiteral("Ctrl+Drag");
-  if (!m_erases) list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
+  if (!m_erases)
+    list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
   return list;
 }
 

@@ -32,6 +32,7 @@ class DrawTool : public Tool {
   std::optional<Vector3> matterUnder(const Pointer& pointer) const;
   bool isJoined(const Vector3& point, const Pointer& pointer) const;
   void draw(const Vector3& point, const Pointer& pointer);
+  void endAsItIs(const QString& problem);
   void refuse(const QString& why);
 
   const bool m_erases;

@@ -2,8 +2,10 @@
 #include "ui/tools/livestroke.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/sketch/symmetry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/freename.h"
 #include "ui/session/scenelink.h"
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
@@ -12,7 +14,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
 namespace ps {
 namespace {
@@ -46,8 +50,8 @@ StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugin
   return s;
 }
 
-/// The sketched body that takes more of the same matter and has some within the stamp at a place, where the document has
-/// it: what moved away goes on without what is drawn where it was.
+/// The sketched body that takes more of the same matter and has some within the stamp at a place, where the document
+/// has it: what moved away goes on without what is drawn where it was.
 const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const {
   if (!now.bodyIds) return nullptr;
   const std::vector<Body>& bodies = m_box.document().project().bodies;
@@ -57,17 +61,15 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
     if (found != bodies.end() && takesMore(*found, material, m_brush.temperature, m_setup.grid)) takers[b] = &*found;
   }
+  std::map<const Body*, CellSet> cellsOf;  // of those that have some near
   const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
   for (size_t i = 0; i < now.position.size(); ++i) {
     const Body* body = now.body[i] < takers.size() ? takers[now.body[i]] : nullptr;
     const Vector3 place = vectorOf(now.position[i]);
     if (!body || ((place - point).cwiseAbs().array() > reach.array()).any()) continue;
-    const api::Cell cell = m_setup.grid.cellAt(place);
-    const auto holds = [&](const VoxelShape::Run& run) {
-      return run.y == cell.y && run.z == cell.z && run.x <= cell.x && cell.x < run.x + run.length;
-    };
-    const auto& runs = std::get<VoxelShape>(body->shape).runs;
-    if (std::any_of(runs.begin(), runs.end(), holds)) return body;
+    const auto [known, isNew] = cellsOf.try_emplace(body);
+    if (isNew) known->second = VoxelCanvas(std::get<VoxelShape>(body->shape).runs).cells();
+    if (known->second.contains(m_setup.grid.cellAt(place))) return body;
   }
   return nullptr;
 }
@@ -82,12 +84,11 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& pal
   Body body;
   body.id = m_box.document().freeBodyId("sketch-" + material->id);
   const std::string label = material->label.empty() ? material->id : material->label;
+  std::set<std::string> names;
+  for (const Body& other : project.bodies) names.insert(other.name);
   body.name = "Sketched " + label;
   body.name[9] = static_cast<char>(std::tolower(static_cast<unsigned char>(body.name[9])));
-  const std::string first = body.name;
-  const auto named = [&](const Body& other) { return other.name == body.name; };
-  for (int n = 2; std::any_of(project.bodies.begin(), project.bodies.end(), named); ++n)
-    body.name = first + " " + std::to_string(n);
+  body.name = freeName(body.name, names);
   body.material = material->id;
   body.parameters.values["temperature"] = brush.temperature;
   VoxelShape voxels;
@@ -117,7 +118,7 @@ QString whyNoBrush(const PluginRegistry& plugins, const std::string& id) {
 
 }  // namespace
 
-QString LiveStroke::whyNot(bool erase, const Snapshot& now) const {
+QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) const {
   const PluginRegistry* plugins = m_box.document().plugins();
   if (!plugins || !m_box.link()) return QStringLiteral("Plugins are still being loaded.");
   const BrushSettings& brush = m_box.brush();
@@ -129,19 +130,21 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now) const {
     return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
         .arg(lengthText(m_box.spacing()));
   }
-  const Vector3 half = m_box.stamp().first;
-  const double cells = 8 * half[0] * half[1] * half[2] / std::pow(m_box.spacing(), 3);
+  const Vector3 half = m_box.stamp(up).first;
+  const double copies = static_cast<double>(imagesOf(brush.symmetry).size());
+  const double cells = copies * 8 * half[0] * half[1] * half[2] / std::pow(m_box.spacing(), 3);
   if (cells > kMaximumStamp) {
     return QStringLiteral(
-               "One stamp of this brush would hold up to %1 particles, more than can be drawn at a time. "
-               "Make the brush smaller, or the particle spacing larger.")
-        .arg(formatFixed(cells));
+               "One stamp of this brush%1 would hold up to %2 particles, more than can be drawn at a time. "
+               "Make the brush smaller%3, or the particle spacing larger.")
+        .arg(copies > 1 ? QStringLiteral(" and its copies") : QString(), formatFixed(cells),
+             copies > 1 ? QStringLiteral(" or the copies fewer") : QString());
   }
   return {};
 }
 
 QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, double pressure) {
-  if (const QString problem = whyNot(erase, now); !problem.isEmpty()) return problem;
+  if (const QString problem = whyNot(erase, now, up); !problem.isEmpty()) return problem;
   m_brush = m_box.brush();
   m_atStart = now.stats.frame == 0;
   m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing(), up);
@@ -189,19 +192,6 @@ QString LiveStroke::guarded(Work work) {
   }
 }
 
-bool LiveStroke::isInside(const api::Cell& cell) const {
-  const Environment& environment = m_box.document().project().environment;
-  const Vector3 c = m_setup.grid.centreOf(cell);
-  const double radius = 0.49 * m_setup.grid.spacing;
-  for (int i = 0; i < 3; ++i) {
-    if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
-  }
-  for (const SceneWall& wall : environment.walls) {
-    if ((c - wall.point).dot(wall.normal) < radius * wall.normal.norm()) return false;
-  }
-  return true;
-}
-
 void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (samples.empty() || !plugin) return;
@@ -212,9 +202,10 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   const std::optional<StrokeEdits> edits = inTime(
       m_brush.shape, [plugin, kind, setup = m_setup, samples] { return applyBrush(*plugin, setup, kind, samples); });
   if (!edits) throw BrushFault(kNotBack);
+  const Environment& environment = m_box.document().project().environment;
   std::vector<api::Cell> fresh;
   for (const api::Cell& cell : (erase ? edits->removed : edits->added).cells()) {
-    if (!m_cells.contains(cell) && (erase || isInside(cell))) fresh.push_back(cell);
+    if (!m_cells.contains(cell) && (erase || isInScene(environment, m_setup.grid, cell))) fresh.push_back(cell);
   }
   if (fresh.empty()) return;
   m_cells.add(fresh);

@@ -18,8 +18,8 @@ class Toolbox;
 /// Cells that the box around one stamp of a brush may hold: what can be stamped at every movement of the pointer.
 inline constexpr double kMaximumStamp = 32768;
 
-/// How a brush of these settings draws on a scene of `spacing` m, and on what lies across `up`: its own parameters in the
-/// order of its declarations.
+/// How a brush of these settings draws on a scene of `spacing` m, and on what lies across `up`: its own parameters in
+/// the order of its declarations.
 StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing,
                         const Vector3& up = {0, 1, 0});
 
@@ -46,13 +46,12 @@ class LiveStroke {
 
  private:
   void keep();
-  QString whyNot(bool erase, const Snapshot& now) const;
+  QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
   Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
   const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const;
   void feed(std::vector<api::StrokeSample> samples);
   template <class Work>
   QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
-  bool isInside(const api::Cell& cell) const;
   void collectErasure(StrokeRecord& record) const;
 
   Toolbox& m_box;
