@@ -14,6 +14,7 @@
 #include "ui/window/noticebar.h"
 
 #include <QtGui/QAction>
+#include <QtGui/QActionGroup>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
@@ -166,11 +167,14 @@ void ViewportPane::makeBrushBar() {
   m_shapeBox->setMinimumWidth(1);  // see showShapes()
   brush->addWidget(m_shapeBox);
   m_shapeMenu->setMenu(new QMenu(m_shapeMenu));
+  m_shapeActions = new QActionGroup(m_shapeMenu);
   m_shapeMenu->setPopupMode(QToolButton::InstantPopup);
   m_shapeMenu->setFocusPolicy(Qt::TabFocus);
   brush->addWidget(m_shapeMenu);
   connect(m_shapes, &QButtonGroup::buttonClicked, this,
           [this](const QAbstractButton* button) { chooseShape(button->property(kShape).toString()); });
+  connect(m_shapeActions, &QActionGroup::triggered, this,
+          [this](const QAction* action) { chooseShape(action->data().toString()); });
   auto* label = new QLabel(QStringLiteral("Radius"));
   label->setProperty("role", "muted");
   brush->addSpacing(8);
@@ -207,7 +211,7 @@ void ViewportPane::addShapes() {
     QAction* action = m_shapeMenu->menu()->addAction(button->icon(), asButtonText(label));
     action->setData(name);
     action->setCheckable(true);
-    connect(action, &QAction::triggered, this, [this, name] { chooseShape(name); });
+    m_shapeActions->addAction(action);
   }
   showShapes();
   showBrush();
@@ -247,7 +251,7 @@ void ViewportPane::showTool() {
 void ViewportPane::showBrush() {
   const QString shape = QString::fromStdString(m_tools.brush().shape);
   for (QAbstractButton* button : m_shapes->buttons()) button->setChecked(button->property(kShape).toString() == shape);
-  for (QAction* action : m_shapeMenu->menu()->actions()) {
+  for (QAction* action : m_shapeActions->actions()) {
     action->setChecked(action->data().toString() == shape);
     if (!action->isChecked()) continue;
     m_shapeMenu->setIcon(action->icon());

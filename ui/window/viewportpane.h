@@ -4,6 +4,7 @@
 
 #include <QtWidgets/QWidget>
 
+class QActionGroup;
 class QButtonGroup;
 class QComboBox;
 class QLabel;
@@ -47,6 +48,7 @@ class ViewportPane : public QWidget {
   QWidget* m_brushBar;
   QWidget* m_shapeBox;       ///< a button for each brush
   QToolButton* m_shapeMenu;  ///< in its place where there is no room
+  QActionGroup* m_shapeActions = nullptr;
   QLabel* m_radius;
   QLabel* m_colourLabel;
   QComboBox* m_colour;
