@@ -22,6 +22,8 @@ FRAMES = {
     "pressure-cooker": 300, "river": 360, "rope-bridge": 70, "thaw-and-frost": 500, "wet-cloth": 150,
     "templates/tank-of-water": 20, "templates/cloth-on-a-line": 40, "templates/hot-plate": 1,
     "templates/tap-and-bowl": 240,
+    "sketched/table-and-water": 60, "sketched/tree-in-the-rain": 30, "sketched/pail-and-pulley-sketched": 200,
+    "sketched/leaking-container": 45, "sketched/river-sketched": 300,
 }
 
 

@@ -71,7 +71,8 @@ class TestWelcome : public QObject {
     QSignalSpy loaded(&gallery, &Gallery::loaded);
     QVERIFY(loaded.wait(kLong));
     const QStringList filter{QStringLiteral("*.json")};
-    QCOMPARE(gallery.samples().size(), static_cast<size_t>(QDir(kProjects).entryList(filter).size()));
+    const auto drawn = QDir(kProjects + QStringLiteral("/sketched")).entryList(filter).size();
+    QCOMPARE(gallery.samples().size(), static_cast<size_t>(QDir(kProjects).entryList(filter).size() + drawn));
     QCOMPARE(gallery.templates().size(),
              static_cast<size_t>(QDir(kProjects + QStringLiteral("/templates")).entryList(filter).size()));
     for (const auto* list : {&gallery.samples(), &gallery.templates()}) {

@@ -45,7 +45,7 @@ std::vector<Sample> readList(const QJsonArray& list, const QString& folder) {
     sample.summary = entry[QLatin1String("summary")].toString();
     sample.toTry = entry[QLatin1String("toTry")].toString(words.toTry);
     for (const QJsonValue& tag : entry[QLatin1String("tags")].toArray()) sample.tags << tag.toString();
-    sample.picture = QImage(QStringLiteral(":/gallery/%1.jpg").arg(name));
+    sample.picture = QImage(QStringLiteral(":/gallery/%1.jpg").arg(QFileInfo(name).fileName()));
     samples.push_back(std::move(sample));
   }
   return samples;
