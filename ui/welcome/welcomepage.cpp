@@ -9,12 +9,14 @@
 #include "ui/welcome/gallery.h"
 
 #include <QtCore/QPointer>
+#include <QtCore/QTimer>
 #include <QtGui/QPainter>
 #include <QtWidgets/QButtonGroup>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QScrollArea>
+#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -30,7 +32,7 @@ QLabel* words(const QString& text, TextRole role, const char* colour = nullptr) 
   label->setFont(Theme::font(role));
   label->setWordWrap(true);
   QSizePolicy policy = label->sizePolicy();
-  policy.setVerticalPolicy(QSizePolicy::Fixed);
+  policy.setVerticalPolicy(QSizePolicy::Minimum);  // as high as its lines need at this width
   label->setSizePolicy(policy);
   if (colour) label->setProperty("role", colour);
   return label;
@@ -282,6 +284,8 @@ void WelcomePage::resizeEvent(QResizeEvent*) {
 void WelcomePage::showEvent(QShowEvent*) {
   fitOffer();
   readRecent();
+  // once it is laid out: the focus that it gets on the way may have scrolled it
+  QTimer::singleShot(0, this, [this] { m_scroll->verticalScrollBar()->setValue(0); });
 }
 
 }  // namespace ps
