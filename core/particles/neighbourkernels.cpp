@@ -9,6 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/particles/neighbourkernels.cpp"
 #include "hwy/foreach_target.h"  // before highway.h
+#include "core/particles/compressed-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -70,7 +71,7 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
         }
         const auto ids = hn::LoadU(di, reinterpret_cast<const int32_t*>(order + k));
         // Whole vectors are stored: a store under a mask takes a hundred cycles on some machines.
-        hn::StoreU(hn::Compress(ids, wanted), di, used + kPad <= room.count ? out + used : beyond);
+        hn::StoreU(compressed(ids, wanted), di, used + kPad <= room.count ? out + used : beyond);
         used += hn::CountTrue(di, wanted);
       }
     };

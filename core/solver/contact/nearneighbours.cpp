@@ -6,6 +6,7 @@
 // In this order:
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/particles/compressed-inl.h"
 #include "core/particles/float4lanes-inl.h"
 // clang-format on
 
@@ -29,7 +30,7 @@ size_t FindNear(const api::Float4* at, uint32_t i, const uint32_t* list, size_t 
     auto near = hn::Lt(distance2, most);
     if (few < kLanes) near = hn::And(near, hn::FirstN(d, few));
     const auto wanted = hn::RebindMask(du, near);
-    hn::StoreU(hn::Compress(hn::LoadU(du, id), wanted), du, out + used);
+    hn::StoreU(compressed(hn::LoadU(du, id), wanted), du, out + used);
     used += hn::CountTrue(du, wanted);
   }
   return used;

@@ -6,6 +6,7 @@
 // In this order:
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/particles/compressed-inl.h"
 #include "core/particles/float4lanes-inl.h"
 // clang-format on
 
@@ -59,7 +60,7 @@ size_t FindBelow(std::span<const WallPlane> walls, const WallSet& met, const api
     });
     const auto found = hn::RebindMask(du, hn::And(below, hn::FirstN(d, count)));
     if (hn::AllFalse(du, found)) continue;
-    hn::StoreU(hn::Compress(hn::Load(du, id), found), du, out + used);
+    hn::StoreU(compressed(hn::Load(du, id), found), du, out + used);
     used += hn::CountTrue(du, found);
   }
   return used;

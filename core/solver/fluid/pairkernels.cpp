@@ -7,6 +7,7 @@
 // In this order:
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/particles/compressed-inl.h"
 #include "core/solver/fluid/pairkernels-inl.h"
 // clang-format on
 
@@ -92,8 +93,8 @@ class NearEntries {
     const hn::RebindToUnsigned<DT> du;
     const auto near = hn::Lt(q2, hn::Set(d, m_room.q2));
     const auto wanted = hn::RebindMask(du, near);
-    hn::StoreU(hn::Compress(hn::LoadU(du, id), wanted), du, m_room.index + m_used);
-    (hn::StoreU(hn::Compress(kept.values, near), d, kept.array + m_used), ...);
+    hn::StoreU(compressed(hn::LoadU(du, id), wanted), du, m_room.index + m_used);
+    (hn::StoreU(compressed(kept.values, near), d, kept.array + m_used), ...);
     m_used += static_cast<uint32_t>(hn::CountTrue(du, wanted));
   }
   template <class... Arrays>

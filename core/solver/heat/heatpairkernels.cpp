@@ -6,6 +6,7 @@
 // In this order:
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/particles/compressed-inl.h"
 #include "core/solver/fluid/pairkernels-inl.h"
 // clang-format on
 
@@ -34,8 +35,8 @@ size_t FindHeatPartners(const api::Float4* at, uint32_t i, const uint32_t* list,
     auto near = hn::Lt(r2, most);
     if (few < kLanes) near = hn::And(near, hn::FirstN(d, few));
     const auto wanted = hn::RebindMask(du, near);
-    hn::StoreU(hn::Compress(hn::LoadU(du, id), wanted), du, partner + used);
-    hn::StoreU(hn::Compress(r2, near), d, square + used);
+    hn::StoreU(compressed(hn::LoadU(du, id), wanted), du, partner + used);
+    hn::StoreU(compressed(r2, near), d, square + used);
     used += hn::CountTrue(du, wanted);
   }
   return used;
