@@ -38,6 +38,8 @@ class CellGrid {
   void reorder();
 
   int cells(size_t axis) const { return m_cells[axis]; }
+  double low(size_t axis) const { return m_low[axis]; }            ///< where the first cell begins, m
+  double perMetre(size_t axis) const { return m_perMetre[axis]; }  ///< cells of one metre
   /// Cell along an axis, of those that there are.
   int along(double coordinate, size_t axis) const {
     const double t = (coordinate - m_low[axis]) * m_perMetre[axis];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three cells in a row are one run of slots, so a particle's 27 cells are nine runs: each is compared a vector at a
-// time and the hits are compressed into the list. The distance is computed with the same roundings on every target.
+// time and the hits are compressed into the list. Cells at a corner or an edge are often out of reach as a whole, and
+// left out. The distance is computed with the same roundings on every target.
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/particles/neighbourkernels.cpp"
 #include "hwy/foreach_target.h"  // before highway.h
+
 #include "core/particles/compressed-inl.h"
 #include "hwy/highway.h"
 
@@ -31,6 +33,22 @@ struct Runs {
     if (wraps && cell == cells - 1) add(0, 0, -period);
     add(HWY_MAX(cell - 1, 0), HWY_MIN(cell + 1, cells - 1), 0);
     if (wraps && cell == 0) add(cells - 1, cells - 1, period);
+  }
+};
+
+/// How far a place is from cells next to its own, as a square along each axis: of those before, of its own, of those
+/// after. In an open box, where places are those that were put into cells, to the bit.
+struct CellDistances {
+  double square[3][3];
+  /// More than the radius squared: what rounding may make of distances that are less.
+  static constexpr double kMargin = 1.0001;
+  CellDistances(const SearchGrid& grid, size_t slot, const int (&cell)[3]) {
+    const float* const places[3] = {grid.x, grid.y, grid.z};
+    for (int a = 0; a < 3; ++a) {
+      const double t = (places[a][slot] - grid.low[a]) * grid.perMetre[a] - cell[a], edge = 1 / grid.perMetre[a];
+      const double before = t * edge, after = (1 - t) * edge;
+      square[a][0] = before * before, square[a][1] = 0, square[a][2] = after * after;
+    }
   }
 };
 
@@ -96,9 +114,16 @@ size_t searchListsOf(const SearchGrid& grid, size_t first, size_t last, const Li
         }
       }
     } else {
+      const CellDistances far(grid, slot, {cx, cy, cz});
+      const double reach = CellDistances::kMargin * double{grid.radiusSquared};
       for (int z = HWY_MAX(cz - 1, 0); z <= HWY_MIN(cz + 1, nz - 1); ++z) {
-        for (int y = HWY_MAX(cy - 1, 0); y <= HWY_MIN(cy + 1, ny - 1); ++y)
-          scanRow(y, z, HWY_MAX(cx - 1, 0), HWY_MIN(cx + 1, nx - 1), 0, 0, 0);
+        for (int y = HWY_MAX(cy - 1, 0); y <= HWY_MIN(cy + 1, ny - 1); ++y) {
+          const double square = far.square[1][y - cy + 1] + far.square[2][z - cz + 1];
+          if (square > reach) continue;
+          const int before = cx == 0 || square + far.square[0][0] > reach ? 0 : 1;
+          const int after = cx == nx - 1 || square + far.square[0][2] > reach ? 0 : 1;
+          scanRow(y, z, cx - before, cx + after, 0, 0, 0);
+        }
       }
     }
     room.last[i] = room.first + static_cast<uint32_t>(used);

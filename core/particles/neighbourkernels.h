@@ -14,8 +14,9 @@ struct SearchGrid {
   const uint32_t* cell;       ///< cell of each particle, by index; x fastest
   const uint32_t* cellStart;  ///< first slot of each cell; one entry more than there are cells
   int cells[3];
-  float radiusSquared;  ///< m2
-  float period[3];      ///< m, 0 along an open axis; else coordinates lie within one box, at least 3 cells long
+  double low[3], perMetre[3];  ///< where the first cell begins, m; cells of one metre
+  float radiusSquared;         ///< m2
+  float period[3];             ///< m, 0 along an open axis; else coordinates lie within one box, at least 3 cells long
 };
 
 /// Where the lists of some particles go.

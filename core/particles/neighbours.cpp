@@ -141,6 +141,8 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
                         m_grid.cellOfEach().data(),
                         m_grid.starts().data(),
                         {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
+                        {m_grid.low(0), m_grid.low(1), m_grid.low(2)},
+                        {m_grid.perMetre(0), m_grid.perMetre(1), m_grid.perMetre(2)},
                         static_cast<float>(radius * radius),
                         {period.length(0), period.length(1), period.length(2)}};
   for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->resize(n);
