@@ -8,9 +8,12 @@
 #include "core/particles/neighbourkernels.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace ps {
@@ -19,6 +22,13 @@ namespace {
 constexpr size_t kSpareSlots = 16;
 /// Of what was needed, one part in so many is kept spare.
 constexpr size_t kSpareShare = 32;
+/// Rooms that chunks have left may be one part in so many of what all need.
+constexpr size_t kMostEmpty = 4;
+
+/// Entries of a list that is made anew in its place; a longer one is made with those of its chunk.
+constexpr uint32_t kLongestRenewed = 1024;
+/// Share of all that stand still from which on lists are looked at that need not be made.
+constexpr double kLeastStanding = 0.25;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
 
@@ -44,6 +54,7 @@ void Neighbours::sortAndBuild(ParticleStore& store) {
   if (!m_grid.sorted()) {
     store.permute(m_grid.order());
     m_grid.reorder();
+    m_built.clear();  // of another order
   }
   makeLists(placesOf(store), store.period());
 }
@@ -127,8 +138,68 @@ bool Neighbours::giveMoreRoom() {
   return any;
 }
 
+/// Lists are of indices in order of cells: where all around stand as they stood, and cells meet where they met, they
+/// come out the same, however many cells the box has.
+void Neighbours::findStirred(std::span<const api::Float4> position, const Period& period) {
+  m_stirred.clear();
+  const size_t n = position.size();
+  const std::array<double, 4> cells = {m_grid.perMetre(0), m_grid.low(0), m_grid.low(1), m_grid.low(2)};
+  const bool sameCells = cells == m_cells && !period.any();
+  m_cells = cells;
+  if (m_built.size() != n || !sameCells || n == 0) return;
+  const auto stands = [&](size_t i) {
+    const api::Float4 &a = position[i], &b = m_built[i];
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  };
+  const double standing = parallelSum(n, grain::kNumbers, [&](size_t first, size_t last) {
+    size_t count = 0;
+    for (size_t i = first; i < last; ++i) count += stands(i) ? 1 : 0;
+    return static_cast<double>(count);
+  });
+  if (standing < kLeastStanding * static_cast<double>(n)) return;
+  m_stirred.assign(m_grid.cell(0, 0, m_grid.cells(2)), 0);
+  const auto stir = [&](const api::Float4& p) {
+    const int at[3] = {m_grid.along(p.x, 0), m_grid.along(p.y, 1), m_grid.along(p.z, 2)};
+    for (int z = std::max(at[2] - 1, 0); z <= std::min(at[2] + 1, m_grid.cells(2) - 1); ++z) {
+      for (int y = std::max(at[1] - 1, 0); y <= std::min(at[1] + 1, m_grid.cells(1) - 1); ++y) {
+        for (int x = std::max(at[0] - 1, 0); x <= std::min(at[0] + 1, m_grid.cells(0) - 1); ++x) {
+          const std::atomic_ref cell(m_stirred[m_grid.cell(x, y, z)]);
+          if (cell.load(std::memory_order_relaxed) == 0) cell.store(1, std::memory_order_relaxed);
+        }
+      }
+    }
+  };
+  forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      if (stands(i)) continue;
+      stir(position[i]);
+      stir(m_built[i]);
+    }
+  });
+}
+
+/// Makes the lists of a chunk anew where somebody has moved, each in the place that it has. False where one of them has
+/// become too long for that.
+bool Neighbours::renew(const SearchGrid& grid, size_t first, size_t last) {
+  std::array<uint32_t, kLongestRenewed> list;
+  const Room& chunk = m_rooms[first / grain::kNeighbours];
+  const std::span<const uint32_t> cellOf = m_grid.cellOfEach();
+  for (size_t i = first; i < last; ++i) {
+    if (m_stirred[cellOf[i]] == 0) continue;
+    const uint32_t begin = m_begin[i], end = i + 1 < last ? m_begin[i + 1] : chunk.first + chunk.count;
+    const ListRoom room{0, kLongestRenewed, list.data(), m_begin.data(), m_last.data(), m_end.data(), dummy()};
+    if (searchLists(grid, i, i + 1, room) > kLongestRenewed || m_end[i] > end - begin) return false;
+    std::copy(list.begin(), list.begin() + m_end[i], m_index.begin() + begin);
+    m_begin[i] = begin;
+    m_last[i] += begin;
+    m_end[i] += begin;
+  }
+  return true;
+}
+
 void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
   const size_t n = position.size();
+  findStirred(position, period);
   m_built.clear();  // there are no lists until all are whole
   loadSlots(position, period);
   advance(n);
@@ -151,12 +222,15 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   const auto search = [&](size_t first, size_t last) {
     if (progress) progress->advance(last - first);
     const size_t c = first / grain::kNeighbours;
-    if (!all && m_short[c] == 0) return;
-    const ListRoom room{m_rooms[c].first, m_rooms[c].count, m_index.data(),          m_begin.data(),
-                        m_last.data(),    m_end.data(),     static_cast<uint32_t>(n)};
+    if (all ? !m_stirred.empty() && renew(grid, first, last) : m_short[c] == 0) return;
+    const ListRoom room{m_rooms[c].first, m_rooms[c].count, m_index.data(), m_begin.data(),
+                        m_last.data(),    m_end.data(),     dummy()};
     m_needs[c] = static_cast<uint32_t>(searchLists(grid, first, last, room));
   };
-  layOut(chunkCount(n, grain::kNeighbours));
+  // What outgrew its room has left it empty.
+  const size_t needed = std::accumulate(m_needs.begin(), m_needs.end(), size_t{0});
+  if (m_slots > needed + needed / kMostEmpty + kListPad * m_rooms.size()) m_stirred.clear();
+  if (m_stirred.empty()) layOut(chunkCount(n, grain::kNeighbours));
   parallelFor(n, grain::kNeighbours, std::cref(search));
   progress = nullptr;
   all = false;

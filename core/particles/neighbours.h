@@ -3,14 +3,19 @@
 #include "core/particles/cellgrid.h"
 #include "core/particles/particlestore.h"
 
+#include <array>
+
 namespace ps {
+
+struct SearchGrid;
 
 /// Cell-sorted neighbour search (counting sort into cells of the search radius, rows of 27 cells).
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
 /// the dummy index size(). Lists of particles that follow each other lie together, but between them there are entries
-/// that belong to no list: view() says how many there are in all. Lists stay valid until a particle has
-/// moved half the skin. Along a periodic axis of the store pairs are found across the faces of the box; it must be
-/// three times as long as the search radius (see leastPeriod()).
+/// that belong to no list: view() says how many there are in all. Where nobody has moved since the last build, nor
+/// anybody around, lists stay as they are. They are valid until a particle has moved half the skin. Along a periodic
+/// axis of the store pairs are found across the faces of the box; it must be three times as long as the search radius
+/// (see leastPeriod()).
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;
@@ -45,6 +50,9 @@ class Neighbours {
   bool giveMoreRoom();
   void makeRoom();
   void makeLists(std::span<const api::Float4> position, const Period& period);
+  void findStirred(std::span<const api::Float4> position, const Period& period);
+  bool renew(const SearchGrid& grid, size_t first, size_t last);
+  uint32_t dummy() const { return static_cast<uint32_t>(m_begin.size()); }
   /// Puts places where the search reads them.
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
@@ -57,7 +65,10 @@ class Neighbours {
   std::vector<uint32_t> m_needs;  ///< entries that each chunk of particles needed
   std::vector<Room> m_rooms;      ///< of each
   std::vector<uint8_t> m_short;   ///< 1 where that was too little
-  size_t m_slots = 0;             ///< of all
+  std::vector<uint8_t>
+      m_stirred;  ///< by cell: 1 where somebody has moved in it or next to it; none: lists are all made
+  std::array<double, 4> m_cells{};  ///< of the lists that there are: cells of one metre, where they begin
+  size_t m_slots = 0;               ///< of all
   std::vector<float> m_x, m_y, m_z;
   std::vector<api::Float4> m_built;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.

@@ -138,6 +138,50 @@ class TestParticles : public QObject {
     ps::setThreadCount(0);
   }
 
+  /// Lists that are kept where nobody has moved are those that would be made, in the same order, while others fly about
+  /// and the box around all of them grows and shrinks, at its lower faces too, where cells begin.
+  void keptListsAreThoseThatWouldBeMade() {
+    for (const int threads : {1, 4}) {
+      ps::setThreadCount(threads);
+      Random random(9);
+      ParticleStore store;
+      constexpr size_t kStanding = 4000, kAll = 4600;
+      store.add(kAll);
+      for (size_t i = 0; i < kStanding; ++i)
+        place(store, i, 0.02 * static_cast<double>(i % 40), 0.02 * static_cast<double>(i / 40 % 10),
+              0.02 * static_cast<double>(i / 400));
+      const auto fly = [&](size_t i) {
+        place(store, i, 1.4 * random.next(), 0.5 * random.next(), 0.4 * random.next());
+      };
+      for (size_t i = kStanding; i < kAll; ++i) fly(i);
+      Neighbours kept;
+      kept.configure(kSupport, kSkin);
+      kept.sortAndBuild(store);
+      std::vector<size_t> flying;
+      for (size_t i = 0; i < kAll; ++i) {
+        if (store.id()[i] >= kStanding) flying.push_back(i);
+      }
+      for (int round = 0; round < 30; ++round) {
+        const size_t some = round % 3 == 0 ? flying.size() : 5;
+        for (size_t k = 0; k < some; ++k) fly(flying[(k * 7 + static_cast<size_t>(round)) % flying.size()]);
+        if (round == 20) store.position()[7].x += 0.001f;  // and what stood has moved once
+        if (round == 10) store.position()[flying[0]].x = -0.3f;
+        kept.build(store);
+        Neighbours fresh;
+        fresh.configure(kSupport, kSkin);
+        fresh.build(store);
+        const ps::api::NeighbourView a = kept.view(), b = fresh.view();
+        for (size_t i = 0; i < kAll; ++i) {
+          QVERIFY(std::equal(a.index + a.begin[i], a.index + a.last[i], b.index + b.begin[i], b.index + b.last[i]));
+          QCOMPARE(a.end[i] - a.begin[i], b.end[i] - b.begin[i]);
+          QVERIFY(a.end[i] <= a.slots);
+        }
+        QVERIFY2(a.slots < 2 * b.slots, "rooms that were left are given back");
+      }
+    }
+    ps::setThreadCount(0);
+  }
+
   /// Every image within the radius counts once. Pairs that lie on the radius to rounding may be in or out.
   void listsEqualBruteForceAcrossFaces_data() {
     QTest::addColumn<double>("x");
