@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/vr/runtime/call.h"
+
+#include "tests/vr/runtime/names.h"
+
+namespace ps::scripted {
+
+Runtime& runtime() {
+  static Runtime instance;
+  return instance;
+}
+
+std::optional<XrResult> answerInstead(Instance& instance, std::string_view function, bool ofSession) {
+  if (function.starts_with("xrDestroy")) return {};  // whatever was lost can be put away
+  const auto note = [&](XrResult result) {
+    instance.log.write({{"failed", function}, {"result", nameOf(result)}, {"frame", instance.frame}});
+    return result;
+  };
+  if (instance.death != XR_SUCCESS) return note(instance.death);
+  if (ofSession && instance.session && instance.session->lost) return note(XR_ERROR_SESSION_LOST);
+  const auto failure = instance.failures.find(function);
+  if (failure == instance.failures.end()) return {};
+  const XrResult result = failure->second.result;
+  if (--failure->second.times == 0) instance.failures.erase(failure);
+  return note(result);
+}
+
+void noteViolation(Instance& instance, std::string_view function, const Refusal& refusal) {
+  instance.log.write({{"violation", refusal.what()},
+                      {"call", function},
+                      {"result", nameOf(refusal.result())},
+                      {"frame", instance.frame}});
+}
+
+}  // namespace ps::scripted

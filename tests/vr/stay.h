@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "tests/vr/paintedscene.h"
+
+namespace ps {
+
+/// How a stay in the headset went.
+struct Stay {
+  std::optional<vr::Ending> ending;  ///< nothing where it lasted longer than a test waits
+  uint64_t frames = 0;
+  SceneRecord record;
+};
+
+/// What a test does in frames, by their number from 0.
+struct StayPlan {
+  size_t leaveAfter = 20;  ///< frames that were drawn
+  PaintedScene::Before before = [](size_t) { return std::array<std::optional<vr::Vibration>, 2>{}; };
+};
+
+/// Enters the headset with a context, which must not be current, and waits for the end.
+Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function<void()>& release,
+                   const StayPlan& plan = {});
+Stay stayInHeadset(HeadlessContext& context, const StayPlan& plan = {});
+
+/// Textures, framebuffers and buffers that exist in the context that is current.
+size_t countGlObjects();
+size_t countThreads();  ///< of this process
+
+}  // namespace ps

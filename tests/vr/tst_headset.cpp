@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/vr/scriptedrun.h"
+#include "tests/vr/stay.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+using ps::HeadlessContext;
+using ps::PaintedScene;
+using ps::ScriptedRun;
+using ps::Stay;
+using ps::stayInHeadset;
+using ps::Vector3;
+
+namespace {
+
+constexpr double kSingle = 1e-5;  // m, rad: the runtime reckons in single precision
+
+QByteArray joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
+  return QByteArray::fromStdString(all);
+}
+
+bool near(const Vector3& a, const Vector3& b, double tolerance = kSingle) { return (a - b).norm() <= tolerance; }
+
+}  // namespace
+
+/// The program's part of VR against the scripted runtime, through the real loader.
+class HeadsetTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { m_context.release(); }
+
+  void entersAndLeaves();
+  void eyesShowWhatWasDrawn();
+  void eyesAreWhereTheHeadWillBe();
+  void controllersAreUnderstood_data();
+  void controllersAreUnderstood();
+  void handsAreWhereTheyWillBe();
+  void handsAreTakenAtTheirTime();
+  void vibrationsReachTheHand();
+  void focusLostLeavesThePicture();
+  void takenOffIsNotTheEnd();
+  void floorIsFound_data();
+  void floorIsFound();
+  void everyFaultEndsInASentence_data();
+  void everyFaultEndsInASentence();
+  void noRuntimeIsSaid();
+  void contextThatIsTakenIsSaid();
+  void sceneThatThrowsEndsTheStay();
+  void fiftyStaysLeakNothing();
+
+ private:
+  HeadlessContext m_context{nullptr};
+};
+
+void HeadsetTest::entersAndLeaves() {
+  const ScriptedRun run;
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(stay.ending.has_value());
+  QVERIFY2(!stay.ending->failed && stay.ending->sentence.empty(), stay.ending->sentence.c_str());
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QCOMPARE(joined(run.texts("state")), QByteArray("IDLE READY SYNCHRONIZED VISIBLE FOCUSED VISIBLE SYNCHRONIZED "
+                                                  "STOPPING IDLE EXITING"));
+  QCOMPARE(joined(run.texts("session")), QByteArray("created begun ended destroyed"));
+  QVERIFY(stay.frames >= 20);
+  QCOMPARE(run.lines("layers").size(), stay.frames);
+  QCOMPARE(stay.record.drawn.size(), 2 * stay.record.frames.size());
+  // Two frames pass before there is something to show: after the first it is in step, after the second visible.
+  const auto frames = run.lines("layers");
+  QVERIFY(frames[0]["layers"].empty() && frames[1]["layers"].empty());
+  QCOMPARE(frames[2]["layers"][0]["type"].get<std::string>(), std::string("projection"));
+  QCOMPARE(frames[2]["layers"][0]["views"].size(), size_t{2});
+}
+
+void HeadsetTest::eyesShowWhatWasDrawn() {
+  const ScriptedRun run(R"({"view": {"width": 64, "height": 48}, "pictures": [5]})");
+  const Stay stay = stayInHeadset(m_context);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  for (const size_t eye : {size_t{0}, size_t{1}}) {
+    const QImage picture = run.picture(5, eye);
+    QCOMPARE(picture.size(), QSize(64, 48));
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) {
+        const bool block = x < PaintedScene::kBlockWidth && y >= picture.height() - PaintedScene::kBlockHeight;
+        const auto& [r, g, b] = block ? PaintedScene::kBlock : PaintedScene::kGround[eye];
+        QCOMPARE(picture.pixelColor(x, y), QColor(r, g, b));
+      }
+  }
+  QVERIFY(run.picture(4, 0).isNull());
+}
+
+void HeadsetTest::eyesAreWhereTheHeadWillBe() {
+  // Turned by 90 degrees to the left, the left eye is behind (z) of the right one, and the head moves along x.
+  const ScriptedRun run(R"({"view": {"eye_distance": 0.06},
+                            "keys": [{"frame": 0, "head": [0, 1.5, 0, 0, 0.70710678, 0, 0.70710678]},
+                                     {"frame": 100, "head": [1, 1.5, 0, 0, 0.70710678, 0, 0.70710678]}]})");
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(!stay.record.frames.empty());
+  for (size_t i = 0; i < stay.record.drawn.size(); ++i) {
+    const auto& [eye, view, size] = stay.record.drawn[i];
+    const size_t shown = i / 2;
+    const double frame = double(shown) + 2;  // the first two are not shown
+    QCOMPARE(eye, i % 2);
+    const Vector3 wanted(frame / 100, 1.5, eye == 0 ? 0.03 : -0.03);
+    QVERIFY2(near(ps::placeOf(view), wanted), qPrintable(QString::number(i)));
+    QCOMPARE(size.width, 512);
+  }
+}
+
+void HeadsetTest::controllersAreUnderstood_data() {
+  QTest::addColumn<QString>("profile");
+  QTest::addColumn<QString>("left");
+  QTest::addColumn<QString>("right");
+  QTest::addColumn<QString>("leftInput");
+  QTest::addColumn<QString>("rightInput");
+  const auto row = [](const char* name, const char* profile, const char* left, const char* right, const char* leftInput,
+                      const char* rightInput) {
+    QTest::newRow(name) << QString("/interaction_profiles/") + profile << left << right << leftInput << rightInput;
+  };
+  row("simple", "khr/simple_controller", R"({"/input/select/click": true})", R"({"/input/menu/click": true})", "draw 1",
+      "second");
+  row("Vive", "htc/vive_controller", R"({"/input/trigger/value": 0.25, "/input/squeeze/click": true})",
+      R"({"/input/trackpad/x": -0.5, "/input/trackpad/y": 0.75, "/input/trackpad/click": true, "/input/menu/click": true})",
+      "draw 0.25 hold 1", "steer -0.5 0.75 pressed first");
+  row("Touch", "oculus/touch_controller", R"({"/input/x/click": true, "/input/squeeze/value": 0.5})",
+      R"({"/input/b/click": true, "/input/thumbstick/x": 1, "/input/trigger/value": 0.75})", "hold 0.5 first",
+      "draw 0.75 steer 1 0 second");
+  row("Index", "valve/index_controller", R"({"/input/a/click": true, "/input/trigger/value": 1})",
+      R"({"/input/b/click": true, "/input/thumbstick/y": -1, "/input/thumbstick/click": true})", "draw 1 first",
+      "steer 0 -1 pressed second");
+  row("Windows", "microsoft/motion_controller", R"({"/input/trackpad/click": true, "/input/squeeze/click": true})",
+      R"({"/input/menu/click": true, "/input/thumbstick/x": -1, "/input/thumbstick/y": 0.5})", "hold 1 first",
+      "steer -1 0.5 second");
+}
+
+static QString inWords(const ps::vr::HandInput& input) {
+  QStringList words;
+  if (input.draw != 0) words << QString("draw %1").arg(input.draw);
+  if (input.hold != 0) words << QString("hold %1").arg(input.hold);
+  if (input.steerX != 0 || input.steerY != 0) words << QString("steer %1 %2").arg(input.steerX).arg(input.steerY);
+  if (input.steerPressed) words << "pressed";
+  if (input.first) words << "first";
+  if (input.second) words << "second";
+  return words.join(' ');
+}
+
+void HeadsetTest::controllersAreUnderstood() {
+  QFETCH(QString, profile);
+  QFETCH(QString, left);
+  QFETCH(QString, right);
+  QFETCH(QString, leftInput);
+  QFETCH(QString, rightInput);
+  const QString script = R"({"profile": "%1", "keys": [{"frame": 8, "left": %2, "right": %3}]})";
+  const ScriptedRun run(script.arg(profile, left, right).toStdString());
+  const Stay stay = stayInHeadset(m_context);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QVERIFY(stay.record.frames.size() >= 20);
+  QCOMPARE(inWords(stay.record.frames[4].hands[0]), QString());
+  QCOMPARE(inWords(stay.record.frames[18].hands[0]), leftInput);
+  QCOMPARE(inWords(stay.record.frames[18].hands[1]), rightInput);
+}
+
+void HeadsetTest::handsAreWhereTheyWillBe() {
+  // 90 frames a second, 0.9 m in 90 frames. The aim stands 0.1 m before the grip's start, and points up.
+  const ScriptedRun run(R"({"keys": [
+      {"frame": 0, "right": {"grip": [0, 1, 0], "aim": [0, 1, -0.1, 0.70710678, 0, 0, 0.70710678]}},
+      {"frame": 90, "right": {"grip": [0.9, 1, 0]}}]})");
+  const Stay stay = stayInHeadset(m_context);
+  const auto& frames = stay.record.frames;
+  QVERIFY(frames.size() >= 20);
+  for (size_t i = 4; i < 20; ++i) {
+    const auto& hand = frames[i].hands[ps::vr::kRight];
+    QVERIFY(frames[i].focused && hand.grip && hand.aim);
+    QVERIFY(near(hand.grip->position, {0.01 * double(i + 2), 1, 0}));
+    QVERIFY(near(hand.aim->position, {0, 1, -0.1}));
+    QVERIFY(near(hand.aim->orientation * Vector3(0, 0, -1), {0, 1, 0}));
+    QVERIFY(near(hand.velocity, {0.9, 0, 0}, 1e-3));  // a difference of single-precision places over 1/180 s
+    QVERIFY(std::abs(frames[i].time - frames[i - 1].time - frames[i].period) < 1e-9);
+  }
+}
+
+void HeadsetTest::handsAreTakenAtTheirTime() {
+  const ScriptedRun run(R"({"keys": [{"frame": 8, "left": {"active": false}},
+                                     {"frame": 14, "left": {"active": true}}]})");
+  const Stay stay = stayInHeadset(m_context);
+  const auto& frames = stay.record.frames;
+  QVERIFY(frames.size() >= 20);
+  for (size_t i = 2; i < 20; ++i) {  // frame i + 2 of the clock
+    QCOMPARE(frames[i].hands[ps::vr::kLeft].grip.has_value(), i + 2 < 8 || i + 2 >= 14);
+    QVERIFY(frames[i].hands[ps::vr::kRight].grip.has_value());
+  }
+  QCOMPARE(run.lines("profiles").size(), size_t{3});
+}
+
+void HeadsetTest::vibrationsReachTheHand() {
+  const ScriptedRun run;
+  ps::StayPlan plan;
+  plan.before = [](size_t frame) {
+    std::array<std::optional<ps::vr::Vibration>, 2> feel;
+    if (frame == 10) feel[ps::vr::kRight] = ps::vr::Vibration{0.25, 160, 0.02};
+    return feel;
+  };
+  stayInHeadset(m_context, plan);
+  const auto felt = run.lines("haptic");
+  QCOMPARE(felt.size(), size_t{1});
+  QCOMPARE(felt[0]["haptic"].get<std::string>(), std::string("/user/hand/right/output/haptic"));
+  QCOMPARE(felt[0]["amplitude"].get<double>(), 0.25);
+  QCOMPARE(felt[0]["frequency"].get<double>(), 160.0);
+  QVERIFY(std::abs(felt[0]["duration"].get<double>() - 0.02) < 1e-9);
+  QCOMPARE(felt[0]["frame"].get<int>(), 12);
+}
+
+void HeadsetTest::focusLostLeavesThePicture() {
+  const ScriptedRun run(R"({"events": [{"frame": 8, "state": "VISIBLE"}, {"frame": 14, "state": "FOCUSED"}]})");
+  const Stay stay = stayInHeadset(m_context);
+  const auto& frames = stay.record.frames;
+  QVERIFY(frames.size() >= 20);
+  // An event of frame 8 is read after frame 8, and drawn with from 9 on; 15 frames later likewise.
+  QVERIFY(frames[4].focused && frames[4].hands[0].grip);
+  QVERIFY(!frames[8].focused && !frames[8].hands[0].grip && !frames[8].hands[1].grip);
+  QVERIFY(frames[18].focused && frames[18].hands[0].grip);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QVERIFY(!stay.ending->failed);
+}
+
+void HeadsetTest::takenOffIsNotTheEnd() {
+  const ScriptedRun run(R"({"events": [{"frame": 8, "state": "IDLE"}, {"frame": 30, "state": "FOCUSED"}]})");
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(stay.ending && !stay.ending->failed);
+  QCOMPARE(joined(run.texts("session")), QByteArray("created begun ended begun ended destroyed"));
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QVERIFY(stay.record.frames.size() >= 20);
+}
+
+void HeadsetTest::floorIsFound_data() {
+  QTest::addColumn<bool>("localFloor");
+  QTest::newRow("the floor below where one stands") << true;
+  QTest::newRow("the stage") << false;
+}
+
+void HeadsetTest::floorIsFound() {
+  QFETCH(bool, localFloor);
+  // The place where one sits is 2 m to the side in the stage.
+  const QString script = R"({"extensions": ["XR_KHR_opengl_enable", "XR_MNDX_egl_enable"%1],
+                             "events": [{"recentre": [2, 1.2, 0]}],
+                             "keys": [{"frame": 0, "left": {"grip": [2.5, 1, 0]}}]})";
+  const ScriptedRun run(script.arg(localFloor ? R"(, "XR_EXT_local_floor")" : "").toStdString());
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(stay.record.frames.size() >= 20);
+  QVERIFY(near(stay.record.frames[10].hands[0].grip->position, {localFloor ? 0.5 : 2.5, 1, 0}));
+}
+
+void HeadsetTest::everyFaultEndsInASentence_data() {
+  QTest::addColumn<QString>("script");
+  QTest::addColumn<QString>("sentence");  // "" for an end that is no failure
+  const auto row = [](const char* name, const QString& script, const char* sentence) {
+    QTest::newRow(name) << script << sentence;
+  };
+  const auto fails = [&](const char* name, const char* call, const char* result, int frame, const char* sentence) {
+    row(name, QString(R"({"events": [{"frame": %1, "fail": "%2", "result": "%3"}]})").arg(frame).arg(call, result),
+        sentence);
+  };
+  fails("no headset", "xrGetSystem", "XR_ERROR_FORM_FACTOR_UNAVAILABLE", -1, "No headset is connected");
+  fails("software does not start", "xrCreateInstance", "XR_ERROR_RUNTIME_UNAVAILABLE", -1, "No OpenXR runtime runs");
+  fails("OpenGL refused", "xrCreateSession", "XR_ERROR_GRAPHICS_DEVICE_INVALID", -1, "does not take this program's");
+  fails("pictures refused", "xrCreateSwapchain", "XR_ERROR_OUT_OF_MEMORY", -1, "has no memory left");
+  fails("images refused", "xrEnumerateSwapchainImages", "XR_ERROR_RUNTIME_FAILURE", -1, "xrEnumerateSwapchainImages");
+  fails("space refused", "xrCreateReferenceSpace", "XR_ERROR_RUNTIME_FAILURE", -1, "xrCreateReferenceSpace");
+  fails("actions refused", "xrCreateAction", "XR_ERROR_RUNTIME_FAILURE", -1, "xrCreateAction");
+  fails("attaching refused", "xrAttachSessionActionSets", "XR_ERROR_RUNTIME_FAILURE", -1, "xrAttachSessionActionSets");
+  fails("begin refused", "xrBeginSession", "XR_ERROR_RUNTIME_FAILURE", -1, "xrBeginSession");
+  fails("waiting fails", "xrWaitFrame", "XR_ERROR_SESSION_LOST", 9, "headset was lost");
+  fails("begin of a frame fails", "xrBeginFrame", "XR_ERROR_RUNTIME_FAILURE", 9, "xrBeginFrame");
+  fails("inputs fail", "xrSyncActions", "XR_ERROR_SESSION_LOST", 9, "headset was lost");
+  fails("eyes fail", "xrLocateViews", "XR_ERROR_RUNTIME_FAILURE", 9, "xrLocateViews");
+  fails("no image", "xrAcquireSwapchainImage", "XR_ERROR_RUNTIME_FAILURE", 9, "xrAcquireSwapchainImage");
+  fails("frame refused", "xrEndFrame", "XR_ERROR_RUNTIME_FAILURE", 9, "xrEndFrame: XR_ERROR_RUNTIME_FAILURE");
+  fails("events fail", "xrPollEvent", "XR_ERROR_INSTANCE_LOST", 9, "has stopped");
+  const auto event = [&](const char* name, const char* text, const char* sentence) {
+    row(name, QString(R"({"events": [{"frame": 9, %1}]})").arg(text), sentence);
+  };
+  event("runtime dies", R"("dies": "XR_ERROR_INSTANCE_LOST")", "has stopped");
+  event("runtime breaks", R"("dies": "XR_ERROR_RUNTIME_FAILURE")", "XR_ERROR_RUNTIME_FAILURE");
+  event("session lost", R"("session_lost": true)", "headset was lost");
+  event("loss is announced", R"("state": "LOSS_PENDING")", "about to be lost");
+  event("runtime is about to stop", R"("instance_loss": true)", "about to stop");
+  event("left in the headset's menu", R"("state": "EXITING")", "");
+  row("leaving is not heard", R"({"events": [{"fail": "xrRequestExitSession", "result": "XR_SUCCESS"}]})",
+      "did not answer");
+  row("no OpenGL", R"({"extensions": ["XR_KHR_visibility_mask"]})", "does not show OpenGL's pictures");
+  row("no EGL", R"({"extensions": ["XR_KHR_opengl_enable"]})", "takes no pictures of EGL");
+  row("no sRGB", R"({"formats": ["RGBA8"]})", "shows no sRGB");
+}
+
+void HeadsetTest::everyFaultEndsInASentence() {
+  QFETCH(QString, script);
+  QFETCH(QString, sentence);
+  m_context.makeCurrent();
+  const size_t before = ps::countGlObjects();
+  m_context.release();
+  {
+    const ScriptedRun run(script.toStdString());
+    ps::StayPlan plan;
+    plan.leaveAfter = 60;
+    const Stay stay = stayInHeadset(m_context, plan);
+    QVERIFY(stay.ending.has_value());
+    QCOMPARE(stay.ending->failed, !sentence.isEmpty());
+    const QString said = QString::fromStdString(stay.ending->sentence);
+    QVERIFY2(said.contains(sentence), qPrintable(said));
+    if (stay.ending->failed) QVERIFY2(said.endsWith('.') && said[0].isUpper(), qPrintable(said));
+    QCOMPARE(joined(run.texts("violation")), QByteArray());
+    const auto ends = run.lines("textures");
+    if (!ends.empty()) QCOMPARE(ends.back()["textures"].get<int>(), 0);
+  }
+  m_context.makeCurrent();
+  QCOMPARE(ps::countGlObjects(), before);
+  m_context.release();
+  const ScriptedRun again;
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY2(stay.ending && !stay.ending->failed, stay.ending ? stay.ending->sentence.c_str() : "no end");
+  QVERIFY(stay.record.frames.size() >= 20);
+}
+
+void HeadsetTest::noRuntimeIsSaid() {
+  const ScriptedRun run;
+  qputenv("XR_RUNTIME_JSON", run.file("none.json").toUtf8());
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(stay.ending && stay.ending->failed);
+  QVERIFY2(stay.ending->sentence.find("No OpenXR runtime runs here") == 0, stay.ending->sentence.c_str());
+}
+
+void HeadsetTest::contextThatIsTakenIsSaid() {
+  const ScriptedRun run;
+  m_context.makeCurrent();  // on this thread, not on the headset's
+  const Stay stay = stayInHeadset(m_context);
+  m_context.release();
+  QVERIFY(stay.ending && stay.ending->failed);
+  QVERIFY2(stay.ending->sentence.find("OpenGL") != std::string::npos, stay.ending->sentence.c_str());
+  QVERIFY(run.lines("session").empty());
+}
+
+void HeadsetTest::sceneThatThrowsEndsTheStay() {
+  const ScriptedRun run;
+  ps::StayPlan plan;
+  plan.before = [](size_t frame) -> std::array<std::optional<ps::vr::Vibration>, 2> {
+    if (frame == 5) throw ps::Error("The driver has no memory left.");
+    return {};
+  };
+  const Stay stay = stayInHeadset(m_context, plan);
+  QVERIFY(stay.ending && stay.ending->failed);
+  QCOMPARE(stay.ending->sentence, std::string("The driver has no memory left."));
+  QCOMPARE(run.lines("textures").back()["textures"].get<int>(), 0);
+}
+
+void HeadsetTest::fiftyStaysLeakNothing() {
+  const ScriptedRun run(R"({"view": {"width": 64, "height": 64}})");
+  ps::StayPlan plan;
+  plan.leaveAfter = 3;
+  stayInHeadset(m_context, plan);
+  m_context.makeCurrent();
+  const size_t objects = ps::countGlObjects(), threads = ps::countThreads();
+  m_context.release();
+  for (int i = 0; i < 50; ++i) {
+    const Stay stay = stayInHeadset(m_context, plan);
+    QVERIFY(stay.ending && !stay.ending->failed);
+  }
+  m_context.makeCurrent();
+  QCOMPARE(ps::countGlObjects(), objects);
+  QCOMPARE(ps::countThreads(), threads);
+  m_context.release();
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QCOMPARE(run.lines("textures").size(), size_t{51});
+}
+
+QTEST_GUILESS_MAIN(HeadsetTest)
+#include "tst_headset.moc"

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/vr/session.h"
+
+#include <vector>
+
+namespace ps::vr {
+
+/// The pictures of one eye that are shown in turn, in sRGB; made and used with the session's OpenGL context current.
+class EyePicture {
+ public:
+  /// Throws Failure, and Error where the runtime has no sRGB.
+  EyePicture(const Session& session, const PictureSize& size);
+  ~EyePicture();
+  EyePicture(const EyePicture&) = delete;
+  EyePicture& operator=(const EyePicture&) = delete;
+
+  /// Takes the next picture; what is drawn into the target is shown after release(). Values are written as they are: a
+  /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off.
+  RenderTarget acquire();
+  void release();
+  XrSwapchainSubImage shown() const;  ///< for a layer
+
+ private:
+  PictureSize m_size;
+  XrSwapchain m_swapchain = XR_NULL_HANDLE;
+  std::vector<uint32_t> m_textures;
+  uint32_t m_framebuffer = 0;
+};
+
+/// What the runtime recommends for each eye.
+std::array<PictureSize, 2> recommendedSizes(const Runtime& runtime);
+
+}  // namespace ps::vr

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/vr/runtime.h"
+
+#include <variant>
+
+namespace ps::vr {
+
+/// OpenXR's word for an OpenGL context.
+using GraphicsBinding = std::variant<XrGraphicsBindingEGLMNDX, XrGraphicsBindingOpenGLXlibKHR>;
+
+/// Of the context that is current on this thread, by EGL or by GLX. Throws Error where none is, or where the runtime
+/// does not know its kind.
+GraphicsBinding currentGraphics(const Runtime& runtime);
+
+}  // namespace ps::vr

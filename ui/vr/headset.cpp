@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/headset.h"
+
+#include "ui/vr/eyepicture.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+
+namespace ps::vr {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kPause{5};        // between looks at a headset that lies on the table
+constexpr milliseconds kPatience{2000};  // for the runtime to let go, once it was asked
+constexpr double kNanosecond = 1e-9;     // s
+
+const char* const kNoAnswer = "The headset's software did not answer; it was left all the same.";
+
+Eye eyeOf(const XrView& view, double near, double far) {
+  const auto& [q, p] = view.pose;
+  const Quaternion turn(double(q.w), double(q.x), double(q.y), double(q.z));
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.linear() = turn.normalized().toRotationMatrix();
+  place.translation() = Vector3(double(p.x), double(p.y), double(p.z));
+  const Matrix4 world = place.inverse().matrix();
+  const XrFovf& fov = view.fov;
+  return eyeThrough(world, std::tan(double(fov.angleLeft)), std::tan(double(fov.angleRight)),
+                    std::tan(double(fov.angleDown)), std::tan(double(fov.angleUp)), near, far);
+}
+
+/// Makes the context current for as long as it lives.
+class Current {
+ public:
+  explicit Current(const HeadsetSetup& setup) : m_setup(setup) { setup.makeCurrent(); }
+  ~Current() { m_setup.release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+ private:
+  const HeadsetSetup& m_setup;
+};
+
+}  // namespace
+
+/// What there is during a stay; made in this order, and put away in the other.
+class Headset::Loop {
+ public:
+  explicit Loop(const HeadsetSetup& setup)
+      : m_setup(setup),
+        m_runtime({XR_MNDX_EGL_ENABLE_EXTENSION_NAME, "XR_EXT_local_floor"}),
+        m_session(m_runtime),
+        m_hands(m_runtime, m_session),
+        m_scene(setup.makeScene()) {
+    const auto sizes = recommendedSizes(m_runtime);
+    for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
+  }
+
+  Session& session() { return m_session; }
+
+  void frame() {
+    const XrFrameState state = m_session.waitFrame();
+    m_session.beginFrame();
+    m_hands.sync();
+    std::optional<std::array<XrView, 2>> views;
+    if (state.shouldRender) views = m_session.locateEyes(state.predictedDisplayTime);
+    if (!views) {
+      m_session.endFrame(state.predictedDisplayTime, {});
+      return;
+    }
+    prepare(state);
+    auto layer = structure<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
+    std::array<XrCompositionLayerProjectionView, 2> shown;
+    for (const size_t eye : {size_t{0}, size_t{1}}) shown[eye] = draw(eye, (*views)[eye]);
+    layer.space = m_session.floor();
+    layer.viewCount = 2;
+    layer.views = shown.data();
+    const auto* header = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
+    m_session.endFrame(state.predictedDisplayTime, {&header, 1});
+  }
+
+ private:
+  void prepare(const XrFrameState& state) {
+    HeadsetFrame frame;
+    frame.time = kNanosecond * double(state.predictedDisplayTime);
+    frame.period = kNanosecond * double(state.predictedDisplayPeriod);
+    frame.focused = m_session.focused();
+    for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = m_hands.input(hand, state.predictedDisplayTime);
+    const auto vibrations = m_scene->prepare(frame);
+    for (const size_t hand : {kLeft, kRight})
+      if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
+  }
+
+  XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
+    EyePicture& picture = *m_pictures[eye];
+    const RenderTarget target = picture.acquire();
+    m_scene->draw(eye, eyeOf(view, m_setup.nearPlane, m_setup.farPlane), target);
+    picture.release();
+    auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
+    shown.pose = view.pose;
+    shown.fov = view.fov;
+    shown.subImage = picture.shown();
+    return shown;
+  }
+
+  const HeadsetSetup& m_setup;
+  Runtime m_runtime;
+  Session m_session;
+  Hands m_hands;
+  std::unique_ptr<HeadsetScene> m_scene;
+  std::array<std::optional<EyePicture>, 2> m_pictures;
+};
+
+Headset::Headset(HeadsetSetup setup) : m_setup(std::move(setup)), m_thread([this] { run(); }) {}
+
+Headset::~Headset() {
+  leave();
+  m_thread.join();
+}
+
+std::optional<Ending> Headset::ending() const {
+  const std::lock_guard lock(m_mutex);
+  return m_ending;
+}
+
+void Headset::run() {
+  Ending ending;
+  try {
+    ending = stay();
+  } catch (const std::exception& error) {
+    ending = {true, error.what()};
+  }
+  const std::lock_guard lock(m_mutex);
+  m_ending = std::move(ending);
+}
+
+Ending Headset::stay() {
+  const Current current(m_setup);
+  Loop loop(m_setup);
+  Session& session = loop.session();
+  std::optional<steady_clock::time_point> asked;
+  for (;;) {
+    session.handleEvents();
+    if (session.ending()) return *session.ending();
+    if (m_leave && !session.running()) return {};
+    if (m_leave && !asked) {
+      asked = steady_clock::now();
+      session.requestExit();
+    } else if (asked && steady_clock::now() - *asked > kPatience) {
+      return {true, kNoAnswer};
+    }
+    if (session.running()) {
+      loop.frame();
+      ++m_frames;
+    } else {
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+}
+
+}  // namespace ps::vr

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/camera.h"
+#include "ui/vr/hands.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace ps::vr {
+
+/// A frame as it is about to be drawn.
+struct HeadsetFrame {
+  double time = 0;                 ///< s, when it will be shown, on a clock that only goes on
+  double period = 0;               ///< s, between frames
+  std::array<HandInput, 2> hands;  ///< left and right, as they will be then
+  bool focused = false;            ///< hands act; otherwise a menu of the headset lies over the picture
+};
+
+/// What is seen in the headset, on its thread and with its OpenGL context current, from the first call to the last.
+class HeadsetScene {
+ public:
+  virtual ~HeadsetScene() = default;
+  /// Once a frame, before its eyes are drawn; says what either hand shall feel.
+  virtual std::array<std::optional<Vibration>, 2> prepare(const HeadsetFrame& frame) = 0;
+  virtual void draw(size_t eye, const Eye& view, const RenderTarget& target) = 0;
+};
+
+struct HeadsetSetup {
+  /// Of an OpenGL context that the headset's thread has for itself, and that shares with the others' what it shows.
+  std::function<void()> makeCurrent, release;
+  std::function<std::unique_ptr<HeadsetScene>()> makeScene;
+  double nearPlane = 0.03, farPlane = 100;  ///< m
+};
+
+/// A stay in the headset, from when it is made. The frames have a thread of their own, which the runtime's
+/// xrWaitFrame() paces: that waits for as long as the headset likes, and nobody else must. The thread owns everything
+/// of OpenXR, so that nothing of it needs a lock; others ask for the ending, and to leave. Whatever fails, in OpenXR,
+/// in OpenGL or in the scene, ends the stay with a sentence, and a new one can be made.
+class Headset {
+ public:
+  explicit Headset(HeadsetSetup setup);
+  ~Headset();  ///< leaves, and waits until it has
+  Headset(const Headset&) = delete;
+  Headset& operator=(const Headset&) = delete;
+
+  void leave() { m_leave = true; }
+  /// Nothing while it lasts.
+  std::optional<Ending> ending() const;
+  uint64_t frames() const { return m_frames; }  ///< that were submitted
+
+ private:
+  void run();
+  Ending stay();
+  class Loop;
+
+  HeadsetSetup m_setup;
+  std::atomic<bool> m_leave = false;
+  std::atomic<uint64_t> m_frames = 0;
+  mutable std::mutex m_mutex;
+  std::optional<Ending> m_ending;
+  std::thread m_thread;
+};
+
+}  // namespace ps::vr

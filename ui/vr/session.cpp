@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/session.h"
+
+#include "ui/vr/graphics.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace ps::vr {
+namespace {
+
+// XR_EXT_local_floor is younger than Debian 12's headers.
+constexpr auto kLocalFloor = static_cast<XrReferenceSpaceType>(1000426000);
+constexpr float kEyeHeight = 1.6f;  // m above a floor of which the headset knows nothing
+
+const char* const kLost = "The headset is about to be lost; see that it is connected, and enter VR again.";
+const char* const kStopping = "The headset's software is about to stop; when it runs again, enter VR again.";
+
+std::vector<XrReferenceSpaceType> offeredSpaces(XrSession session) {
+  constexpr const char* kCall = "xrEnumerateReferenceSpaces";
+  uint32_t count = 0;
+  check(xrEnumerateReferenceSpaces(session, 0, &count, nullptr), kCall);
+  std::vector<XrReferenceSpaceType> types(count);
+  check(xrEnumerateReferenceSpaces(session, count, &count, types.data()), kCall);
+  return types;
+}
+
+}  // namespace
+
+Session::Session(Runtime& runtime) : m_runtime(runtime) {
+  create();
+  try {
+    makeFloor();
+  } catch (...) {
+    xrDestroySession(m_session);
+    throw;
+  }
+}
+
+Session::~Session() { xrDestroySession(m_session); }
+
+void Session::create() {
+  const auto requirementsOf =
+      m_runtime.function<PFN_xrGetOpenGLGraphicsRequirementsKHR>("xrGetOpenGLGraphicsRequirementsKHR");
+  auto requirements = structure<XrGraphicsRequirementsOpenGLKHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR);
+  check(requirementsOf(m_runtime.instance(), m_runtime.system(), &requirements), "xrGetOpenGLGraphicsRequirementsKHR");
+  const GraphicsBinding binding = currentGraphics(m_runtime);
+  auto info = structure<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+  info.next = std::visit([](const auto& own) -> const void* { return &own; }, binding);
+  info.systemId = m_runtime.system();
+  check(xrCreateSession(m_runtime.instance(), &info, &m_session), "xrCreateSession");
+}
+
+void Session::makeFloor() {
+  const auto offered = offeredSpaces(m_session);
+  const auto has = [&](XrReferenceSpaceType type) {
+    return std::find(offered.begin(), offered.end(), type) != offered.end();
+  };
+  auto info = structure<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+  info.poseInReferenceSpace.orientation.w = 1;
+  if (has(kLocalFloor)) {
+    info.referenceSpaceType = kLocalFloor;
+  } else if (has(XR_REFERENCE_SPACE_TYPE_STAGE)) {
+    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_STAGE;
+  } else {
+    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_LOCAL;
+    info.poseInReferenceSpace.position.y = -kEyeHeight;
+  }
+  check(xrCreateReferenceSpace(m_session, &info, &m_floor), "xrCreateReferenceSpace");
+}
+
+void Session::handleEvents() {
+  while (const auto event = m_runtime.nextEvent()) {
+    if (event->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
+      const auto& change = reinterpret_cast<const XrEventDataSessionStateChanged&>(*event);
+      if (change.session == m_session) enter(change.state);
+    } else if (event->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
+      m_ending = {true, kStopping};
+    }
+    if (m_ending) return;
+  }
+}
+
+// STOPPING asks for a pause: the headset was taken off, and comes back as READY. Only EXITING is the end.
+void Session::enter(XrSessionState state) {
+  m_state = state;
+  if (state == XR_SESSION_STATE_READY) {
+    auto info = structure<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+    info.primaryViewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    check(xrBeginSession(m_session, &info), "xrBeginSession");
+    m_running = true;
+  } else if (state == XR_SESSION_STATE_STOPPING) {
+    m_running = false;
+    check(xrEndSession(m_session), "xrEndSession");
+  } else if (state == XR_SESSION_STATE_EXITING) {
+    m_ending = Ending{};
+  } else if (state == XR_SESSION_STATE_LOSS_PENDING) {
+    m_ending = {true, kLost};
+  }
+}
+
+void Session::requestExit() { check(xrRequestExitSession(m_session), "xrRequestExitSession"); }
+
+XrFrameState Session::waitFrame() {
+  auto frame = structure<XrFrameState>(XR_TYPE_FRAME_STATE);
+  check(xrWaitFrame(m_session, nullptr, &frame), "xrWaitFrame");
+  return frame;
+}
+
+void Session::beginFrame() { check(xrBeginFrame(m_session, nullptr), "xrBeginFrame"); }
+
+void Session::endFrame(XrTime time, std::span<const XrCompositionLayerBaseHeader* const> layers) {
+  auto info = structure<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+  info.displayTime = time;
+  info.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  info.layerCount = static_cast<uint32_t>(layers.size());
+  info.layers = layers.empty() ? nullptr : layers.data();
+  check(xrEndFrame(m_session, &info), "xrEndFrame");
+}
+
+std::optional<std::array<XrView, 2>> Session::locateEyes(XrTime time) const {
+  auto info = structure<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+  info.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+  info.displayTime = time;
+  info.space = m_floor;
+  auto state = structure<XrViewState>(XR_TYPE_VIEW_STATE);
+  std::array<XrView, 2> views;
+  views.fill(structure<XrView>(XR_TYPE_VIEW));
+  uint32_t count = 0;
+  check(xrLocateViews(m_session, &info, &state, 2, &count, views.data()), "xrLocateViews");
+  constexpr XrViewStateFlags kValid = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT;
+  if ((state.viewStateFlags & kValid) != kValid) return {};
+  return views;
+}
+
+}  // namespace ps::vr

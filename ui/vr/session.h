@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/vr/runtime.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace ps::vr {
+
+/// How a stay in the headset came to its end.
+struct Ending {
+  bool failed = false;
+  std::string sentence;  ///< for whoever wears it; "" where it was left as asked
+};
+
+/// The headset as this program has it: its states, its frames, and where things are in it. It draws with the OpenGL
+/// context that is current on the thread that makes it; every call comes from that thread, with the context current.
+/// All calls throw Failure when the headset or its software is lost.
+class Session {
+ public:
+  /// Throws Error where no context is current or the runtime refuses it.
+  explicit Session(Runtime& runtime);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Follows what the runtime says: begins the session when the headset is put on, and ends it when it is taken off.
+  void handleEvents();
+  bool running() const { return m_running; }  ///< there are frames to draw
+  bool focused() const { return m_state == XR_SESSION_STATE_FOCUSED; }
+  const std::optional<Ending>& ending() const { return m_ending; }
+  void requestExit();
+
+  XrFrameState waitFrame();
+  void beginFrame();
+  void endFrame(XrTime time, std::span<const XrCompositionLayerBaseHeader* const> layers);
+  /// Of both eyes, in the floor's space; nothing while the headset does not know where it is.
+  std::optional<std::array<XrView, 2>> locateEyes(XrTime time) const;
+
+  XrSession handle() const { return m_session; }
+  /// y is up, and 0 at the floor, as well as the headset knows it; z points back from where its user looked at first.
+  XrSpace floor() const { return m_floor; }
+
+ private:
+  void create();
+  void makeFloor();
+  void enter(XrSessionState state);
+
+  Runtime& m_runtime;
+  XrSession m_session = XR_NULL_HANDLE;
+  XrSpace m_floor = XR_NULL_HANDLE;
+  XrSessionState m_state = XR_SESSION_STATE_UNKNOWN;
+  bool m_running = false;
+  std::optional<Ending> m_ending;
+};
+
+}  // namespace ps::vr
