@@ -251,7 +251,7 @@ class TestPreferences : public SampleWindowTest {
   void theProjectIsDescribed() {
     m_window->action(QStringLiteral("edit.project"))->trigger();
     auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
-    QVERIFY(about && QTest::qWaitForWindowExposed(about));
+    QVERIFY(about && QTest::qWaitForWindowActive(about));  // or the field loses no focus by Tab
     auto* title = about->findChild<QLineEdit*>();
     auto* text = about->findChild<QPlainTextEdit*>();
     const ProjectAbout before = document().about();
