@@ -4,7 +4,7 @@
 #include "core/base/shorttext.h"
 #include "core/io/projectio.h"
 #include "core/simulation/engine.h"
-#include "core/sketch/stroke.h"
+#include "core/sketch/matterbrush.h"
 
 #include <nlohmann/json.hpp>
 
@@ -73,6 +73,11 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   for (size_t i = 0; i < list.count; ++i) setup.parameters.push_back(list[i].defaultValue);
   const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}}};
   const api::BrushPlugin& brush = *plugins.brush(info.id);
+  if (plugins.needs(info.id, api::kTouchesMatter)) {
+    if (touchesOf(brush, setup, api::EditKind::Add, {samples.data(), 1}).empty())
+      return "a hand of 5 cm radius that stays in matter does nothing";
+    return {};
+  }
   const StrokeEdits edits = applyBrush(brush, setup, api::EditKind::Add, samples);
   if (edits.added.empty()) return "a stroke of two samples and 5 cm radius draws nothing";
   return {};

@@ -61,6 +61,7 @@ size_t cellsOf(const FrameEdit& edit) {
 
 /// Matter that is out of the scene is in no state: one that an edit brings back later is made from a state before it.
 bool canBeGoneOnFrom(const KeptRun& run, const KeptRun::State& state) {
+  if (!state.names->hands().empty()) return false;
   const std::vector<MatterKey> outside = state.names->outside();
   const std::set<MatterKey> keys(outside.begin(), outside.end());
   const auto first = run.edits.begin() + static_cast<std::ptrdiff_t>(std::min(state.edits, run.edits.size()));

@@ -8,6 +8,7 @@
 #include "core/io/schema.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -26,8 +27,9 @@ struct UpdateDocument {
 struct SetTogether {
   std::vector<SetParameter> values;
 };
-using LoggedEdit = std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter,
-                                PutBack, MoveBody, NameMatter, ReturnBody, ForgetMatter>;
+using LoggedEdit =
+    std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, MoveBody,
+                 NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
 struct LogEntry {
   uint64_t frame = 0;
   LoggedEdit edit;
@@ -173,6 +175,50 @@ const FieldTable<ForgetMatter>& forgetFields() {
   return table;
 }
 
+struct Place : Plain {
+  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}}; }
+  void read(Json& value, api::Double3& out, const PluginRegistry&) const {
+    out = {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+  }
+  Json write(const api::Double3& place) const { return {place.x, place.y, place.z}; }
+  bool isDefault(const api::Double3& place) const { return place.x == 0 && place.y == 0 && place.z == 0; }
+};
+struct Kind : Plain {
+  static constexpr const char* kNames[] = {"heat", "push", "hold"};
+  Json schema() const { return namesSchema({std::begin(kNames), std::end(kNames)}); }
+  void read(Json& value, api::TouchKind& out, const PluginRegistry&) const {
+    const auto* name = std::find(std::begin(kNames), std::end(kNames), value.get<std::string>());
+    out = static_cast<api::TouchKind>(name - std::begin(kNames));
+  }
+  Json write(api::TouchKind kind) const { return kNames[static_cast<size_t>(kind)]; }
+};
+const FieldTable<api::Touch>& touchFields() {
+  constexpr double kMost = 1e15;
+  static const FieldTable<api::Touch> table{
+      .rows = {field("does", &api::Touch::kind, Kind{}, "").required(),
+               field("centre", &api::Touch::centre, Place{}, "").required(),
+               field("radius", &api::Touch::radius, Number{0, kFarthest, "m"}, "").required(),
+               field("falloff", &api::Touch::falloff, Number{0, 1}, ""),
+               field("power", &api::Touch::power, Number{-kMost, kMost, "W"}, ""),
+               field("limit", &api::Touch::limit, Number{0, 1e4, "K"}, ""),
+               field("force", &api::Touch::force, Number{0, kMost, "N"}, ""),
+               field("velocity", &api::Touch::velocity, Place{}, ""), field("spin", &api::Touch::spin, Place{}, "")}};
+  return table;
+}
+const FieldTable<TouchMatter>& touchMatterFields() {
+  static const FieldTable<TouchMatter> table{
+      .rows = {field("path", &TouchMatter::path, List{Object{touchFields()}}, ""),
+               field("samples", &TouchMatter::samples, Integer{1, 1'000'000}, ""),
+               field("still", &TouchMatter::still, List{Object{touchFields()}}, ""),
+               field("spared", &TouchMatter::spared, List{Id{}}, ""), field("key", &TouchMatter::key, Key{}, "")}};
+  return table;
+}
+template <class Edit>
+const FieldTable<Edit>& keyFields() {
+  static const FieldTable<Edit> table{.rows = {field("key", &Edit::key, Key{}, "").required()}};
+  return table;
+}
+
 template <class>
 struct EditKind;
 template <class... Edits>
@@ -187,7 +233,8 @@ struct AnyEdit : EditKind<LoggedEdit> {
                  {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
                  {"put_back", "", &putBackFields()}, {"move_body", "", &moveFields()},
                  {"name_matter", "", &nameFields()}, {"return_body", "", &returnFields()},
-                 {"forget_matter", "", &forgetFields()}) {}
+                 {"forget_matter", "", &forgetFields()}, {"touch_matter", "", &touchMatterFields()},
+                 {"undo_touch", "", &keyFields<UndoTouch>()}, {"redo_touch", "", &keyFields<RedoTouch>()}) {}
 };
 
 const FieldTable<LogEntry>& entryFields() {

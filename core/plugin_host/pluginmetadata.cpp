@@ -46,9 +46,10 @@ constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH
 ///   holds_sheets  structure may say, likewise, that it makes cloth of what is one particle thick
 ///   holds_lines   structure may say, likewise, that it makes ropes of lines one particle thick
 ///   box_stamp     a brush may say, likewise, that its stamp is a box
-constexpr std::array<std::string_view, 9> kCapabilities{"opens_energy",    "pair_rates",  "holds_frozen",
-                                                        "structure_count", "spring_ties", "group_poses",
-                                                        "holds_sheets",    "holds_lines", "box_stamp"};
+///   touches_matter  a brush may work on the matter that is there, instead of drawing cells
+constexpr std::array<std::string_view, 10> kCapabilities{
+    "opens_energy", "pair_rates",   "holds_frozen", "structure_count", "spring_ties",
+    "group_poses",  "holds_sheets", "holds_lines",  "box_stamp",       "touches_matter"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -107,6 +108,16 @@ std::string readAdheresTo(const QJsonObject& metadata, std::vector<std::string>&
     if (!problemOfId(adheresTo.back()).empty()) return rule;
   }
   return {};
+}
+
+/// Reads a brush's optional key; "" or why the plugin cannot be used.
+std::string readKey(const QJsonObject& metadata, std::string& key) {
+  const QJsonValue value = metadata["key"];
+  if (value.isUndefined()) return {};
+  key = value.toString().toStdString();
+  if (key.size() == 1 && key[0] >= 'A' && key[0] <= 'Z') return {};
+  return "its metadata need one letter of A to Z under the key \"key\", or none; correct the JSON file that "
+         "Q_PLUGIN_METADATA names and build the plugin again";
 }
 
 /// The kind that the IID stands for, or a problem.
@@ -246,6 +257,7 @@ std::string checkMetadata(const QJsonObject& root, PluginInfo& info) {
   if (const std::string what = problemOfVersion(info.version); !what.empty())
     return "the version \"" + info.version + "\" " + what;
   if (std::string what = readAdheresTo(own, info.adheresTo); !what.empty()) return what;
+  if (std::string what = readKey(own, info.key); !what.empty()) return what;
   return readCapabilities(own, info.capabilities);
 }
 

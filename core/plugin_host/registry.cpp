@@ -344,6 +344,19 @@ std::string PluginRegistry::standard(PluginKind kind) const {
 
 bool PluginRegistry::has(const std::string& id) const { return m->get(id) != nullptr; }
 
+const PluginInfo* PluginRegistry::info(const std::string& id) const {
+  const std::vector<PluginInfo>& all = plugins();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const PluginInfo& info) {
+    return info.id == id && info.state == PluginInfo::State::Loaded;
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool PluginRegistry::needs(const std::string& id, std::string_view capability) const {
+  const PluginInfo* of = info(id);
+  return of && std::find(of->capabilities.begin(), of->capabilities.end(), capability) != of->capabilities.end();
+}
+
 Material PluginRegistry::evaluated(const std::string& id, const std::vector<double>& parameters) const {
   const LoadedPlugin* plugin = m->get(id);
   if (!plugin || plugin->material.id.empty()) throw Error("The material '" + id + "' is not installed");

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ps {
@@ -24,6 +25,7 @@ struct PluginInfo {
   std::string id, label, version, api, licence, author, help, path;
   std::vector<std::string> capabilities;  ///< what it needs of the program beyond its kind's interface
   std::vector<std::string> adheresTo;     ///< of materials: Material::adheresTo
+  std::string key;                        ///< of a brush: the letter of the keyboard that it asks for; "" for none
   PluginKind kind = PluginKind::Material;
   State state = State::Refused;
   std::string problem;    ///< one line: what, where, what to do; "" when loaded
@@ -83,6 +85,10 @@ class PluginRegistry {
   /// Loaded ids of a kind, ascending.
   std::vector<std::string> ids(PluginKind kind) const;
   bool has(const std::string& id) const;
+  /// Of a loaded one; nullptr when not installed.
+  const PluginInfo* info(const std::string& id) const;
+  /// Whether a loaded one needs something beyond its kind's interface, as its metadata say.
+  bool needs(const std::string& id, std::string_view capability) const;
   /// What is meant where nothing names a plugin of this kind: the one whose metadata say so ("standard": true); of
   /// several the one that came with the program, then the first by id. Also one that was refused: a file that means it
   /// must not quietly go on with another. "" where there is none.

@@ -3,6 +3,8 @@
 #include "core/math/rigidmove.h"
 #include "core/scene/project.h"
 
+#include <phasesketch/brush.h>
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -104,13 +106,36 @@ struct ReturnToState {
   MatterIds named{};
 };
 
+/// A hand is in matter, for as long as it stays: it acts at the start of each frame, until another one of its key says
+/// where it is by now. What a path of `samples` places asks for shares the next frame evenly, also where several come
+/// before it; `still` acts in each frame after that, and none lets go. Heat is W of the thermal clock that was asked
+/// for, booked as heaters; what is fixed takes it like all other matter. What is fixed is neither pushed nor held; the
+/// work of a hand is work from outside, between two frames. Only `still` holds: what is within when it comes first.
+/// Refused with numbers that cannot be, and heat without a thermal model.
+struct TouchMatter {
+  std::vector<api::Touch> path{};
+  uint32_t samples = 1;  ///< 1 at least
+  std::vector<api::Touch> still{};
+  std::vector<std::string> spared{};  ///< Body::id
+  MatterKey key = 0;                  ///< notes what each particle got
+};
+/// Lets go, and takes from each particle the heat that it got by a key, wherever it is by now, but leaves it at 1 K at
+/// least; what has gone gives nothing back.
+struct UndoTouch {
+  MatterKey key = 0;
+};
+/// Gives again what was taken so.
+struct RedoTouch {
+  MatterKey key = 0;
+};
+
 /// Snapshots carry these fields from now on: see Engine::show(). Matter stays as it is.
 struct ShowFields {
   std::vector<std::string> names;
 };
 
-using Command =
-    std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, MoveBody,
-                 NameMatter, ReturnBody, ForgetMatter, Reset, ReturnToState, ShowFields, SetProbes>;
+using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
+                             MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch, Reset,
+                             ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

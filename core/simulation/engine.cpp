@@ -278,6 +278,7 @@ StepReport Engine::step() {
   m->flow.steer(*m->solver, m->project, compileSettings(m->project).dt);
   const uint64_t before = m->solver->frame();
   m->watchForces();
+  m->named.act(*this);
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   if (m->solver->frame() > before) {  // not of a frame that was taken back

@@ -69,6 +69,10 @@ class Engine {
   /// emitter holds stays.
   ExtractedMatter extractParticles(const std::vector<uint32_t>& ids);
   void putBack(const ExtractedMatter& matter);
+  /// Gives particles heat between two frames: see Solver::addHeat().
+  bool addHeat(std::span<double> joules);
+  /// Changes their velocities: see Solver::addVelocities().
+  void addVelocities(std::span<const Vector3> change);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 
@@ -77,6 +81,7 @@ class Engine {
   /// All that keys name, with what is out of the scene: what a state does not say, and goes with it to where edits are
   /// repeated.
   std::shared_ptr<const NamedMatter> names() const;
+  std::vector<MatterKey> hands() const;  ///< that are in matter now
   void setNames(const NamedMatter& names);
 
   /// All that goes on into the next frame: the solver's state, what emitters hold, and who is who.

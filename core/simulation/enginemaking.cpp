@@ -137,7 +137,9 @@ void EngineThread::Impl::adopt(const Adoption& recording) {
 
 void EngineThread::Impl::standAt(const Project& project, bool edits, bool wholeHistory, bool play) {
   if (shown) engine->apply(*shown);
-  engine->apply(SetProbes{project.probes});  // what is measured goes by the document, in which nothing goes back
+  for (const MatterKey key : engine->hands())
+    change(TouchMatter{{}, 1, {}, {}, key});  // whose hand it was is not there
+  engine->apply(SetProbes{project.probes});   // what is measured goes by the document, in which nothing goes back
   if (edits) {
     // Bodies stand where the document has them, and their matter comes along.
     const std::vector<Body> then = engine->document().bodies;

@@ -87,6 +87,8 @@ ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
   std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
   return m->solver->extract(some);
 }
+bool Engine::addHeat(std::span<double> joules) { return m->solver->addHeat(joules); }
+void Engine::addVelocities(std::span<const Vector3> change) { m->solver->addVelocities(change); }
 void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,

@@ -81,6 +81,7 @@ Engine::Engine(const Project& document, PluginRegistry& plugins, const StateRead
 }
 
 std::shared_ptr<const NamedMatter> Engine::names() const { return std::make_shared<const NamedMatter>(m->named); }
+std::vector<MatterKey> Engine::hands() const { return m->named.hands(); }
 void Engine::setNames(const NamedMatter& names) { m->named = names; }
 
 void Engine::restore(const StateReader& reader) { m = m->restored(reader); }

@@ -37,13 +37,13 @@ std::vector<uint32_t> sparing(const Engine& engine, std::vector<uint32_t> ids, c
 }  // namespace
 
 NamedMatter::NamedMatter(const MatterIds& named) {
-  for (const auto& [key, ids] : named) m_entries[key] = {ids, {}};
+  for (const auto& [key, ids] : named) m_entries[key].ids = ids;
 }
 
 MatterIds NamedMatter::present() const {
   MatterIds named;
   for (const auto& [key, entry] : m_entries) {
-    if (entry.extracted.empty()) named[key] = entry.ids;
+    if (entry.isPresent()) named[key] = entry.ids;
   }
   return named;
 }
@@ -51,9 +51,25 @@ MatterIds NamedMatter::present() const {
 std::vector<MatterKey> NamedMatter::outside() const {
   std::vector<MatterKey> keys;
   for (const auto& [key, entry] : m_entries) {
-    if (!entry.extracted.empty()) keys.push_back(key);
+    if (!entry.isPresent()) keys.push_back(key);
   }
   return keys;
+}
+
+std::vector<MatterKey> NamedMatter::hands() const {
+  std::vector<MatterKey> keys;
+  for (const auto& [key, entry] : m_entries) {
+    if (entry.hand) keys.push_back(key);
+  }
+  return keys;
+}
+
+void NamedMatter::act(Engine& engine) {
+  for (auto& [key, entry] : m_entries) {
+    if (!entry.hand) continue;
+    addTo(entry.heat, entry.hand->act(engine));
+    if (entry.hand->isGone()) entry.hand.reset();
+  }
 }
 
 void NamedMatter::extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids) {
@@ -82,7 +98,8 @@ void NamedMatter::apply(Engine& engine, const TakeCells& command) {
 void NamedMatter::apply(Engine& engine, const TakeBody& command) {
   const ParticleStore& store = engine.particles();
   Entry& entry = m_entries[command.key];
-  entry = {ofBody(engine, {store.id(), store.id() + store.size()}, command.body), {}};
+  entry = {};
+  entry.ids = ofBody(engine, {store.id(), store.id() + store.size()}, command.body);
   extract(engine, entry, entry.ids);
 }
 
@@ -104,7 +121,8 @@ void NamedMatter::apply(Engine& engine, const PutBack& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const NameMatter& command) {
-  m_entries[command.key] = {ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body), {}};
+  Entry& entry = m_entries[command.key] = {};
+  entry.ids = ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body);
 }
 
 void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
@@ -113,12 +131,38 @@ void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
     return;
   }
   if (!command.body) return;
-  m_entries[command.key] = {engine.addBody(*command.body), {}};
+  std::vector<uint32_t> ids = engine.addBody(*command.body);
+  Entry& entry = m_entries[command.key] = {};
+  entry.ids = std::move(ids);
   for (const NameMatter& named : command.named) apply(engine, named);
 }
 
 void NamedMatter::apply(Engine&, const ForgetMatter& command) {
   for (const MatterKey key : command.keys) m_entries.erase(key);
+}
+
+void NamedMatter::apply(Engine& engine, const TouchMatter& command) {
+  Hand::require(command, engine);
+  Entry& entry = m_entries[command.key];
+  if (!entry.hand) entry.hand.emplace();
+  entry.hand->move(command);
+  if (entry.hand->isGone()) entry.hand.reset();
+}
+
+void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
+  const auto found = m_entries.find(command.key);
+  if (found == m_entries.end()) return;
+  Entry& entry = found->second;
+  entry.hand.reset();
+  entry.taken = negated(giveHeat(engine, negated(entry.heat)));
+  entry.heat.clear();
+}
+
+void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
+  const auto found = m_entries.find(command.key);
+  if (found == m_entries.end()) return;
+  found->second.heat = giveHeat(engine, found->second.taken);
+  found->second.taken.clear();
 }
 
 }  // namespace ps

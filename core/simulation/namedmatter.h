@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/command.h"
+#include "core/simulation/hand.h"
 #include "core/solver/matter.h"
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace ps {
@@ -16,10 +18,14 @@ class NamedMatter {
  public:
   NamedMatter() = default;
   explicit NamedMatter(const MatterIds& named);
-  /// What keys name, without those of which something is out of the scene: that is in no state.
+  /// What keys name, without those of which something is out of the scene or was heated: that is in no state.
   MatterIds present() const;
   /// The keys of those.
   std::vector<MatterKey> outside() const;
+  /// The keys of hands that are in matter: neither is that in a state.
+  std::vector<MatterKey> hands() const;
+  /// What hands do in a frame, before it.
+  void act(Engine& engine);
   void apply(Engine& engine, const AddCells& command);
   void apply(Engine& engine, const TakeCells& command);
   void apply(Engine& engine, const TakeBody& command);
@@ -28,11 +34,17 @@ class NamedMatter {
   void apply(Engine& engine, const NameMatter& command);
   void apply(Engine& engine, const ReturnBody& command);
   void apply(Engine& engine, const ForgetMatter& command);
+  void apply(Engine& engine, const TouchMatter& command);
+  void apply(Engine& engine, const UndoTouch& command);
+  void apply(Engine& engine, const RedoTouch& command);
 
  private:
   struct Entry {
     std::vector<uint32_t> ids;               ///< born by the edit, or taken by it
     std::vector<ExtractedMatter> extracted;  ///< what is out of the scene now
+    std::optional<Hand> hand;
+    HeatById heat, taken;  ///< what it gave, and what of it was taken back
+    bool isPresent() const { return extracted.empty() && heat.empty() && taken.empty() && !hand; }
   };
   static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);

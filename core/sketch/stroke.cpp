@@ -32,7 +32,8 @@ api::StrokeSample between(const api::StrokeSample& a, const api::StrokeSample& b
            std::lerp(a.position.z, b.position.z, t)},
           std::lerp(a.pressure, b.pressure, t),
           std::lerp(a.time, b.time, t),
-          directionOf(a.position, b.position)};
+          directionOf(a.position, b.position),
+          b.velocity};
 }
 
 /// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
@@ -149,11 +150,8 @@ StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, 
   Collector collector;
   try {
     for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
-      api::StrokeContext context = own;
-      for (api::Double3* axis : {&context.up, &context.side, &context.front})
-        *axis = double3Of(image.turn * vectorOf(*axis));
       const std::vector<api::StrokeSample> copies = imageOf(all, image);
-      brush.stroke(context, kind, api::listOf(copies.data(), copies.size()), collector);
+      brush.stroke(imageOf(own, image), kind, api::listOf(copies.data(), copies.size()), collector);
     }
   } catch (const Error&) {  // of the collector
     throw;

@@ -35,8 +35,15 @@ std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& sam
   for (api::StrokeSample& sample : out) {
     sample.position = double3Of(image.of(vectorOf(sample.position)));
     sample.direction = double3Of(image.turn * vectorOf(sample.direction));
+    sample.velocity = double3Of(image.turn * vectorOf(sample.velocity));
   }
   return out;
+}
+
+api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image) {
+  for (api::Double3* axis : {&context.up, &context.side, &context.front})
+    *axis = double3Of(image.turn * vectorOf(*axis));
+  return context;
 }
 
 }  // namespace ps

@@ -22,4 +22,7 @@ std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry);
 /// The samples as they lie in a copy.
 std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image);
 
+/// What a brush knows of the stroke, as it lies there.
+api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image);
+
 }  // namespace ps

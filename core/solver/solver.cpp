@@ -305,6 +305,23 @@ void Solver::putBack(const ExtractedMatter& matter) {
   m->matterChanged(before);
 }
 
+bool Solver::addHeat(std::span<double> joules) {
+  if (joules.size() != m->store.size()) throw Error("heat for as many particles as there are is needed");
+  m->configure();
+  m->lastGoodValid = false;
+  return m->heat.give(m->store, joules);
+}
+
+void Solver::addVelocities(std::span<const Vector3> change) {
+  ParticleStore& store = m->store;
+  if (change.size() != store.size()) throw Error("as many changes of velocity as particles are needed");
+  m->lastGoodValid = false;
+  for (size_t i = 0; i < change.size(); ++i) {
+    api::Float4& velocity = store.velocity()[i];
+    if (velocity.w > 0) assignTo(velocity, vectorOf(velocity) + change[i]);
+  }
+}
+
 StepReport Solver::step() {
   m->runFrame();
   return m->report;

@@ -97,6 +97,13 @@ class Solver {
   /// (MechanicalRecord: the end of one and the start of the next).
   void carry(uint32_t body, const Quaternion& turn, const Vector3& way);
 
+  /// Gives particles heat between two frames, J each in the order of particles(); below 0 it is taken, as far as 1 K.
+  /// Leaves what each got in `joules`, and books it as heaters. False without a thermal model: nobody got any.
+  bool addHeat(std::span<double> joules);
+  /// Changes velocities between two frames, by m/s each in the order of particles(); what is fixed or held stays. Work
+  /// from outside, as carry() has it.
+  void addVelocities(std::span<const Vector3> change);
+
   /// One frame. On NotFinite the state goes back to where the last good frame began, clocks and all.
   StepReport step();
 

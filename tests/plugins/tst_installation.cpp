@@ -151,7 +151,8 @@ void InstallationTest::filesAreKnownByWhatTheyBeginWith() {
 void InstallationTest::ownPluginsLoadFromTheInstallation() {
   const Outcome list = runProgram(program("phasesketch-cli"), {"plugins", "--json"});
   QVERIFY2(list.code == 0, list.text());
-  for (const char* id : {"water", "wax", "bonds", "enthalpy", "thesis_latent", "sphere", "cube", "tube", "spray"}) {
+  for (const char* id :
+       {"water", "wax", "bonds", "enthalpy", "thesis_latent", "sphere", "cube", "tube", "spray", "heat", "grab"}) {
     const QJsonObject entry = entryOf(list.output, id);
     QVERIFY2(entry["state"] == "loaded", id + (": " + QJsonDocument(entry).toJson()));
     const QString home = QFileInfo(prefix()).canonicalFilePath();
@@ -236,7 +237,7 @@ void InstallationTest::readmesNameWhatIsInstalled() {
 }
 
 void InstallationTest::checkSaysThatExamplesAreFine() {
-  for (const char* name : {"honey", "tether", "clump", "cohesion", "sensible", "lamp", "ring"}) {
+  for (const char* name : {"honey", "tether", "clump", "cohesion", "sensible", "lamp", "ring", "whisk"}) {
     const QString path = pluginDirectory() + "/" + name + ".so";
     const Outcome outcome = runProgram(program("phasesketch-cli"), {"plugins", "--check", path});
     QVERIFY2(outcome.code == 0 && outcome.output.startsWith((path + ": fine: ").toUtf8()), outcome.text());
@@ -322,7 +323,7 @@ void InstallationTest::editorListsTheExamples() {
   const Outcome list = runProgram(program("phasesketch"), {"--list-plugins"}, pluginDirectory());
   QVERIFY2(list.code == 0, list.text());
   for (const char* id : {"org.example.honey", "org.example.tether", "org.example.clump", "org.example.cohesion",
-                         "org.example.sensible", "org.example.lamp", "org.example.ring"}) {
+                         "org.example.sensible", "org.example.lamp", "org.example.ring", "org.example.whisk"}) {
     bool loaded = false;
     for (const QByteArray& line : list.output.split('\n'))
       loaded = loaded || (line.startsWith(id) && line.contains("loaded"));

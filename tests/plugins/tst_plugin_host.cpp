@@ -11,11 +11,13 @@
 #include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/quarantine.h"
 #include "core/plugin_host/registry.h"
+#include "core/sketch/matterbrush.h"
 #include "core/sketch/stroke.h"
 
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
+#include <QJsonObject>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QTest>
@@ -827,6 +829,76 @@ class TestPluginHost : public QObject {
     if (brush != "spray")
       QVERIFY2(mirrored >= 0.97 * static_cast<double>(whole.size()), qPrintable(QString::number(mirrored)));
     QVERIFY(both.size() > whole.size());
+  }
+
+  void ownBrushesTouchMatter_data() {
+    QTest::addColumn<QString>("brush");
+    QTest::addColumn<QString>("key");
+    QTest::addColumn<int>("kind");
+    for (const auto& [brush, key, kind] : {std::tuple{"heat", "H", api::TouchKind::Heat},
+                                           {"cool", "C", api::TouchKind::Heat},
+                                           {"grab", "G", api::TouchKind::Hold},
+                                           {"push", "", api::TouchKind::Push},
+                                           {"stir", "", api::TouchKind::Push}})
+      QTest::newRow(brush) << brush << key << static_cast<int>(kind);
+  }
+  /// One ball for each place of the hand, in the mirror too, as strong as the pen is pressed; none of them draws.
+  void ownBrushesTouchMatter() {
+    QFETCH(QString, brush);
+    QFETCH(QString, key);
+    QFETCH(int, kind);
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    const std::string id = brush.toStdString();
+    QVERIFY(registry.needs(id, api::kTouchesMatter) && !registry.needs("sphere", api::kTouchesMatter));
+    QCOMPARE(QString::fromStdString(registry.info(id)->key), key);
+    StrokeSetup setup;
+    setup.radius = 0.07;
+    setup.up = {0, 2, 0};
+    setup.symmetry = VoxelShape::Symmetry{"x", 1, Vector3(0, 0, 0)};
+    std::vector<api::StrokeSample> hand{{{1, 2, 3}, 0.5, 0, {}}, {{1.02, 2, 3}, 1, 0.1, {1, 0, 0}}};
+    for (api::StrokeSample& sample : hand) sample.velocity = {200, 0, 10};
+    const auto touched = [&](api::EditKind edit) { return touchesOf(*registry.brush(id), setup, edit, hand); };
+    const std::vector<api::Touch> touches = touched(api::EditKind::Add), opposite = touched(api::EditKind::Remove);
+    QCOMPARE(touches.size(), size_t{4});
+    const auto strength = [](const api::Touch& touch) {
+      return touch.kind == api::TouchKind::Heat ? touch.power : touch.force;
+    };
+    for (size_t k = 0; k < 4; ++k) {
+      QCOMPARE(static_cast<int>(touches[k].kind), kind);
+      QCOMPARE(touches[k].radius, 0.07);
+      QCOMPARE(touches[k].centre.x, (k < 2 ? 1 : -1) * hand[k % 2].position.x);
+      QCOMPARE(strength(touches[k]), strength(touches[1]) * hand[k % 2].pressure);
+      QVERIFY(vectorOf(touches[k].velocity).norm() <= 100);
+      QCOMPARE(touches[k].velocity.x > 0, brush == "push" && k < 2);
+      QCOMPARE(touches[k].velocity.x < 0, brush == "push" && k >= 2);
+      if (brush == "heat" || brush == "cool") QCOMPARE(opposite[k].power, -touches[k].power);
+      if (brush == "push") QCOMPARE(opposite[k].velocity.x, -touches[k].velocity.x);
+      if (brush == "stir") QCOMPARE(opposite[k].spin.y, -touches[k].spin.y);
+    }
+    QCOMPARE(strength(touches[0]) > 0, brush != "cool");
+    QVERIFY(applyBrush(*registry.brush(id), setup, api::EditKind::Add, hand).empty());
+    QVERIFY_EXCEPTION_THROWN(touchesOf(*registry.brush("sphere"), setup, api::EditKind::Add, hand), BrushFault);
+  }
+
+  void keysOfBrushesAreLetters_data() {
+    QTest::addColumn<QJsonValue>("key");
+    QTest::addColumn<bool>("sound");
+    QTest::newRow("a letter") << QJsonValue("H") << true;
+    QTest::newRow("a small one") << QJsonValue("h") << false;
+    QTest::newRow("two") << QJsonValue("HC") << false;
+    QTest::newRow("a digit") << QJsonValue("1") << false;
+    QTest::newRow("a number") << QJsonValue(1) << false;
+    QTest::newRow("nothing") << QJsonValue("") << false;
+  }
+  void keysOfBrushesAreLetters() {
+    QFETCH(QJsonValue, key);
+    QFETCH(bool, sound);
+    const QJsonObject own{{"id", "b"},          {"kind", "brush"},  {"api", "0.9"},
+                          {"version", "1.0.0"}, {"licence", "MIT"}, {"key", key}};
+    PluginInfo info;
+    const std::string problem = checkMetadata(QJsonObject{{"IID", PHASESKETCH_BRUSH_IID}, {"MetaData", own}}, info);
+    QCOMPARE(problem.empty(), sound);
+    if (!sound) QVERIFY(problem.find("one letter of A to Z") != std::string::npos);
   }
 
   /// A straight tube of radius 5 with a wall of 2: hollow, open, and as long as the stroke.

@@ -38,6 +38,9 @@ struct StrokeRecord {
   VoxelShape lattice;                     ///< origin and spacing only
   std::vector<SceneEdit> edits;           ///< what it changes in the document
   MatterRef matter = newMatter();         ///< its particles
+  /// What it did to the matter that was there: "Heat matter"; the document's bodies are as before. "": it drew or
+  /// erased.
+  std::string deed{};
 };
 
 /// Applies edits to a project's bodies, forwards or backwards (then in reverse order).

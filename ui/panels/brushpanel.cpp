@@ -118,10 +118,20 @@ void BrushPanel::refresh() {
   };
   show(rowModels(brushParameters(), valuesOf(brush)));
   show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
+  if (m_tools.touchesMatter()) {
+    for (const char* key : {"temperature", "draw_on", "plane_at", "steady"})
+      setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
+  }
   showMaterial();
 }
 
 void BrushPanel::showMaterial() {
+  if (m_tools.touchesMatter()) {
+    setHeader(pluginLabel(m_tools.document().plugins(), m_tools.brush().shape),
+              QStringLiteral("Works on the matter that is there, while the scene runs"),
+              QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
+    return;
+  }
   const std::string& id = m_tools.brush().material;
   setHeader(ownerLabel(m_tools.document().project(), {Owner::Material, id, ""}),
             QStringLiteral("Choose other matter under Materials"),
@@ -130,10 +140,12 @@ void BrushPanel::showMaterial() {
 
 void BrushPanel::onEdited(const QString& key, const Value& value, Edit edit) {
   if (edit == Edit::Begin) return;
-  BrushSettings brush = m_tools.brush();
   if (key == kShape) {
-    brush.shape = std::get<std::string>(value);
-  } else if (key.startsWith(kOwn)) {
+    m_tools.takeBrush(std::get<std::string>(value));
+    return;
+  }
+  BrushSettings brush = m_tools.brush();
+  if (key.startsWith(kOwn)) {
     brush.parameters[brush.shape].values[key.mid(kOwn.size()).toStdString()] = value;
   } else {
     setValueOf(brush, key.toStdString(), value);

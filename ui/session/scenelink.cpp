@@ -164,7 +164,7 @@ void SceneLink::onStroke(const StrokeChanged& event) {
   if (isBroken()) {
     rebuild(m_play);
   } else if (event.live) {
-    pushProject();
+    if (event.stroke->deed.empty()) pushProject();
   } else if (event.done) {
     redoStroke(event.stroke);
   } else {
@@ -178,7 +178,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
   std::vector<NameMatter> named;
   for (const auto& [weak, done, way] : m_strokes) {
     const auto stroke = weak.lock();
-    if (!stroke || !done || stroke->erase) continue;
+    if (!stroke || !done || stroke->erase || !stroke->deed.empty()) continue;
     named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
     named.back().lattice.origin += way;
   }
@@ -244,17 +244,34 @@ void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> bo
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
+  m_engine.apply(TakeCells{stroke.lattice, std::move(cells), lockedBodies(), keyOf(stroke.matter)});
+  Q_EMIT matterEdited();
+}
+
+std::vector<std::string> SceneLink::lockedBodies() const {
   std::vector<std::string> locked;
   for (const Body& body : m_document.project().bodies) {
     if (body.locked) locked.push_back(body.id);
   }
-  m_engine.apply(TakeCells{stroke.lattice, std::move(cells), std::move(locked), keyOf(stroke.matter)});
+  return locked;
+}
+
+void SceneLink::touch(const StrokeRecord& stroke, TouchMatter touch) {
+  touch.key = keyOf(stroke.matter);
+  touch.spared = lockedBodies();
+  m_engine.apply(std::move(touch));
   Q_EMIT matterEdited();
 }
+
+bool SceneLink::runs() const { return m_engine.playing(); }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
 
 void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
+  if (!stroke->deed.empty()) {
+    m_engine.apply(UndoTouch{keyOf(stroke->matter)});
+    return;
+  }
   if (stroke->erase) {
     std::vector<AddCells> cells;
     if (!isOfThisRun(stroke->matter)) cells = refill(*stroke, m_document);
@@ -266,6 +283,10 @@ void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
 }
 
 void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
+  if (!stroke->deed.empty()) {
+    m_engine.apply(RedoTouch{keyOf(stroke->matter)});
+    return;
+  }
   pushProject();
   const MatterKey key = keyOf(stroke->matter);
   if (stroke->erase) {

@@ -41,6 +41,10 @@ class SceneLink : public QObject {
   void paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body, std::vector<std::array<int, 3>> cells);
   /// Removes what is in the cells now, except matter of locked bodies.
   void erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells);
+  /// A hand that touches matter is there now; matter of locked bodies is spared. See TouchMatter.
+  void touch(const StrokeRecord& stroke, TouchMatter touch);
+  /// Whether time passes in the scene.
+  bool runs() const;
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
 
@@ -57,6 +61,7 @@ class SceneLink : public QObject {
   void onBody(const BodyChanged& event);
   void pushProject();
   void onPort(const PortChanged& event);
+  std::vector<std::string> lockedBodies() const;
   MatterKey keyOf(const MatterRef& matter);  ///< for a command of this run
   bool isOfThisRun(const MatterRef& matter) const;
   void forgetMatter();

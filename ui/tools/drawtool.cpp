@@ -14,16 +14,18 @@ namespace {
 constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes on
 }
 
-DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box) {}
+DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {}
+
+bool DrawTool::touches() const { return box().touchesMatter(); }
 
 void DrawTool::hover(const Pointer& pointer) {
-  if (m_stroke.active()) return;
+  if (m_stroke.active() || m_touch.active()) return;
   m_cursor.reset();
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
-  cursor.erase = m_erases != pointer.control;
+  cursor.erase = !touches() && m_erases != pointer.control;
   cursor.floor = floorHeight(environment);
-  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase) {
+  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !touches()) {
     m_plane = *plane;
     const auto point = placeOf(pointer);
     if (!point) return;
@@ -35,7 +37,7 @@ void DrawTool::hover(const Pointer& pointer) {
     cursor.centre = surface->point;
   }
   std::tie(cursor.extent, cursor.box) = box().stamp(m_plane.normal);
-  if (!cursor.erase && box().brush().drawOn == DrawOn::Surface) {
+  if (!cursor.erase && !touches() && box().brush().drawOn == DrawOn::Surface) {
     // A brush stands on the surface instead of half inside it.
     cursor.centre += m_plane.normal.cwiseProduct(cursor.extent);
     m_plane.point = cursor.centre;
@@ -47,6 +49,10 @@ bool DrawTool::press(const Pointer& pointer) {
   hover(pointer);
   if (!m_cursor) return true;  // nothing to draw on, and nothing to turn
   m_began = pointer.seconds;
+  if (touches()) {
+    beginTouch(pointer);
+    return true;
+  }
   m_before = m_cursor->erase ? pointer.scene : nullptr;
   m_straight.stop();
   m_trail.start(m_cursor->centre);
@@ -57,6 +63,49 @@ bool DrawTool::press(const Pointer& pointer) {
   m_stroke.cancel();
   refuse(problem);
   return true;
+}
+
+void DrawTool::beginTouch(const Pointer& pointer) {
+  const QString problem =
+      m_touch.begin(pointer.control != m_erases, m_cursor->centre, m_plane.normal, pointer.pressure);
+  if (!problem.isEmpty()) return refuse(problem);
+  if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
+  m_hand = pointer;
+  m_hand.scene = nullptr;
+}
+
+/// Matter melts, flows and is carried away under a pointer that stays: the hand follows what is there.
+void DrawTool::see(const Snapshot* now) {
+  if (!m_touch.active() || m_touch.holds() || !m_cursor || !now) return;
+  Pointer looking = m_hand;
+  looking.scene = SnapshotPtr(SnapshotPtr(), now);  // only while this lasts
+  const auto surface = surfaceUnder(looking, box().document().project().environment);
+  if (!surface || (surface->point - m_cursor->centre).norm() < box().spacing() / 4) return;
+  const auto follow = [this, point = surface->point] {
+    if (!m_touch.active()) return;
+    m_touch.lift();
+    touchAt(point);
+  };
+  QMetaObject::invokeMethod(&box(), follow, Qt::QueuedConnection);  // the view is being painted
+}
+
+void DrawTool::dragTouch(const Pointer& pointer) {
+  std::optional<Vector3> point;
+  if (m_touch.holds()) {
+    point = placeOf(pointer);
+  } else if (const auto surface = surfaceUnder(pointer, box().document().project().environment)) {
+    point = surface->point;
+    if (!isJoined(*point, pointer)) m_touch.lift();
+  }
+  m_hand = pointer;
+  m_hand.scene = nullptr;
+  if (point) touchAt(*point);
+}
+
+void DrawTool::touchAt(const Vector3& point) {
+  m_cursor->centre = point;
+  const QString problem = m_touch.move(point, m_hand.seconds - m_began, m_hand.pressure);
+  if (!problem.isEmpty()) refuse(problem);
 }
 
 /// Along a ray that misses the stroke's plane, or meets it far outside of the scene, nothing is drawn.
@@ -92,6 +141,7 @@ bool DrawTool::isJoined(const Vector3& point, const Pointer& pointer) const {
 }
 
 void DrawTool::drag(const Pointer& pointer) {
+  if (m_touch.active() && m_cursor) return dragTouch(pointer);
   if (!m_stroke.active() || !m_cursor) return;
   if (m_cursor->erase) {
     if (const auto matter = matterUnder(pointer)) {
@@ -129,17 +179,27 @@ void DrawTool::endAsItIs(const QString& problem) {
 
 void DrawTool::release(const Pointer&) {
   m_before.reset();
+  if (const QString problem = m_touch.finish(); !problem.isEmpty()) refuse(problem);
   if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
 }
 
 bool DrawTool::cancel() {
-  const bool busy = m_stroke.active();
+  const bool busy = m_stroke.active() || m_touch.active();
   m_before.reset();
   m_stroke.cancel();
+  m_touch.cancel();
   return busy;
 }
 
-void DrawTool::refuse(const QString& why) { box().refuse(QStringLiteral("Nothing was drawn."), why); }
+void DrawTool::refuse(const QString& why) {
+  box().refuse(touches() ? QStringLiteral("The matter stays as it is.") : QStringLiteral("Nothing was drawn."), why);
+}
+
+QString DrawTool::brushLabel() const {
+  const PluginRegistry* plugins = box().document().plugins();
+  const api::BrushPlugin* plugin = plugins ? plugins->brush(box().brush().shape) : nullptr;
+  return plugin ? QString::fromUtf8(plugin->label()) : QString::fromStdString(box().brush().shape);
+}
 
 ToolPicture DrawTool::picture() const {
   ToolPicture picture;
@@ -152,18 +212,20 @@ ToolPicture DrawTool::picture() const {
 QString DrawTool::words() const {
   const BrushSettings& brush = box().brush();
   const Document& document = box().document();
-  const api::BrushPlugin* plugin = document.plugins() ? document.plugins()->brush(brush.shape) : nullptr;
-  QStringList parts{m_erases ? QStringLiteral("Eraser") : QStringLiteral("Brush"),
-                    plugin ? QString::fromUtf8(plugin->label()).toLower() : QString::fromStdString(brush.shape),
+  QStringList parts{m_erases ? QStringLiteral("Eraser") : QStringLiteral("Brush"), brushLabel().toLower(),
                     QStringLiteral("radius ") + lengthText(brush.radius)};
   for (const SceneMaterial& material : document.project().materials) {
-    if (!m_erases && material.id == brush.material) parts << QString::fromStdString(material.label);
+    if (!m_erases && !touches() && material.id == brush.material) parts << QString::fromStdString(material.label);
   }
   if (m_cursor) parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
   return parts.join(QStringLiteral(", "));
 }
 
 std::vector<Gesture> DrawTool::gestures() const {
+  if (touches()) {
+    return {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
+            {QStringLiteral("Ctrl+Drag"), QStringLiteral("The opposite"), QStringLiteral("the opposite")}};
+  }
   const Gesture draw{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
   const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
   std::vector<Gesture> list{m_erases ? erase : draw, m_erases ? draw : erase};
@@ -175,7 +237,7 @@ std::vector<Gesture> DrawTool::gestures() const {
 }
 
 QString DrawTool::invitation() const {
-  return m_erases || m_stroke.active() ? QString() : QStringLiteral("Draw with the left button");
+  return m_erases || touches() || m_stroke.active() ? QString() : QStringLiteral("Draw with the left button");
 }
 
 }  // namespace ps

@@ -3,12 +3,15 @@
 #include "core/sketch/drawingplane.h"
 #include "ui/tools/guides.h"
 #include "ui/tools/livestroke.h"
+#include "ui/tools/livetouch.h"
 #include "ui/tools/tool.h"
 
 namespace ps {
 
 /// Draws matter with the brush; Control erases instead. A stroke stays on the plane on which it began; an eraser takes
-/// what is under the pointer, as the scene was when it was pressed, so that it does not dig into its own hole.
+/// what is under the pointer, as the scene was when it was pressed, so that it does not dig into its own hole. With a
+/// brush that touches matter the hand is at what is under the pointer, for as long as it is pressed; what it has taken
+/// hold of it carries across the view, and Control asks for the opposite.
 class DrawTool : public Tool {
  public:
   explicit DrawTool(Toolbox& box) : DrawTool(box, false) {}
@@ -17,6 +20,7 @@ class DrawTool : public Tool {
   void drag(const Pointer& pointer) override;
   void release(const Pointer& pointer) override;
   bool cancel() override;
+  void see(const Snapshot* now) override;
   void leave() override { m_cursor.reset(); }
   ToolPicture picture() const override;
   QString words() const override;
@@ -32,17 +36,24 @@ class DrawTool : public Tool {
   std::optional<Vector3> matterUnder(const Pointer& pointer) const;
   bool isJoined(const Vector3& point, const Pointer& pointer) const;
   void draw(const Vector3& point, const Pointer& pointer);
+  void beginTouch(const Pointer& pointer);
+  void dragTouch(const Pointer& pointer);
+  void touchAt(const Vector3& point);
+  bool touches() const;
+  QString brushLabel() const;
   void endAsItIs(const QString& problem);
   void refuse(const QString& why);
 
   const bool m_erases;
   LiveStroke m_stroke;
+  LiveTouch m_touch;
   DrawingPlane m_plane;
   SnapshotPtr m_before;  ///< the scene when an eraser was pressed
   Straightener m_straight;
   Trailing m_trail;
   double m_began = 0;  ///< s, on the pointer's clock
   std::optional<BrushCursor> m_cursor;
+  Pointer m_hand;  ///< as it was last while it touches matter
 };
 
 /// Takes matter away with the brush; Control draws instead.

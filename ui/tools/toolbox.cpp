@@ -37,13 +37,22 @@ void Toolbox::attach(SceneLink* link) {
   if (link && plugins && m_brush.shape.empty()) takeInstalled(plugins->standard(PluginKind::Brush));
 }
 
-/// Or the first one where that cannot be had.
+bool Toolbox::touchesMatter(const std::string& brush) const {
+  const PluginRegistry* plugins = m_document.plugins();
+  return plugins && plugins->needs(brush, api::kTouchesMatter);
+}
+
+/// Or the first one that draws where that cannot be had.
 void Toolbox::takeInstalled(const std::string& wanted) {
   const PluginRegistry& plugins = *m_document.plugins();
   BrushSettings brush = m_brush;
   brush.shape = wanted;
   const std::vector<std::string> installed = plugins.ids(PluginKind::Brush);
-  if (!plugins.brush(brush.shape) && !installed.empty()) brush.shape = installed.front();
+  if (!plugins.brush(brush.shape) && !installed.empty()) {
+    const auto draws =
+        std::find_if(installed.begin(), installed.end(), [this](const std::string& id) { return !touchesMatter(id); });
+    brush.shape = draws == installed.end() ? installed.front() : *draws;
+  }
   setBrush(brush);
 }
 
@@ -53,7 +62,13 @@ void Toolbox::putAside(const std::string& brush, const std::string& problem) {
 }
 
 void Toolbox::activate(const std::string& id) {
-  if (id == m_active || !toolRow(id)) return;
+  if (!toolRow(id)) return;
+  if (tool(id).usesBrush() && touchesMatter() && !m_drawing.empty()) {
+    BrushSettings brush = m_brush;
+    brush.shape = m_drawing;
+    setBrush(brush);
+  }
+  if (id == m_active) return;
   tool().cancel();
   tool().leave();
   m_active = id;
@@ -67,9 +82,17 @@ void Toolbox::setMouse(MousePreset preset) {
   Q_EMIT mouseChanged();
 }
 
+void Toolbox::takeBrush(const std::string& id) {
+  if (touchesMatter(id) && tool().usesBrush()) activate(kBrushTool);
+  BrushSettings brush = m_brush;
+  brush.shape = id;
+  setBrush(brush);
+}
+
 void Toolbox::setBrush(const BrushSettings& brush) {
   if (brush == m_brush) return;
   m_brush = brush;
+  if (!touchesMatter()) m_drawing = m_brush.shape;
   Q_EMIT brushChanged();
 }
 
@@ -84,9 +107,7 @@ void Toolbox::nextShape() {
   const std::vector<std::string> shapes = m_document.plugins()->ids(PluginKind::Brush);
   if (shapes.empty()) return;
   const auto present = std::find(shapes.begin(), shapes.end(), m_brush.shape);
-  BrushSettings brush = m_brush;
-  brush.shape = present == shapes.end() || present + 1 == shapes.end() ? shapes.front() : *(present + 1);
-  setBrush(brush);
+  takeBrush(present == shapes.end() || present + 1 == shapes.end() ? shapes.front() : *(present + 1));
 }
 
 double Toolbox::spacing() const {

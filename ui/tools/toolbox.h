@@ -30,7 +30,8 @@ class Toolbox : public QObject {
   void attach(SceneLink* link);
 
   const std::string& active() const { return m_active; }  ///< ToolRow::id
-  void activate(const std::string& id);                   ///< an unknown one is ignored
+  /// An unknown one is ignored. One that draws or erases takes the last brush that draws.
+  void activate(const std::string& id);
   Tool& tool() const { return *m_tools.at(m_active); }
   Tool& tool(const std::string& id) const { return *m_tools.at(id); }
 
@@ -41,6 +42,10 @@ class Toolbox : public QObject {
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
   void nextShape();               ///< of those installed, by id
+  /// Takes a brush in hand; from the eraser, one that touches matter.
+  void takeBrush(const std::string& id);
+  /// Whether the brush in hand works on the matter that is there, instead of drawing.
+  bool touchesMatter() const { return touchesMatter(m_brush.shape); }
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
   /// `up`: away from what it draws on.
@@ -74,11 +79,13 @@ class Toolbox : public QObject {
     bool box = false;
   };
   void takeInstalled(const std::string& wanted);
+  bool touchesMatter(const std::string& brush) const;
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;
   BrushSettings m_brush;
-  Stamp m_stamp;  ///< the last one: pictures ask for it often
+  std::string m_drawing;  ///< the last brush that draws
+  Stamp m_stamp;          ///< the last one: pictures ask for it often
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
   MousePreset m_mouse = MousePreset::PhaseSketch;

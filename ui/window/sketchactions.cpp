@@ -8,7 +8,10 @@
 #include "ui/tools/tooltable.h"
 #include "ui/window/actions.h"
 
+#include <QtGui/QAction>
 #include <QtWidgets/QMenu>
+
+#include <algorithm>
 
 namespace ps {
 
@@ -34,15 +37,24 @@ void SketchActions::makeMenu(QMenu* menu) {
   m_shapes->setEnabled(false);
 }
 
+/// The key that a brush asks for, where nothing else has it.
+QList<QKeySequence> SketchActions::keysOf(const std::string& brush) const {
+  const PluginInfo* info = m_session.plugins()->info(brush);
+  if (!info || info->key.empty()) return {};
+  const QKeySequence key(QString::fromStdString(info->key));
+  const QList<QAction*> all = m_actions.all();
+  const bool taken =
+      std::any_of(all.begin(), all.end(), [&](const QAction* action) { return action->shortcuts().contains(key); });
+  return taken ? QList<QKeySequence>{} : QList<QKeySequence>{key};
+}
+
 void SketchActions::addBrushes() {
   const PluginRegistry* plugins = m_session.plugins();
   for (const std::string& id : plugins->ids(PluginKind::Brush)) {
     m_actions.add(m_shapes, QStringLiteral("sketch.shape.") + QString::fromStdString(id),
-                  QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), {}, [this, id] {
-                    BrushSettings brush = m_tools.brush();
-                    brush.shape = id;
-                    m_tools.setBrush(brush);
+                  QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), keysOf(id), [this, id] {
                     if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
+                    m_tools.takeBrush(id);
                   });
   }
   m_shapes->setEnabled(!m_shapes->isEmpty());

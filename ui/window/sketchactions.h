@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtCore/QList>
 
+#include <string>
+
+class QKeySequence;
 class QMenu;
 
 namespace ps {
@@ -18,6 +22,8 @@ class SketchActions {
   void addBrushes();  ///< once plugins are there
 
  private:
+  QList<QKeySequence> keysOf(const std::string& brush) const;
+
   Session& m_session;
   Toolbox& m_tools;
   const Actions& m_actions;

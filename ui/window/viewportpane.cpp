@@ -206,6 +206,13 @@ void ViewportPane::addShapes() {
       button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     }
     button->setProperty(kShape, name);
+    // The menu gives keys out when it has all brushes too.
+    const auto showKey = [this, button, name, label] {
+      const auto* action = window()->findChild<QAction*>(QStringLiteral("sketch.shape.") + name);
+      if (!action || action->shortcut().isEmpty()) return;
+      button->setToolTip(QStringLiteral("%1 (%2)").arg(label, action->shortcut().toString(QKeySequence::NativeText)));
+    };
+    QMetaObject::invokeMethod(button, showKey, Qt::QueuedConnection);
     m_shapes->addButton(button);
     m_shapeBox->layout()->addWidget(button);
     QAction* action = m_shapeMenu->menu()->addAction(button->icon(), asButtonText(label));
@@ -217,11 +224,7 @@ void ViewportPane::addShapes() {
   showBrush();
 }
 
-void ViewportPane::chooseShape(const QString& shape) {
-  BrushSettings settings = m_tools.brush();
-  settings.shape = shape.toStdString();
-  m_tools.setBrush(settings);
-}
+void ViewportPane::chooseShape(const QString& shape) { m_tools.takeBrush(shape.toStdString()); }
 
 /// Matter itself, and the fields that particles have; those of plugins once they are known.
 void ViewportPane::addColours() {

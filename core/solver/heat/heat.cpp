@@ -14,7 +14,6 @@ namespace {
 
 /// K: smaller differences are the rounding of temperatures.
 constexpr double kSameTemperature = 1e-9;
-constexpr double kColdest = 1;  // K, where the tables of materials begin
 
 /// Largest k/c in kg/(m s) of the phases that a particle consists of: how fast it answers to a conductance.
 double fastestPhase(const BakedMaterial& material, double t, double solid, double liquid, double gas) {
@@ -328,13 +327,18 @@ void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size
   }
 }
 
-/// The share that can be had of what walls and sources want to take from particle i in this step, in J below 0: down to
-/// kColdest, after what it gives away by itself.
-double HeatStage::shareToTake(const ParticleStore& store, size_t i, double joules) const {
+/// J that can surely be taken from particle i before it is as cold as kColdest, whatever it passes on the way.
+double HeatStage::aboveColdest(const ParticleStore& store, size_t i) const {
   const api::Caloric& c = m_materials[store.material()[i]].caloric();
   const double capacity =
       double{store.mass()[i]} * std::min({c.heatCapacitySolid, c.heatCapacityLiquid, c.heatCapacityGas});
-  const double there = capacity * (store.temperature()[i] - kColdest) + std::min(0.0, m_joules[i]);
+  return capacity * (store.temperature()[i] - kColdest);
+}
+
+/// The share that can be had of what walls and sources want to take from particle i in this step, in J below 0: down to
+/// kColdest, after what it gives away by itself.
+double HeatStage::shareToTake(const ParticleStore& store, size_t i, double joules) const {
+  const double there = aboveColdest(store, i) + std::min(0.0, m_joules[i]);
   return std::clamp(there / -joules, 0.0, 1.0);
 }
 

@@ -55,6 +55,7 @@ class HeatStage {
   static constexpr int kMostExplicit = 1000000;  ///< of HeatSteps::Explicit
   static constexpr int kMaxSweeps = 12;          ///< exponential sweeps per frame
   static constexpr double kSweepLength = 20;     ///< longest sweep in units of the Gershgorin limit
+  static constexpr double kColdest = 1;          ///< K, where the tables of materials begin
 
   /// References stay valid until the next configure(). `model` may be nullptr: no heat flows.
   void configure(const ThermalSettings& settings, const SolverSettings& solver, std::vector<Wall> walls,
@@ -68,6 +69,10 @@ class HeatStage {
   /// False when the model threw: particles are then half changed, the ledger is not.
   /// `frame`, its number, chooses the rays of radiation.
   bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0);
+  /// Gives each particle joules[i] J at once, while no time passes; below 0 they are taken as far as kColdest, in
+  /// rounds that a plateau may need several of. Leaves what each got, and books it as heaters. False without a model,
+  /// and when it threw.
+  bool give(ParticleStore& store, std::span<double> joules);
   /// Temperature and fractions after a change of pressure or material. Pressure moves the points of balance, and matter
   /// keeps its energy; where a material's enthalpy curves are others, it keeps its temperature and what of it has
   /// melted or boiled, and the energy that this takes is booked as a source.
@@ -186,6 +191,8 @@ class HeatStage {
   void gather(const ParticleStore& store, double step, size_t first, size_t last, Partial& partial);
   void askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists);
   void gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last);
+  double aboveColdest(const ParticleStore& store, size_t i) const;
+  bool giveRound(ParticleStore& store, std::span<double> left);
   double shareToTake(const ParticleStore& store, size_t i, double joules) const;
   void addFrameHeat(const ParticleStore& store, double step, bool firstStep, size_t first, size_t last,
                     Partial& partial);

@@ -10,11 +10,16 @@ namespace ps::api {
 /// then drawn as that box, otherwise as the ball within it.
 inline constexpr const char* kBoxStamp = "box_stamp";
 
+/// Capability of a brush that works on the matter that is there, instead of drawing cells: extension(kTouchesMatter) is
+/// its MatterBrush, and its metadata list the name. Its stroke() is never called.
+inline constexpr const char* kTouchesMatter = "touches_matter";
+
 struct StrokeSample {
-  Double3 position;   ///< m
-  double pressure;    ///< 0 .. 1
-  double time;        ///< s since the stroke began
-  Double3 direction;  ///< unit vector along which the hand goes; zero where it has not moved yet
+  Double3 position;           ///< m
+  double pressure;            ///< 0 .. 1
+  double time;                ///< s since the stroke began
+  Double3 direction;          ///< unit vector along which the hand goes; zero where it has not moved yet
+  Double3 velocity{0, 0, 0};  ///< m/s, of the hand that touches matter; zero where it stays
 };
 
 /// Where a stroke lands: a lattice of cells of edge `spacing` whose cell (0, 0, 0) is centred at `origin`.
@@ -43,11 +48,55 @@ class EditSink {
   ~EditSink() = default;
 };
 
+enum class TouchKind : uint32_t {
+  Heat,  ///< gives heat, or takes it
+  Push,  ///< brings matter to a velocity
+  Hold,  ///< takes hold of what is within when the hand begins, and carries it along until it ends
+};
+
+/// What a hand does to the matter within a ball, all the time that it is there. What a kind has no use for is 0.
+struct Touch {
+  TouchKind kind = TouchKind::Heat;
+  uint32_t reserved = 0;
+  Double3 centre{0, 0, 0};  ///< m
+  double radius = 0;        ///< m, above 0
+  /// 0 .. 1: over this share of the radius, from the rim inwards, it fades to nothing.
+  double falloff = 0;
+  /// W of thermal time that all matter within gets together, by its mass; below 0 they are taken.
+  double power = 0;
+  double limit = 0;  ///< K, beyond which matter is neither heated nor cooled; 1 .. 10000
+  double force = 0;  ///< N, the most that all matter within, or held, gets together, by its mass; not below 0
+  /// Of Push: m/s in the centre, and rad/s about it, up to 100 and 1000.
+  Double3 velocity{0, 0, 0}, spin{0, 0, 0};
+};
+
+/// Takes what a hand does. The touches of one call of touch() share the time of its samples evenly.
+class TouchSink {
+ public:
+  virtual void submit(const List<Touch>& touches) = 0;
+
+ protected:
+  ~TouchSink() = default;
+};
+
+/// A brush's way with matter; see kTouchesMatter. It sees no particle: the host finds those within, books the heat that
+/// they get and takes it back by undo. What was pushed or held goes on as it was let go.
+class MatterBrush {
+ public:
+  /// Turns the places where the hand has been since the last call into touches, for each sample as many as for any
+  /// other; Remove asks for the opposite of what the brush is called. Called with one sample, it says what happens as
+  /// long as the hand stays there. May throw.
+  virtual void touch(const StrokeContext&, EditKind, const List<StrokeSample>&, TouchSink&) const = 0;
+
+ protected:
+  ~MatterBrush() = default;
+};
+
 class BrushPlugin : public Plugin {
  public:
-  /// Turns samples into edits. Samples are dense: neighbours lie at most one spacing apart. A stroke may come in several
-  /// calls; where it goes on, the first sample is the last one of the call before, so that a brush knows the way between
-  /// them. May throw.
+  /// Turns samples into edits. Samples are dense: neighbours lie at most one spacing apart. A stroke may come in
+  /// several calls; where it goes on, the first sample is the last one of the call before, so that a brush knows the
+  /// way between them. May throw.
   virtual void stroke(const StrokeContext&, EditKind, const List<StrokeSample>&, EditSink&) const = 0;
   /// Half extents in m of one stamp, for the cursor.
   virtual Double3 extent(const StrokeContext&) const noexcept = 0;

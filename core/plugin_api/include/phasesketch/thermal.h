@@ -57,8 +57,8 @@ class ThermalPlugin : public Plugin {
   /// in balance the state should hold their heat (undercooled, superheated). May throw.
   virtual void initialise(const ThermalContext&, const ParticleView&, size_t first, size_t last,
                           const double* temperature, const Phase* phase) const = 0;
-  /// Adds joules[i] to particles [first, last); `dt` in s of thermal time: a step that is stable for what flows, or the
-  /// whole frame's where nothing does. May throw.
+  /// Adds joules[i] to particles [first, last); `dt` in s of thermal time: a step that is stable for what flows, the
+  /// whole frame's where nothing does, or 0 for what a hand gives between two frames. May throw.
   virtual void addHeat(const ThermalContext&, const ParticleView&, size_t first, size_t last, const double* joules,
                        double dt) const = 0;
   /// Temperature and fractions from the state. May throw.

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/hand.h"
+
+#include "core/base/error.h"
+#include "core/simulation/compile.h"
+#include "core/simulation/engine.h"
+#include "core/simulation/touch.h"
+#include "core/solver/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+namespace ps {
+namespace {
+
+constexpr size_t kMostTouches = 100'000;
+/// Share of the way to its place that held matter is to go in a frame: all of it would make what is tied to it swing.
+constexpr double kFollows = 0.5;
+constexpr double kFastest = 20;  // m/s, at which held matter follows a hand that leaps
+
+bool heats(const api::Touch& touch) { return touch.kind == api::TouchKind::Heat; }
+
+/// How firmly a hand holds each particle when it begins, 0 .. 1: those within the ball, and less and less what is tied
+/// to them beyond it, falling by e with each radius. Why those too: a block that hangs by a few particles alone would
+/// tear at them faster than ties can follow in a step.
+std::vector<double> gripOf(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
+  constexpr double kLoose = 0.01;  // not worth holding
+  const ParticleStore& store = engine.particles();
+  const Reached reached = reach(engine, touch, isSpared);
+  std::vector<double> grip(store.size());
+  for (size_t k = 0; k < reached.rows.size(); ++k)
+    grip[reached.rows[k]] = reached.weights[k] / store.mass()[reached.rows[k]];
+  const std::vector<uint32_t> pieces = engine.solver().pieces();
+  std::set<uint32_t> held;
+  for (const uint32_t row : reached.rows) held.insert(pieces[row]);
+  held.erase(Solver::kNoPiece);
+  for (size_t row = 0; row < store.size(); ++row) {
+    const bool goes = held.contains(pieces[row]) && store.velocity()[row].w > 0;
+    if (!goes || (store.body()[row] < isSpared.size() && isSpared[store.body()[row]])) continue;
+    const double beyond = offsetOf(store, row, touch.centre).norm() / touch.radius - 1;
+    const double tied = std::exp(-std::max(0.0, beyond));
+    if (tied > kLoose) grip[row] = std::max(grip[row], tied);
+  }
+  return grip;
+}
+
+HeatById given(Engine& engine, std::vector<double> joules) {
+  HeatById heat;
+  if (!engine.addHeat(joules)) return heat;
+  const uint32_t* id = engine.particles().id();
+  for (size_t i = 0; i < joules.size(); ++i) {
+    if (joules[i] != 0) heat.emplace_back(id[i], joules[i]);
+  }
+  std::sort(heat.begin(), heat.end());
+  return heat;
+}
+
+}  // namespace
+
+void Hand::require(const TouchMatter& command, const Engine& engine) {
+  if (command.key == 0 || command.samples < 1) throw InputError("A hand without a name, or without a place");
+  if (command.path.size() + command.still.size() > kMostTouches)
+    throw InputError("A hand is in more than " + std::to_string(kMostTouches) + " places at a time");
+  for (const auto* touches : {&command.path, &command.still}) {
+    if (!std::all_of(touches->begin(), touches->end(), canBe))
+      throw InputError(
+          "A hand needs finite numbers, a radius above 0, a falloff of 0 to 1, a limit of 1 to 10000 K, and "
+          "no more than 100 m/s");
+    if (std::any_of(touches->begin(), touches->end(), heats) && engine.project().solver.thermalModel.empty())
+      throw InputError("The scene has no thermal model, so nothing can be heated or cooled: choose one under Solver");
+  }
+}
+
+void Hand::move(const TouchMatter& command) {
+  if (!command.path.empty()) m_path.push_back({command.path, 1.0 / command.samples});
+  m_still = command.still;
+  m_spared = command.spared;
+  m_held.resize(m_still.size());
+}
+
+template <class Visit>
+void Hand::forEach(Visit&& visit) const {
+  for (const Path& path : m_path) {
+    const double share = path.share / static_cast<double>(m_path.size());
+    for (const api::Touch& touch : path.touches) visit(touch, share);
+  }
+  if (!m_path.empty()) return;
+  for (const api::Touch& touch : m_still) visit(touch, 1.0);
+}
+
+HeatById Hand::act(Engine& engine) {
+  const std::vector<uint8_t> isSpared = flagged(engine, m_spared);
+  HeatById got = heat(engine, isSpared);
+  push(engine, isSpared);
+  m_path.clear();
+  return got;
+}
+
+HeatById Hand::heat(Engine& engine, const std::vector<uint8_t>& isSpared) const {
+  const double seconds = compileSettings(engine.project()).dt * compileThermal(engine.project()).timeScale;
+  std::vector<double> joules(engine.particles().size());
+  forEach([&](const api::Touch& touch, double share) {
+    if (heats(touch)) addHeat(engine, touch, seconds * share, isSpared, joules);
+  });
+  if (std::all_of(joules.begin(), joules.end(), [](double one) { return one == 0; })) return {};
+  return given(engine, std::move(joules));
+}
+
+void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
+  const double dt = compileSettings(engine.project()).dt;
+  std::vector<Vector3> change(engine.particles().size(), Vector3(0, 0, 0));
+  bool moves = false;
+  forEach([&](const api::Touch& touch, double share) {
+    if (touch.kind != api::TouchKind::Push) return;
+    addPush(engine, touch, dt * share, isSpared, change);
+    moves = true;
+  });
+  for (size_t k = 0; k < m_still.size(); ++k) {
+    if (m_still[k].kind != api::TouchKind::Hold) continue;
+    hold(engine, m_still[k], m_held[k], isSpared, change);
+    moves = true;
+  }
+  if (moves) engine.addVelocities(change);
+}
+
+/// Brings what is held to where it was about the hand, without its weight, as far as the force reaches.
+void Hand::hold(const Engine& engine, const api::Touch& touch, std::optional<std::vector<Held>>& held,
+                const std::vector<uint8_t>& isSpared, std::vector<Vector3>& change) const {
+  const ParticleStore& store = engine.particles();
+  if (!held) {
+    held.emplace();
+    const std::vector<double> grip = gripOf(engine, touch, isSpared);
+    for (size_t row = 0; row < grip.size(); ++row) {
+      if (grip[row] > 0) held->push_back({store.id()[row], offsetOf(store, row, touch.centre), grip[row]});
+    }
+  }
+  double total = 0;
+  for (const Held& one : *held) {
+    if (const size_t row = store.indexOf(one.id); row < store.size()) total += one.weight * store.mass()[row];
+  }
+  const SolverSettings settings = compileSettings(engine.project());
+  const Vector3 weight = settings.dt * vectorOf(settings.gravity);
+  for (const Held& one : *held) {
+    const size_t row = store.indexOf(one.id);
+    if (row >= store.size()) continue;
+    const Vector3 speed = atMost(kFollows / settings.dt * (one.offset - offsetOf(store, row, touch.centre)), kFastest);
+    const Vector3 wanted = speed - weight - vectorOf(store.velocity()[row]) - change[row];
+    change[row] += atMost(wanted, touch.force * settings.dt * one.weight / total);
+  }
+}
+
+HeatById giveHeat(Engine& engine, const HeatById& heat) {
+  const ParticleStore& store = engine.particles();
+  std::vector<double> joules(store.size());
+  for (const auto& [id, one] : heat) {
+    if (const size_t row = store.indexOf(id); row < store.size()) joules[row] = one;
+  }
+  return given(engine, std::move(joules));
+}
+
+void addTo(HeatById& sum, const HeatById& more) {
+  HeatById all;
+  all.reserve(sum.size() + more.size());
+  std::merge(sum.begin(), sum.end(), more.begin(), more.end(), std::back_inserter(all),
+             [](const auto& a, const auto& b) { return a.first < b.first; });
+  size_t last = 0;
+  for (size_t k = 1; k < all.size(); ++k) {
+    if (all[k].first == all[last].first)
+      all[last].second += all[k].second;
+    else
+      all[++last] = all[k];
+  }
+  if (!all.empty()) all.resize(last + 1);
+  sum = std::move(all);
+}
+
+HeatById negated(HeatById heat) {
+  for (auto& [id, joules] : heat) joules = -joules;
+  return heat;
+}
+
+}  // namespace ps

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/simulation/command.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ps {
+
+class Engine;
+
+/// J by the particles' ids, ascending.
+using HeatById = std::vector<std::pair<uint32_t, double>>;
+
+/// A hand that is in matter: where it has been since the last frame, what it does where it is, and what it holds.
+class Hand {
+ public:
+  /// Throws InputError for what cannot be done.
+  static void require(const TouchMatter& command, const Engine& engine);
+  void move(const TouchMatter& command);
+  /// What it does in one frame, at its start; the heat that each particle got. Matter within several balls gets it from
+  /// each, as far as their limits go.
+  HeatById act(Engine& engine);
+  /// It has let go, and all that it did is done.
+  bool isGone() const { return m_path.empty() && m_still.empty(); }
+
+ private:
+  struct Path {
+    std::vector<api::Touch> touches;
+    double share;  ///< of the time of all paths, for each touch
+  };
+  struct Held {
+    uint32_t id;
+    Vector3 offset;  ///< m, from the hand
+    double weight;   ///< of its mass
+  };
+  /// Calls something with each touch that acts in a frame, and its share of the frame.
+  template <class Visit>
+  void forEach(Visit&& visit) const;
+  HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
+  void push(Engine& engine, const std::vector<uint8_t>& isSpared);
+  void hold(const Engine& engine, const api::Touch& touch, std::optional<std::vector<Held>>& held,
+            const std::vector<uint8_t>& isSpared, std::vector<Vector3>& change) const;
+
+  std::vector<Path> m_path;  ///< one after the other, of about as long
+  std::vector<api::Touch> m_still;
+  std::vector<std::string> m_spared;
+  std::vector<std::optional<std::vector<Held>>> m_held;  ///< by the touches of m_still; nothing: not yet
+};
+
+/// Gives particles heat by their ids, or takes it; those that are gone are left out. What each got.
+HeatById giveHeat(Engine& engine, const HeatById& heat);
+/// Adds up what particles got.
+void addTo(HeatById& sum, const HeatById& more);
+/// The same heat the other way round.
+HeatById negated(HeatById heat);
+
+}  // namespace ps

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/touch.h"
+
+#include "core/simulation/engine.h"
+#include "core/solver/solver.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr double kStrongest = 1e15;                 // W, N
+constexpr double kColdest = 1, kHottest = 1e4;      // K
+constexpr double kFastest = 100, kQuickest = 1000;  // m/s, rad/s
+
+bool isFinite(const api::Double3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// 1 in the middle of a ball, 0 from its rim on; in between a cubic that is level at both ends of the falloff.
+double weightOf(const api::Touch& touch, double distance) {
+  const double faded = touch.falloff * touch.radius;
+  if (!(faded > 0)) return 1;
+  const double t = std::min(1.0, (touch.radius - distance) / faded);
+  return t * t * (3 - 2 * t);
+}
+
+/// J that a particle surely takes, or gives, before it is at a temperature: where a plateau or a phase of more capacity
+/// lies between it takes more, in the frames to come.
+double untilAt(const Engine& engine, size_t row, double temperature) {
+  const ParticleStore& store = engine.particles();
+  const api::Caloric& c = engine.solver().materials()[store.material()[row]].caloric();
+  const double capacity = std::min({c.heatCapacitySolid, c.heatCapacityLiquid, c.heatCapacityGas});
+  return store.mass()[row] * capacity * (temperature - store.temperature()[row]);
+}
+
+}  // namespace
+
+Vector3 offsetOf(const ParticleStore& store, size_t row, const api::Double3& centre) {
+  const api::Float4& p = store.position()[row];
+  api::Float4 offset = float4Of(Vector3(p.x - centre.x, p.y - centre.y, p.z - centre.z), 0);
+  store.period().shorten(offset.x, offset.y, offset.z);
+  return vectorOf(offset);
+}
+
+bool canBe(const api::Touch& touch) {
+  const bool place = isFinite(touch.centre) && std::isfinite(touch.radius) && touch.radius > 0 && touch.falloff >= 0 &&
+                     touch.falloff <= 1;
+  const bool heat = std::abs(touch.power) <= kStrongest &&
+                    (touch.kind != api::TouchKind::Heat || (touch.limit >= kColdest && touch.limit <= kHottest));
+  const bool motion = touch.force >= 0 && touch.force <= kStrongest && vectorOf(touch.velocity).norm() <= kFastest &&
+                      vectorOf(touch.spin).norm() <= kQuickest;
+  return touch.kind <= api::TouchKind::Hold && place && heat && motion;
+}
+
+Reached reach(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
+  const ParticleStore& store = engine.particles();
+  const bool moves = touch.kind != api::TouchKind::Heat;
+  Reached reached;
+  for (size_t i = 0; i < store.size(); ++i) {
+    const double squared = offsetOf(store, i, touch.centre).squaredNorm();
+    if (squared >= touch.radius * touch.radius || (moves && store.velocity()[i].w == 0)) continue;
+    if (store.body()[i] < isSpared.size() && isSpared[store.body()[i]]) continue;
+    const double weight = weightOf(touch, std::sqrt(squared)) * store.mass()[i];
+    if (!(weight > 0)) continue;
+    reached.rows.push_back(static_cast<uint32_t>(i));
+    reached.weights.push_back(weight);
+    reached.total += weight;
+  }
+  return reached;
+}
+
+std::vector<uint8_t> flagged(const Engine& engine, const std::vector<std::string>& bodies) {
+  std::vector<uint8_t> flags(engine.bodyIds().size());
+  for (size_t b = 0; b < flags.size(); ++b)
+    flags[b] = std::find(bodies.begin(), bodies.end(), engine.bodyIds()[b]) != bodies.end() ? 1 : 0;
+  return flags;
+}
+
+void addHeat(const Engine& engine, const api::Touch& touch, double seconds, const std::vector<uint8_t>& isSpared,
+             std::vector<double>& joules) {
+  const Reached reached = reach(engine, touch, isSpared);
+  for (size_t k = 0; k < reached.rows.size(); ++k) {
+    const uint32_t row = reached.rows[k];
+    const double wanted = touch.power * seconds * reached.weights[k] / reached.total;
+    const double room = untilAt(engine, row, touch.limit) - joules[row];
+    joules[row] +=
+        wanted > 0 ? std::clamp(wanted, 0.0, std::max(0.0, room)) : std::clamp(wanted, std::min(0.0, room), 0.0);
+  }
+}
+
+void addPush(const Engine& engine, const api::Touch& touch, double seconds, const std::vector<uint8_t>& isSpared,
+             std::vector<Vector3>& change) {
+  const ParticleStore& store = engine.particles();
+  const Reached reached = reach(engine, touch, isSpared);
+  for (size_t k = 0; k < reached.rows.size(); ++k) {
+    const uint32_t row = reached.rows[k];
+    const Vector3 wanted = vectorOf(touch.velocity) + vectorOf(touch.spin).cross(offsetOf(store, row, touch.centre));
+    const double most = touch.force * seconds * reached.weights[k] / (reached.total * store.mass()[row]);
+    change[row] += atMost(wanted - vectorOf(store.velocity()[row]) - change[row], most);
+  }
+}
+
+Vector3 atMost(const Vector3& change, double most) {
+  const double length = change.norm();
+  return length > most ? Vector3(change * (most / length)) : change;
+}
+
+}  // namespace ps

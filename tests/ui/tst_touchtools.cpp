@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brushes that work on the matter that is there, driven by rays, without a widget, in a scene that runs.
+#include "core/plugin_host/registry.h"
+#include "core/simulation/enginethread.h"
+#include "core/solver/solver.h"
+#include "tests/shared/enginehands.h"
+#include "tests/shared/scenes.h"
+#include "ui/document/document.h"
+#include "ui/session/scenelink.h"
+#include "ui/session/selection.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+
+#include <QtTest/QSignalSpy>
+#include <QtTest/QTest>
+
+#include <cmath>
+#include <memory>
+
+using namespace ps;
+
+namespace {
+
+constexpr double kSpacing = 0.03, kScale = 100;
+
+}  // namespace
+
+class TestTouchTools : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
+
+  void init() {
+    m_document = std::make_unique<Document>();
+    m_document->setPlugins(m_plugins.get());
+    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
+    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
+    m_selection = std::make_unique<Selection>(*m_document);
+    m_tools = std::make_unique<Toolbox>(*m_document, *m_selection);
+    m_tools->attach(m_link.get());
+    Project project = scenes::iceOnPlate(5, 300, kScale);
+    project.environment = scenes::tray(0.6, 1.2);
+    m_document->open(project, {}, false, false);
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() != nullptr; }));
+  }
+
+  void cleanup() {
+    m_tools.reset();
+    m_selection.reset();
+    m_link.reset();
+    m_engine.reset();
+    m_document.reset();
+  }
+
+  /// On top of the block, without moving: the heat is the power times the time of the scene.
+  void aHandHeatsForAsLongAsItIsHeld() {
+    const Project before = m_document->project();
+    take("heat");
+    m_engine->play();
+    Tool& tool = m_tools->tool();
+    QVERIFY(tool.press(at(kTop)));
+    QVERIFY(tool.picture().cursor && !tool.picture().cursor->erase);
+    const double start = time();
+    QVERIFY(QTest::qWaitFor([&] { return time() > start + 0.3; }));
+    tool.release(at(kTop));
+    m_engine->pause();
+    QVERIFY(settled());
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("Heat matter"));
+    QVERIFY(m_document->project().bodies.size() == 1 &&
+            m_document->project().bodies[0].shape == before.bodies[0].shape);
+    const double given = heaters(), frames = given / (100 * kScale / 60);
+    QVERIFY2(std::abs(frames - std::round(frames)) < 1e-6 && frames > 15, qPrintable(QString::number(frames)));
+    m_document->undoStack().undo();
+    QVERIFY(std::abs(heaters()) < 1e-6 * given);
+    m_document->undoStack().redo();
+    QVERIFY(std::abs(heaters() - given) < 1e-6 * given);
+    // At the start nothing of it is there, and there is nothing to take back.
+    m_link->reset();
+    m_document->undoStack().undo();
+    QCOMPARE(heaters(), 0.0);
+  }
+
+  void controlDoesTheOpposite() {
+    take("heat");
+    m_engine->play();
+    Pointer pointer = at(kTop);
+    pointer.control = true;
+    QVERIFY(m_tools->tool().press(pointer));
+    QVERIFY(!m_tools->tool().picture().cursor->erase);
+    QVERIFY(QTest::qWaitFor([&] { return heaters() < 0; }));
+    m_tools->tool().release(pointer);
+    QVERIFY(m_document->undoStack().undoText().contains(QStringLiteral("opposite")));
+  }
+
+  void escTakesBackWhatWasGiven() {
+    take("cool");
+    m_engine->play();
+    QVERIFY(m_tools->tool().press(at(kTop)));
+    QVERIFY(QTest::qWaitFor([&] { return heaters() < 0; }));
+    QVERIFY(m_tools->tool().cancel());
+    QVERIFY(std::abs(heaters()) < 1e-3);
+    m_tools->tool().release(at(kTop));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  void lockedBodiesAreSpared() {
+    m_document->setBodiesLocked({"ice"}, true);
+    take("heat");
+    m_engine->play();
+    QVERIFY(m_tools->tool().press(at(kTop)));
+    const double start = time();
+    QVERIFY(QTest::qWaitFor([&] { return time() > start + 0.1; }));
+    m_tools->tool().release(at(kTop));
+    QCOMPARE(heaters(), 0.0);
+  }
+
+  void whatStandsInTheWayIsSaid() {
+    take("heat");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    m_tools->tool().press(at(kTop));
+    m_tools->tool().release(at(kTop));
+    QCOMPARE(refused.count(), 1);
+    QVERIFY(refused[0][1].toString().contains(QStringLiteral("Space")));
+    Project cold = m_document->project();
+    cold.solver.thermalModel.clear();
+    m_document->open(cold, {}, false, true);
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->playing(); }));
+    m_tools->tool().press(at(kTop));
+    m_tools->tool().release(at(kTop));
+    QCOMPARE(refused.count(), 2);
+    QVERIFY(refused[1][1].toString().contains(QStringLiteral("thermal model")));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  /// Up, across the view, which is seen from above at 45 degrees: by 0.12 m, less some sag. No step of undo, as there
+  /// is nothing that it could take back.
+  void aHandCarriesAcrossTheView() {
+    take("grab", 0.09);
+    m_engine->play();
+    const double before = height();
+    QVERIFY(m_tools->tool().press(at(kTop)));
+    for (int step = 1; step <= 20; ++step) {
+      Pointer pointer = at(Vector3(0, kTop.y() + 0.01 * step, 0));
+      pointer.seconds = 0.02 * step;
+      m_tools->tool().drag(pointer);
+      QTest::qWait(20);
+    }
+    QVERIFY(QTest::qWaitFor([&] { return height() > before + 0.09; }));
+    m_tools->tool().release(at(kTop));
+    QVERIFY(QTest::qWaitFor([&] { return height() < before + 0.02; }));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  /// Where the block has gone, the hand that stays comes to the floor.
+  void aHandFollowsWhatIsThere() {
+    take("heat");
+    m_engine->play();
+    Tool& tool = m_tools->tool();
+    QVERIFY(tool.press(at(kTop)));
+    const SnapshotPtr there = m_engine->snapshot();
+    tool.see(there.get());
+    QCoreApplication::processEvents();
+    QVERIFY(tool.picture().cursor->centre.y() > 0.1);
+    Snapshot gone = *there;
+    gone.position.clear();
+    tool.see(&gone);
+    QVERIFY(QTest::qWaitFor([&] { return tool.picture().cursor->centre.y() < 0.01; }));
+    QVERIFY(tool.cancel());
+    tool.see(there.get());
+    QCoreApplication::processEvents();
+    QVERIFY(!tool.cancel());
+  }
+
+  /// The way to a brush that draws, and from the eraser, is the one that the keys go.
+  void drawingComesBack() {
+    m_tools->activate("erase");
+    m_tools->takeBrush("cube");
+    QCOMPARE(m_tools->active(), std::string("erase"));
+    m_tools->takeBrush("heat");
+    QCOMPARE(m_tools->active(), std::string(kBrushTool));
+    QVERIFY(m_tools->touchesMatter());
+    m_tools->activate(kBrushTool);
+    QCOMPARE(m_tools->brush().shape, std::string("cube"));
+    m_tools->takeBrush("grab");
+    m_tools->activate("erase");
+    QCOMPARE(m_tools->brush().shape, std::string("cube"));
+    m_tools->takeBrush("stir");
+    m_tools->activate(kSelectTool);
+    QCOMPARE(m_tools->brush().shape, std::string("stir"));
+    QVERIFY(!m_tools->tool(kBrushTool).words().contains(QStringLiteral("water")));
+  }
+
+ private:
+  static const Vector3 kTop;
+
+  Pointer at(const Vector3& place) const {
+    Pointer pointer;
+    pointer.ray.origin = Vector3(0, 1, 1);
+    pointer.ray.direction = (place - pointer.ray.origin).normalized();
+    pointer.forward = Vector3(0, -1, -1).normalized();
+    pointer.scene = m_engine->snapshot();
+    return pointer;
+  }
+  void take(const char* brush, double radius = 0.05) {
+    m_tools->activate(kBrushTool);
+    m_tools->takeBrush(brush);
+    BrushSettings settings = m_tools->brush();
+    settings.radius = radius;
+    m_tools->setBrush(settings);
+  }
+  double time() const { return m_engine->snapshot()->stats.time; }
+  double height() const {
+    double sum = 0;
+    const SnapshotPtr now = m_engine->snapshot();
+    for (const api::Float4& p : now->position) sum += p.y;
+    return sum / static_cast<double>(now->position.size());
+  }
+  bool settled() {
+    const double now = heaters();  // of all that was asked before
+    return now != 0;
+  }
+  /// J that have come so far by hands.
+  double heaters() {
+    return tests::onEngine<double>(*m_engine, [](Engine& engine) { return engine.solver().heatLedger().heaters; });
+  }
+
+  std::unique_ptr<PluginRegistry> m_plugins;
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<EngineThread> m_engine;
+  std::unique_ptr<SceneLink> m_link;
+  std::unique_ptr<Selection> m_selection;
+  std::unique_ptr<Toolbox> m_tools;
+};
+
+const Vector3 TestTouchTools::kTop{0, 0.15, 0};
+
+QTEST_GUILESS_MAIN(TestTouchTools)
+#include "tst_touchtools.moc"

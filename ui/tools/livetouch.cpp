@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/livetouch.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/sketch/matterbrush.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/session/scenelink.h"
+#include "ui/tools/brushcall.h"
+#include "ui/tools/livestroke.h"
+#include "ui/tools/toolbox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ps {
+namespace {
+
+constexpr double kSmoothed = 0.05;  // s, over which the speed of a hand is a mean
+
+bool any(const std::vector<api::Touch>& touches, api::TouchKind kind) {
+  return std::any_of(touches.begin(), touches.end(), [&](const api::Touch& touch) { return touch.kind == kind; });
+}
+
+}  // namespace
+
+QString LiveTouch::whyNot() const {
+  const PluginRegistry* plugins = m_box.document().plugins();
+  if (!plugins || !m_box.link()) return QStringLiteral("Plugins are still being loaded.");
+  const std::string& brush = m_box.brush().shape;
+  if (!plugins->brush(brush))
+    return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush));
+  if (!m_box.link()->runs())
+    return QStringLiteral("A hand in matter works while time passes. Press Space to let the scene run.");
+  return {};
+}
+
+QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, double pressure) {
+  if (const QString problem = whyNot(); !problem.isEmpty()) return problem;
+  const PluginRegistry& plugins = *m_box.document().plugins();
+  m_brush = m_box.brush().shape;
+  m_kind = opposite ? api::EditKind::Remove : api::EditKind::Add;
+  m_setup = strokeSetup(m_box.brush(), plugins, m_box.spacing(), up);
+  m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
+  m_record = std::make_shared<StrokeRecord>();
+  m_record->deed = pluginLabel(&plugins, m_brush).toStdString() + " matter";
+  if (opposite) m_record->deed += ", the opposite";
+  m_heats = m_holds = false;
+  m_place.reset();
+  m_velocity = {0, 0, 0};
+  return move(point, 0, pressure);
+}
+
+/// m/s, smoothed; a hand that has just begun rests.
+Vector3 LiveTouch::speedTo(const Vector3& point, double seconds) {
+  const double passed = seconds - m_seconds;
+  if (m_place && passed > 0) {
+    const double share = 1 - std::exp(-passed / kSmoothed);
+    m_velocity += share * ((point - *m_place) / passed - m_velocity);
+  }
+  m_place = point;
+  m_seconds = seconds;
+  return m_velocity;
+}
+
+QString LiveTouch::move(const Vector3& point, double seconds, double pressure) {
+  if (!m_record) return {};
+  api::StrokeSample here{double3Of(point), pressure, seconds, {}};
+  here.velocity = double3Of(speedTo(point, seconds));
+  std::vector<api::StrokeSample> way = m_resampler->add(here);
+  here.velocity = {0, 0, 0};
+  return send(std::move(way), here);
+}
+
+QString LiveTouch::send(std::vector<api::StrokeSample> way, const std::optional<api::StrokeSample>& stays) {
+  const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush);
+  if (!plugin) return {};
+  const auto samples = static_cast<uint32_t>(std::max<size_t>(1, way.size()));
+  const auto work = [plugin, setup = m_setup, kind = m_kind, way = std::move(way), stays] {
+    const auto touches = [&](std::span<const api::StrokeSample> places) {
+      return places.empty() ? std::vector<api::Touch>{} : touchesOf(*plugin, setup, kind, places);
+    };
+    const std::span<const api::StrokeSample> at = stays ? std::span(&*stays, 1) : std::span<const api::StrokeSample>();
+    return std::pair(touches(way), touches(at));
+  };
+  try {
+    auto asked = inTime(m_brush, work);
+    if (!asked) throw BrushFault(kNotBack);
+    auto& [path, still] = *asked;
+    m_heats = m_heats || any(path, api::TouchKind::Heat) || any(still, api::TouchKind::Heat);
+    m_holds = m_holds || any(still, api::TouchKind::Hold);
+    if (m_heats && m_box.document().project().solver.thermalModel.empty()) {
+      cancel();
+      return QStringLiteral("The scene has no thermal model, so nothing can be heated. Choose one under Solver.");
+    }
+    m_box.link()->touch(*m_record, TouchMatter{std::move(path), samples, std::move(still), {}, 0});
+    return {};
+  } catch (const BrushFault& fault) {
+    cancel();
+    m_box.putAside(m_brush, fault.what());
+    return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
+        .arg(QString::fromStdString(m_brush), QString::fromUtf8(fault.what()));
+  } catch (const std::exception& error) {
+    cancel();
+    return QString::fromUtf8(error.what());
+  }
+}
+
+void LiveTouch::lift() {
+  if (!m_record) return;
+  m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
+  m_place.reset();
+  m_velocity = {0, 0, 0};
+}
+
+QString LiveTouch::finish() {
+  if (!m_record) return {};
+  const QString problem = send(m_resampler->finish(), std::nullopt);
+  if (!m_record) return problem;  // the brush failed
+  const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
+  if (m_heats) m_box.document().addStroke(record);
+  return problem;
+}
+
+void LiveTouch::cancel() {
+  if (!m_record) return;
+  const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
+  if (m_box.link()) m_box.link()->cancel(record);
+}
+
+}  // namespace ps
