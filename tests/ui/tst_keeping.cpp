@@ -118,6 +118,7 @@ class TestKeeping : public QObject {
     QTest::addColumn<int>("code");
     QTest::newRow("full disk") << ENOSPC;
     QTest::newRow("broken disk") << EIO;
+    QTest::newRow("folder read-only") << EACCES;
   }
   void everyCallMayFail() {
     QFETCH(int, code);
@@ -141,6 +142,39 @@ class TestKeeping : public QObject {
       if (QTest::currentTestFailed()) return;
     }
     QVERIFY2(calls > 15, qPrintable(QString::number(calls)));
+  }
+
+  /// Nothing can be written where the project lies, and that stays so: it is said what is the matter and what to do,
+  /// the file stays as it was to the byte, and the work is kept as a copy.
+  void aPlaceThatTakesNothing_data() {
+    QTest::addColumn<int>("code");
+    QTest::addColumn<QByteArray>("says");
+    QTest::newRow("full disk") << ENOSPC << QByteArray("the disk is full; free some space or save elsewhere");
+    QTest::newRow("folder read-only") << EACCES
+                                      << QByteArray(
+                                             "no permission to write here; save elsewhere or change the permissions");
+    QTest::newRow("disk read-only") << EROFS << QByteArray("the disk is read-only; save elsewhere");
+  }
+  void aPlaceThatTakesNothing() {
+    QFETCH(int, code);
+    QFETCH(QByteArray, says);
+    reset();
+    QFile::remove(mark());
+    const QByteArray before = read(scene());
+    QProcess keeper;
+    QProcessEnvironment environment = failingAt(1, code, scene(), mark());
+    environment.insert(QStringLiteral("PS_FAIL_ON"), QStringLiteral("1"));
+    keeper.setProcessEnvironment(environment);
+    keeper.start(kKeeper, {m_directory->path(), QStringLiteral("once")});
+    QVERIFY(keeper.waitForFinished(20000));
+    const QByteArray said = keeper.readAllStandardOutput();
+    QVERIFY2(QFile::exists(mark()) && keeper.exitCode() != 0, said.constData());
+    QCOMPARE(said, "open\nkept 1\nfailed: " + scene().toUtf8() + ": not saved: " + says + "\nkept 3\n");
+    QCOMPARE(read(scene()), before);
+    Found found;
+    recover(found);
+    QCOMPARE(found.file, 0);
+    QCOMPARE(found.offered, 3);
   }
 
   /// The command line, whatever it writes: the old file, or the new one whole; and exit code 0 only for the latter.

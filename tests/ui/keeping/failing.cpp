@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded before a program: its PS_FAIL_AT-th call that writes, syncs, renames or opens for writing below the folder
-// PS_FAIL_UNDER fails with the error number PS_FAIL_CODE, and the file PS_FAIL_MARK says that it came to that.
+// PS_FAIL_UNDER fails with the error number PS_FAIL_CODE, and the file PS_FAIL_MARK says that it came to that. With
+// PS_FAIL_ON so do all later ones. "Below" is what begins with that name, so that it may be a file and what is made
+// beside it.
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -32,7 +34,9 @@ bool below(int fd) {
 bool due() {
   static std::atomic<long> calls{0};
   const char *at = std::getenv("PS_FAIL_AT"), *code = std::getenv("PS_FAIL_CODE"), *mark = std::getenv("PS_FAIL_MARK");
-  if (!at || !code || !mark || ++calls != std::atol(at)) return false;
+  if (!at || !code || !mark) return false;
+  const long call = ++calls, first = std::atol(at);
+  if (call < first || (call > first && !std::getenv("PS_FAIL_ON"))) return false;
   const long fd = ::syscall(SYS_openat, AT_FDCWD, mark, O_WRONLY | O_CREAT, 0644);
   ::syscall(SYS_close, fd);
   errno = std::atoi(code);
