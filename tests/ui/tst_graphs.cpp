@@ -37,8 +37,7 @@ class TestGraphs : public QObject {
   void stackAddsUp();
   void unitsTakePrefixes();
   void nothingIsNoData();
-  void paintingIsFast();
-  void aMillionSamplesAreDrawnAsFast();
+  void paintingDoesNotGrowWithSamples();
   void seriesAddUp();
   void valuesKeepTheirWidth();
   void decadesHaveTicks();
@@ -361,48 +360,39 @@ void TestGraphs::nothingIsNoData() {
   QVERIFY(stack.summary() != QStringLiteral("No matter yet"));
 }
 
-void TestGraphs::paintingIsFast() {
-  GraphView graph;
-  for (int s = 0; s < 3; ++s) {
-    const int series = graph.addSeries(QString::number(s));
-    for (int i = 0; i < 20000; ++i) graph.append(series, i / 60.0, s + std::sin(i * 0.37));
-  }
-  graph.resize(560, 140);
-  QImage image(560, 140, QImage::Format_ARGB32_Premultiplied);
-  graph.render(&image);
-  QElapsedTimer timer;
-  timer.start();
-  constexpr int kFrames = 20;
-  for (int i = 0; i < kFrames; ++i) graph.render(&image);
-  const double milliseconds = static_cast<double>(timer.nsecsElapsed()) / 1e6 / kFrames;
-  qInfo("a graph of 3 x 20,000 samples is painted in %.2f ms", milliseconds);
-  QVERIFY(milliseconds < 40);
-}
-
-/// However many samples: what a column reads does not grow with them. A frame of 60 a second has 16.7 ms; three times
-/// that leaves room for a slow machine, and a walk over all samples takes a hundred times as long.
-void TestGraphs::aMillionSamplesAreDrawnAsFast() {
-  GraphView graph;
-  constexpr int kSeries = 20, kSamples = 1'000'000;
-  std::mt19937 random(3);
-  for (int s = 0; s < kSeries; ++s) {
-    graph.addSeries(QString::number(s));
-    double value = s;
-    for (int i = 0; i < kSamples; ++i) {
-      value += (static_cast<double>(random() % 1000) - 499.5) * 1e-5;
-      graph.append(s, i / 60.0, value);
+/// What a column reads does not grow with the number of samples: a walk over all of them takes a hundred times as long.
+/// Both are painted in turn, so that a busy machine slows both; only the ratio counts, of the fastest of several.
+void TestGraphs::paintingDoesNotGrowWithSamples() {
+  constexpr int kSeries = 20, kFew = 10'000, kMany = 1'000'000;
+  const auto filled = [](GraphView& graph, int samples) {
+    std::mt19937 random(3);
+    for (int s = 0; s < kSeries; ++s) {
+      graph.addSeries(QString::number(s));
+      double value = s;
+      for (int i = 0; i < samples; ++i) {
+        value += (static_cast<double>(random() % 1000) - 499.5) * 1e-5;
+        graph.append(s, i / 60.0, value);
+      }
     }
-  }
-  graph.resize(960, 160);
+    graph.resize(960, 160);
+  };
+  GraphView few, many;
+  filled(few, kFew);
+  filled(many, kMany);
   QImage image(960, 160, QImage::Format_ARGB32_Premultiplied);
-  graph.render(&image);
-  QElapsedTimer timer;
-  timer.start();
-  constexpr int kFrames = 10;
-  for (int i = 0; i < kFrames; ++i) graph.render(&image);
-  const double milliseconds = static_cast<double>(timer.nsecsElapsed()) / 1e6 / kFrames;
-  qInfo("a graph of 20 x 1,000,000 samples is painted in %.2f ms", milliseconds);
-  QVERIFY(milliseconds < 50);
+  const auto painted = [&image](GraphView& graph) {
+    QElapsedTimer timer;
+    timer.start();
+    graph.render(&image);
+    return static_cast<double>(timer.nsecsElapsed()) / 1e6;
+  };
+  double least[] = {1e9, 1e9};
+  for (int i = 0; i < 10; ++i) {
+    least[0] = std::min(least[0], painted(few));
+    least[1] = std::min(least[1], painted(many));
+  }
+  qInfo("20 series of 10,000 samples are painted in %.2f ms, of 1,000,000 in %.2f ms", least[0], least[1]);
+  QVERIFY2(least[1] < 5 * least[0], "a hundred times the samples take five times as long");
 }
 
 /// Areas below a line, and the lowest value above 0 of it for a logarithmic axis.
