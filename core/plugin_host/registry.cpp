@@ -71,6 +71,15 @@ std::string quarantined(const PluginInfo& info, const std::string& why) {
          "\" or install another version";
 }
 
+bool sameMaterial(const Material& a, const Material& b) {
+  const auto sameSource = [](const auto& one, const auto& other) {
+    return one.first == other.first && one.second.source == other.second.source &&
+           one.second.grade == other.second.grade;
+  };
+  return a.label == b.label && a.properties == b.properties && a.adheresTo == b.adheresTo &&
+         std::equal(a.provenance.begin(), a.provenance.end(), b.provenance.begin(), b.provenance.end(), sameSource);
+}
+
 std::string nameOf(const PluginInfo& info) {
   return info.version.empty() ? info.path : "version " + info.version + " in " + info.path;
 }
@@ -107,12 +116,20 @@ struct PluginRegistry::Impl {
   void loadBest(std::vector<Candidate>& list);
   bool load(Candidate& candidate);
   void markFault(const std::string& id, const std::string& message);
-  void publish(const std::string& id, PluginInfo::State from, PluginInfo::State to,
-               const std::function<std::string(const PluginInfo&)>& problem);
+  void publish(const std::string& id, PluginInfo::State from, const std::function<void(PluginInfo&)>& change);
   const LoadedPlugin* get(const std::string& id) const {
     const std::lock_guard lock(mutex);
     const auto it = loaded.find(id);
     return it == loaded.end() || faulted.contains(id) ? nullptr : &it->second;
+  }
+
+  /// What is offered of one that is loaded.
+  const Material* materialOf(const std::string& id) const {
+    const LoadedPlugin* plugin = get(id);
+    if (!plugin || plugin->material.id.empty()) return nullptr;
+    const std::lock_guard lock(mutex);
+    const auto again = reread.find(id);
+    return again == reread.end() ? &plugin->material : again->second.back().get();
   }
 
   void offerMaterials();
@@ -129,6 +146,7 @@ struct PluginRegistry::Impl {
 
   mutable std::mutex mutex;  ///< guards what follows, and the quarantine
   std::map<std::string, std::string> faulted;
+  std::map<std::string, std::vector<std::unique_ptr<const Material>>> reread;  ///< the last of them is offered
   std::vector<std::unique_ptr<const std::vector<PluginInfo>>> generations;
 };
 
@@ -254,20 +272,19 @@ void PluginRegistry::Impl::offerMaterials() {
 void PluginRegistry::Impl::markFault(const std::string& id, const std::string& message) {
   const std::lock_guard lock(mutex);
   if (!loaded.contains(id) || !faulted.emplace(id, message).second) return;
-  publish(id, PluginInfo::State::Loaded, PluginInfo::State::Refused, [&](const PluginInfo& info) {
-    return info.path + ": it failed while it ran: " + oneLine(message) +
-           "; it is left out until the program starts again, " + whomToTell(info);
+  publish(id, PluginInfo::State::Loaded, [&](PluginInfo& info) {
+    info.state = PluginInfo::State::Refused;
+    info.problem = info.path + ": it failed while it ran: " + oneLine(message) +
+                   "; it is left out until the program starts again, " + whomToTell(info);
   });
 }
 
-/// Under the lock: the state and the problem of those of an id that have the state `from`.
-void PluginRegistry::Impl::publish(const std::string& id, PluginInfo::State from, PluginInfo::State to,
-                                   const std::function<std::string(const PluginInfo&)>& problem) {
+/// Under the lock: those of an id that have the state `from`, changed.
+void PluginRegistry::Impl::publish(const std::string& id, PluginInfo::State from,
+                                   const std::function<void(PluginInfo&)>& change) {
   auto changed = std::make_unique<std::vector<PluginInfo>>(*generations.back());
   for (PluginInfo& info : *changed) {
-    if (info.id != id || info.state != from) continue;
-    info.state = to;
-    info.problem = problem(info);
+    if (info.id == id && info.state == from) change(info);
   }
   generations.push_back(std::move(changed));
 }
@@ -286,10 +303,7 @@ const api::MaterialPlugin* PluginRegistry::materialPlugin(const std::string& id)
   return plugin ? plugin->materialPlugin : nullptr;
 }
 
-const Material* PluginRegistry::material(const std::string& id) const {
-  const LoadedPlugin* plugin = m->get(id);
-  return plugin && !plugin->material.id.empty() ? &plugin->material : nullptr;
-}
+const Material* PluginRegistry::material(const std::string& id) const { return m->materialOf(id); }
 
 const api::ConstraintPlugin* PluginRegistry::constraint(const std::string& id) const {
   const LoadedPlugin* plugin = m->get(id);
@@ -359,8 +373,9 @@ bool PluginRegistry::needs(const std::string& id, std::string_view capability) c
 
 Material PluginRegistry::evaluated(const std::string& id, const std::vector<double>& parameters) const {
   const LoadedPlugin* plugin = m->get(id);
-  if (!plugin || plugin->material.id.empty()) throw Error("The material '" + id + "' is not installed");
-  if (!plugin->materialPlugin) return plugin->material;
+  const Material* offered = m->materialOf(id);
+  if (!plugin || !offered) throw Error("The material '" + id + "' is not installed");
+  if (!plugin->materialPlugin) return *offered;
   try {
     return evaluateLaws(*plugin, plugin->declared, parameters);
   } catch (...) {
@@ -368,6 +383,43 @@ Material PluginRegistry::evaluated(const std::string& id, const std::vector<doub
     m->markFault(id, problem);
     throw PluginError("The material '" + id + "' failed: " + problem);
   }
+}
+
+std::vector<PluginRegistry::MaterialReading> PluginRegistry::changedMaterials() const {
+  std::vector<MaterialReading> changed;
+  for (const PluginInfo& known : plugins()) {
+    if (!known.json || known.state != PluginInfo::State::Loaded) continue;
+    if (!QFileInfo::exists(QString::fromStdString(known.path))) continue;
+    MaterialReading reading;
+    reading.material = readMaterialFile(known.path, reading.info);
+    PluginInfo& info = reading.info;
+    const Material* offered = material(known.id);
+    if (info.problem.empty() && info.id != known.id)
+      info.problem = known.path + ":/id: was \"" + known.id +
+                     "\" when the program started; another one is found at the next start";
+    if (info.problem.empty() && offered && sameMaterial(*offered, reading.material) && info.help == known.help)
+      continue;
+    info.id = known.id;
+    if (info.label.empty()) info.label = known.label;
+    info.state = known.state;
+    info.standard = known.standard;
+    info.own = known.own;
+    info.note = known.note;
+    changed.push_back(std::move(reading));
+  }
+  return changed;
+}
+
+void PluginRegistry::offer(const MaterialReading& reading) {
+  const std::string& id = reading.info.id;
+  const Material* offered = nullptr;
+  {
+    const std::lock_guard lock(m->mutex);
+    offered = m->reread[id].emplace_back(std::make_unique<const Material>(reading.material)).get();
+    m->publish(id, PluginInfo::State::Loaded, [&](PluginInfo& info) { info = reading.info; });
+  }
+  const std::lock_guard lock(m->installed->mutex);
+  m->installed->byId[id] = offered;
 }
 
 void PluginRegistry::fault(const std::string& id, const std::string& message) { m->markFault(id, message); }
@@ -390,9 +442,11 @@ PluginRegistry::SecondTry PluginRegistry::tryAgain(const std::string& id) {
   }
   const std::lock_guard lock(m->mutex);
   const State now = result.problem.empty() ? State::Refused : State::Quarantined;
-  m->publish(id, State::Quarantined, now, [&](const PluginInfo& info) {
-    return result.problem.empty() ? info.path + ": it is allowed again, and loaded when the program starts again"
-                                  : result.problem;
+  m->publish(id, State::Quarantined, [&](PluginInfo& info) {
+    info.state = now;
+    info.problem = result.problem.empty()
+                       ? info.path + ": it is allowed again, and loaded when the program starts again"
+                       : result.problem;
   });
   return result;
 }

@@ -97,6 +97,18 @@ class PluginRegistry {
   /// ones take their defaults). Throws Error for an unknown material, and PluginError when the plugin's law fails: the
   /// plugin is then refused as by fault().
   Material evaluated(const std::string& id, const std::vector<double>& parameters) const;
+  /// A material that is a JSON file alone, read once more.
+  struct MaterialReading {
+    PluginInfo info;  ///< of the id that it had; `problem`: "", or the sentence with file and JSON pointer
+    Material material;
+  };
+  /// Of loaded ones whose file stands there: those whose files say something else than what is offered, or are broken.
+  /// Files that came since are found at the next start. Takes as long as reading them all.
+  std::vector<MaterialReading> changedMaterials() const;
+  /// One without a problem is what material() gives from now on, and what plugins are told that ask their host. What
+  /// was given before stays good, and as it was. An engine that has made a table of it goes on with that until it makes
+  /// another one: a run can be made again only where it began after this call.
+  void offer(const MaterialReading& reading);
   /// A plugin threw while running: refuses it from now on, and says so in plugins(). Its object stays valid.
   void fault(const std::string& id, const std::string& message);
   /// Takes a plugin out of quarantine, to be loaded at the next start, unless it fails again in a process of its own:

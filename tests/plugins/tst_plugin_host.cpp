@@ -718,6 +718,39 @@ class TestPluginHost : public QObject {
     expectOneRefusal(path, "broken.json", expected);
   }
 
+  /// What was given stays as it was; what is broken, gone or another one changes nothing.
+  void materialFilesAreReadAgain() {
+    const QString path = directory("again"), file = path + "/soap.json";
+    QVERIFY(write(file, kSoundJson));
+    QVERIFY(write(path + "/candle.json", QByteArray(kSoundJson).replace("\"soap\"", "\"candle\"")));
+    PluginRegistry registry(only({path.toStdString()}));
+    QVERIFY(registry.changedMaterials().empty());
+    const Material* before = registry.material("soap");
+    QVERIFY(write(file, QByteArray(kSoundJson).replace("1050", "1060").replace("Soap", "Hard soap")));
+    const auto readings = registry.changedMaterials();
+    QCOMPARE(readings.size(), size_t(1));
+    QCOMPARE(readings[0].info.problem, std::string());
+    QCOMPARE(registry.material("soap"), before);
+    registry.offer(readings[0]);
+    QCOMPARE(registry.material("soap")->properties.at("density_solid").constant, 1060.0);
+    QCOMPARE(registry.evaluated("soap", {}).properties.at("density_solid").constant, 1060.0);
+    QCOMPARE(before->properties.at("density_solid").constant, 1050.0);
+    QCOMPARE(registry.plugins()[1].label, std::string("Hard soap"));
+    QCOMPARE(registry.plugins()[0].label, std::string("Soap"));
+    QVERIFY(registry.plugins()[1].state == PluginInfo::State::Loaded && registry.changedMaterials().empty());
+    for (const auto& [from, to, says] : {std::tuple("1050", "-3", ":/properties/density_solid"),
+                                         std::tuple("\"soap\"", "\"soap.other\"", ":/id: was \"soap\"")}) {
+      QVERIFY(write(file, QByteArray(kSoundJson).replace(from, to)));
+      const auto broken = registry.changedMaterials();
+      QCOMPARE(broken.size(), size_t(1));
+      QCOMPARE(broken[0].info.id, std::string("soap"));
+      QVERIFY2(broken[0].info.problem.starts_with(file.toStdString() + says), broken[0].info.problem.c_str());
+    }
+    QVERIFY(QFile::remove(file));
+    QVERIFY(registry.changedMaterials().empty());
+    QCOMPARE(registry.material("soap")->properties.at("density_solid").constant, 1060.0);
+  }
+
   void materialFileKeepsSourcesAndForms() {
     PluginInfo info;
     const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",

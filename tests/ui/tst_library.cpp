@@ -5,17 +5,23 @@
 #include "core/io/projectio.h"
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/library/librarypage.h"
 #include "ui/library/materialcard.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/worker.h"
 #include "ui/theme/units.h"
 #include "ui/window/libraryactions.h"
+#include "ui/window/noticebar.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QMimeData>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QUrl>
 #include <QtGui/QAction>
+#include <QtGui/QDropEvent>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QPushButton>
@@ -26,6 +32,8 @@ using namespace ps;
 namespace {
 
 const Address kStiffness{Owner::Material, "water", "youngs_modulus"};
+constexpr const char* kSoap = R"({"format": "phasesketch-material", "version": 1, "id": "soap", "label": "Soap",
+  "licence": "CC0-1.0", "properties": {"density_solid": 1050, "melting_temperature": 330, "youngs_modulus": 1e6}})";
 
 }  // namespace
 
@@ -39,6 +47,8 @@ class TestLibrary : public SampleWindowTest {
     options.restore = false;
     options.session.autosave = false;
     options.presets = m_folder.filePath(QStringLiteral("presets"));
+    options.session.pluginPaths = {m_folder.path().toStdString()};
+    writeSoap(1050);
     m_window = shownWindow(options, {1600, 1000});
     QVERIFY(m_window);
     QTRY_VERIFY_WITH_TIMEOUT(!library().entries().empty(), kLong);
@@ -102,6 +112,158 @@ class TestLibrary : public SampleWindowTest {
     QCOMPARE(document().project().materials.size(), size_t{1});
   }
 
+  /// A card on the outliner's row of a body: the material comes into the scene and the body is of it, in one step.
+  void aCardIsDroppedOnARow() {
+    const auto items = page()->cards()->findItems(entryOf("wax")->label, Qt::MatchExactly);
+    QVERIFY(!items.isEmpty());
+    const auto data = hands::dragged(page()->cards()->model()->index(page()->cards()->row(items.front()), 0));
+    const std::string body = document().project().bodies.front().id;
+    const QModelIndex row = hands::outlined(*m_window, OutlineKind::Body, body);
+    QVERIFY(data && row.isValid() && row.flags().testFlag(Qt::ItemIsDropEnabled));
+    auto* model = const_cast<QAbstractItemModel*>(row.model());
+    QVERIFY(!model->canDropMimeData(data.get(), Qt::CopyAction, -1, -1, row.parent()));
+    QVERIFY(model->canDropMimeData(data.get(), Qt::CopyAction, -1, -1, row));
+    const std::string before = document().body(body)->material;
+    const int steps = document().undoStack().index();
+    model->dropMimeData(data.get(), Qt::CopyAction, -1, -1, row);
+    QCOMPARE(document().body(body)->material, std::string("wax"));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    document().undoStack().undo();
+    QCOMPARE(document().body(body)->material, before);
+    QCOMPARE(document().project().materials.size(), size_t{1});
+  }
+
+  /// In the view the body under the pointer is the one, and marked meanwhile; beside bodies and on locked ones nothing
+  /// is taken. Files are the window's, there too.
+  void aMaterialIsDroppedInTheView() {
+    session().pause();
+    QTest::keyClick(m_window.get(), Qt::Key_Escape);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->isVisible() && view()->snapshot() && !view()->snapshot()->position.empty(), kLong);
+    view()->frameAll();
+    const auto [on, beside, body] = aimed();
+    QVERIFY(!body.empty() && !beside.isNull());
+    QMimeData data;
+    data.setData(QLatin1String(kInstalledMime), "wax");
+    QVERIFY(enters(on, data));
+    QCOMPARE(target(on, data), std::pair(true, body));
+    pictureOf("material_dragged");
+    QCOMPARE(target(beside, data), std::pair(false, std::string()));
+    const int steps = document().undoStack().index();
+    drop(beside, data);
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QVERIFY(enters(on, data));
+    document().setBodiesLocked({body}, true);
+    QCOMPARE(target(on, data), std::pair(false, std::string()));
+    drop(on, data);
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    document().undoStack().undo();
+    QVERIFY(enters(on, data));
+    drop(on, data);
+    QCOMPARE(document().body(body)->material, std::string("wax"));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY(view()->dropTarget().empty());
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QMimeData file, text;
+    file.setUrls({QUrl::fromLocalFile(kSample)});
+    text.setText(QStringLiteral("wax"));
+    QVERIFY(enters(on, file));
+    QVERIFY(!enters(on, text));
+    m_window->action(QStringLiteral("add.library"))->trigger();
+  }
+
+  /// A preset is carried whole, with its values.
+  void aPresetIsDroppedInTheView() {
+    SceneMaterial preset;
+    preset.base = "wax";
+    preset.label = "Stiff wax";
+    preset.properties.values["youngs_modulus"] = Response(3e6);
+    QMimeData data, broken;
+    carryPreset(data, preset);
+    broken.setData(QLatin1String(kPresetMime), "{");
+    const std::string body = document().project().bodies.front().id;
+    QVERIFY(carriesMaterial(data) && !giveMaterial(document(), "nobody", data));
+    QVERIFY(carriesMaterial(broken) && !giveMaterial(document(), body, broken));
+    QVERIFY(giveMaterial(document(), body, data));
+    const Address stiffness{Owner::Material, document().body(body)->material, "youngs_modulus"};
+    QCOMPARE(std::get<Response>(document().value(stiffness)).at(300), 3e6);
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), size_t{1});
+  }
+
+  /// The view comes in the page's place while a card is dragged, and the page comes back where nothing took it.
+  void thePageMakesRoomForADrag() {
+    QVERIFY(page()->isVisible());
+    Q_EMIT page()->carrying();
+    QVERIFY(!page()->isVisible() && view()->isVisible());
+    Q_EMIT page()->broughtBack();
+    QVERIFY(page()->isVisible());
+  }
+
+  /// Of a material that the scene is not made of: at once, and said; a broken file once, and what was read stays.
+  void anInstalledFileIsReadAgain() {
+    QSignalSpy said(&library(), &MaterialLibrary::said);
+    QCOMPARE(valueOf(entryOf("soap")->values, "density_solid", 290), 1050.0);
+    writeSoap(1060);
+    QTRY_COMPARE_WITH_TIMEOUT(valueOf(entryOf("soap")->values, "density_solid", 290), 1060.0, kLong);
+    QCOMPARE(session().plugins()->material("soap")->properties.at("density_solid").constant, 1060.0);
+    QVERIFY(library().waiting().isEmpty() && !document().isDirty());
+    QCOMPARE(said.size(), 1);
+    QVERIFY(!said[0][0].toBool() && said[0][1].toString().startsWith(QStringLiteral("“Soap” was read again from /")));
+    QVERIFY(session().log().messages().back().text == said[0][1].toString());
+    said.clear();
+    writeSoap(-1);
+    QTRY_VERIFY_WITH_TIMEOUT(!said.isEmpty(), kLong);
+    const QString problem = said[0][1].toString();
+    QVERIFY2(said[0][0].toBool() && problem.contains(QStringLiteral("soap.json:/properties/density_solid")) &&
+                 problem.endsWith(QStringLiteral("; what was read before stays")),
+             qPrintable(problem));
+    QCOMPARE(valueOf(entryOf("soap")->values, "density_solid", 290), 1060.0);
+    QSignalSpy changed(&library(), &MaterialLibrary::changed);
+    library().read();
+    QTRY_VERIFY_WITH_TIMEOUT(!changed.isEmpty(), kLong);
+    QCOMPARE(said.size(), 1);
+    writeSoap(1060);
+    QTRY_VERIFY_WITH_TIMEOUT(changed.size() > 1, kLong);
+  }
+
+  /// A scene goes on with what its run is made of, until somebody takes the new values; its own stay in any case.
+  void aSceneIsNotChangedSilently() {
+    const std::string body = document().project().bodies.front().id;
+    const int steps = document().undoStack().index();
+    document().setBodyMaterial(body, document().addMaterial("soap"));
+    QCOMPARE(document().setParameter({Owner::Material, "soap", "youngs_modulus"}, Response(2e6)), QString());
+    QTRY_COMPARE_WITH_TIMEOUT(inEngine("density_solid"), 1060.0, kLong);
+    writeSoap(1070);
+    QTRY_COMPARE_WITH_TIMEOUT(library().waiting(), QStringList{QStringLiteral("Soap")}, kLong);
+    QCOMPARE(valueOf(entryOf("soap")->values, "density_solid", 290), 1070.0);
+    QCOMPARE(inEngine("density_solid"), 1060.0);
+    QCOMPARE(document().setParameter({Owner::Material, "soap", "youngs_modulus"}, Response(3e6)), QString());
+    QTRY_COMPARE_WITH_TIMEOUT(inEngine("youngs_modulus"), 3e6, kLong);
+    QCOMPARE(inEngine("density_solid"), 1060.0);
+    auto* bar = m_window->findChild<NoticeBar*>();
+    QVERIFY(bar && bar->text().contains(QStringLiteral("goes on with the values that it began with")));
+    pictureOf("material_changed_on_disk");
+    const uint64_t revision = session().newest()->revision;
+    for (QPushButton* each : bar->findChildren<QPushButton*>())
+      if (each->text() == QStringLiteral("Take the new ones and reset")) each->click();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->revision != revision, kLong);
+    QCOMPARE(inEngine("density_solid"), 1070.0);
+    QCOMPARE(inEngine("youngs_modulus"), 3e6);
+    QVERIFY(library().waiting().isEmpty());
+    QVERIFY(!bar->text().contains(QStringLiteral("goes on with")));
+    while (document().undoStack().index() > steps) document().undoStack().undo();
+    // Frames of the run were made of it, and can be looked at and made again.
+    writeSoap(1080);
+    QTRY_COMPARE_WITH_TIMEOUT(library().waiting(), QStringList{QStringLiteral("Soap")}, kLong);
+    const uint64_t soapy = session().newest()->revision;
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->revision != soapy, kLong);
+    library().read();
+    QTRY_VERIFY_WITH_TIMEOUT(library().waiting().isEmpty(), kLong);
+    QCOMPARE(session().plugins()->material("soap")->properties.at("density_solid").constant, 1080.0);
+  }
+
   /// The scene's water with another stiffness becomes a preset, comes back into the scene as a second water, and is
   /// read again when its file changes.
   void theScenesOwnBecomesAPreset() {
@@ -128,6 +290,21 @@ class TestLibrary : public SampleWindowTest {
     writeFileAtomically(soft.file.toStdString(), text.replace(at, 7, "3000000"));
     QTRY_COMPARE_WITH_TIMEOUT(valueOf(entry(QStringLiteral("Soft ice"))->values, "youngs_modulus", 263), 3e6, kLong);
     QCOMPARE(page()->compared(), QStringList{QStringLiteral("Soft ice")});  // what was chosen stays so
+    QVERIFY(session().log().messages().back().text.startsWith(QStringLiteral("“Soft ice” was read again from ")));
+    // Broken, it stays as it was.
+    QSignalSpy said(&library(), &MaterialLibrary::said);
+    writeFileAtomically(soft.file.toStdString(), std::string(text).replace(at, 7, "\"soft\""));
+    QTRY_VERIFY_WITH_TIMEOUT(!said.isEmpty(), kLong);
+    const QString problem = said[0][1].toString();
+    QVERIFY2(said[0][0].toBool() && problem.startsWith(soft.file + QStringLiteral(":/materials/0/")) &&
+                 problem.endsWith(QStringLiteral("; what was read before stays")),
+             qPrintable(problem));
+    QCOMPARE(valueOf(entry(QStringLiteral("Soft ice"))->values, "youngs_modulus", 263), 3e6);
+    said.clear();
+    writeFileAtomically(soft.file.toStdString(), text);
+    QSignalSpy changed(&library(), &MaterialLibrary::changed);
+    QTRY_VERIFY_WITH_TIMEOUT(!changed.isEmpty(), kLong);
+    QVERIFY(said.isEmpty());
   }
 
   void oneFileIsPassedOn() {
@@ -179,6 +356,55 @@ class TestLibrary : public SampleWindowTest {
     for (QPushButton* each : page()->findChildren<QPushButton*>())
       if (each->text() == text) return each;
     return nullptr;
+  }
+  void writeSoap(double density) {
+    std::string text = kSoap;
+    writeFileAtomically(m_folder.filePath(QStringLiteral("soap.json")).toStdString(),
+                        text.replace(text.find("1050"), 4, std::to_string(static_cast<int>(density))));
+  }
+  /// What the run's table of soap has at 290 K.
+  double inEngine(const char* key) {
+    return onEngine<double>(session(), [key](Engine& engine) {
+      for (const BakedMaterial& table : engine.solver().materials())
+        if (std::string(table.id()) == "soap") return table.property(key, 290);
+      return 0.0;
+    });
+  }
+  struct Aimed {
+    QPointF on, beside;
+    std::string body;
+  };
+  /// A place of the view over a body, and one over nothing.
+  Aimed aimed() {
+    Aimed found;
+    const QSize size = view()->size();
+    const Snapshot& scene = *view()->snapshot();
+    for (int y = 5; y < size.height(); y += 10) {
+      for (int x = 5; x < size.width(); x += 10) {
+        const auto hit =
+            pickParticle(scene, rayThrough(view()->navigator().camera(), size.width(), size.height(), x, y));
+        if (!hit) found.beside = QPointF(x, y);
+        if (!hit || !found.body.empty()) continue;
+        found.on = QPointF(x, y);
+        found.body = (*scene.bodyIds)[scene.body[*hit]];
+      }
+    }
+    return found;
+  }
+  bool enters(const QPointF& at, const QMimeData& data) {
+    QDragEnterEvent enter(at.toPoint(), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    enter.ignore();
+    QApplication::sendEvent(view(), &enter);
+    return enter.isAccepted();
+  }
+  std::pair<bool, std::string> target(const QPointF& at, const QMimeData& data) {
+    QDragMoveEvent move(at.toPoint(), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(view(), &move);
+    return {move.isAccepted(), view()->dropTarget()};
+  }
+  void drop(const QPointF& at, const QMimeData& data) {
+    QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(view(), &drop);
   }
   void pictureOf(const char* name) {
     QTest::qWait(100);

@@ -5,6 +5,7 @@
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
 #include "ui/library/materialcard.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
@@ -13,6 +14,8 @@
 #include "ui/theme/units.h"
 
 #include <QtCore/QEvent>
+#include <QtCore/QMimeData>
+#include <QtGui/QDrag>
 #include <QtGui/QPainter>
 #include <QtWidgets/QButtonGroup>
 #include <QtWidgets/QHBoxLayout>
@@ -26,12 +29,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace ps {
 namespace {
 
 constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
 constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
+
+/// Cards that can be dragged onto bodies, of the view too, which takes the page's place meanwhile.
+class CardList : public QListWidget {
+ public:
+  /// `carry(data)` lasts as long as the drag.
+  CardList(const MaterialLibrary& library, std::function<void(QMimeData*)> carry)
+      : m_library(library), m_carry(std::move(carry)) {}
+
+ protected:
+  QMimeData* mimeData(const QList<QListWidgetItem*>& items) const override {
+    const auto index =
+        items.isEmpty() ? m_library.entries().size() : static_cast<size_t>(items.front()->data(kEntryRole).toInt());
+    if (index >= m_library.entries().size()) return nullptr;
+    const LibraryEntry& entry = m_library.entries()[index];
+    auto* carried = new QMimeData;
+    if (entry.file.isEmpty()) {
+      carried->setData(QLatin1String(kInstalledMime), QByteArray::fromStdString(entry.material.base));
+    } else {
+      carryPreset(*carried, entry.material);
+    }
+    return carried;
+  }
+  /// The card under the pointer, also where several are chosen.
+  void startDrag(Qt::DropActions) override {
+    if (QMimeData* carried = currentItem() ? mimeData({currentItem()}) : nullptr) m_carry(carried);
+  }
+
+ private:
+  const MaterialLibrary& m_library;
+  const std::function<void(QMimeData*)> m_carry;
+};
 
 }  // namespace
 
@@ -42,7 +78,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_selection(selection),
       m_search(new QLineEdit),
       m_name(new QLineEdit),
-      m_cards(new QListWidget),
+      m_cards(new CardList(library, [this](QMimeData* carried) { carry(carried); })),
       m_table(new QTreeWidget),
       m_title(new QLabel),
       m_about(new QLabel),
@@ -90,6 +126,7 @@ QWidget* LibraryPage::makeLeft() {
   m_cards->setViewMode(QListView::IconMode);
   m_cards->setResizeMode(QListView::Adjust);
   m_cards->setMovement(QListView::Static);
+  m_cards->setDragEnabled(true);  // setMovement() has taken it away
   m_cards->setUniformItemSizes(true);
   m_cards->setMouseTracking(true);
   m_cards->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -160,7 +197,7 @@ void LibraryPage::refresh() {
   for (const QListWidgetItem* item : m_cards->selectedItems()) before << item->data(kKeyRole).toString();
   m_hint->setText(
       QStringLiteral("The bar shows solid, liquid and gas from %1 to %2 under the air's usual pressure; its "
-                     "line is at %3. Ctrl+click compares two.")
+                     "line is at %3. Ctrl+click compares two. Drag a card onto a body, which becomes of it.")
           .arg(temperatureText(kColdest, 0), temperatureText(kHottest, 0), temperatureText(kRoom, 0)));
   m_cards->clear();
   for (size_t i = 0; i < m_library.entries().size(); ++i) {
@@ -291,6 +328,14 @@ void LibraryPage::addToScene() {
     last = entry->file.isEmpty() ? document.addMaterial(entry->material.base) : addPreset(document, entry->material);
   }
   if (!last.empty()) m_selection.pickMaterial(last);
+}
+
+void LibraryPage::carry(QMimeData* carried) {
+  auto* way = new QDrag(m_cards);  // goes by itself
+  way->setMimeData(carried);
+  Q_EMIT carrying();
+  const bool taken = way->exec(Qt::CopyAction) != Qt::IgnoreAction;
+  if (!taken) Q_EMIT broughtBack();
 }
 
 void LibraryPage::paintEvent(QPaintEvent*) {

@@ -9,6 +9,7 @@ class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
+class QMimeData;
 class QPushButton;
 class QTreeWidget;
 
@@ -33,6 +34,8 @@ class LibraryPage : public QWidget {
 
  Q_SIGNALS:
   void closeRequested();
+  void carrying();     ///< a card is dragged, onto a body perhaps, which has to be seen
+  void broughtBack();  ///< and was let go where nothing takes it
   void importWanted();
   void exportWanted(const ps::LibraryEntry& entry);
 
@@ -47,6 +50,7 @@ class LibraryPage : public QWidget {
   void showChosen();
   void showScene();
   void addToScene();
+  void carry(QMimeData* carried);
   std::vector<const LibraryEntry*> chosen() const;
   MaterialLibrary& m_library;
   Session& m_session;

@@ -7,6 +7,8 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/library/runmaterials.h"
 #include "ui/session/session.h"
 #include "ui/session/worker.h"
 
@@ -17,14 +19,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace ps {
 namespace {
 
 constexpr double kPressure = 101325;                        // Pa
 constexpr double kMetalConducts = 15, kMetalWeighs = 2000;  // W/(m·K), kg/m³: more than stone, less than steel
-constexpr int kRest = 200;                                  // ms
+constexpr const char* kStays = "; what was read before stays";
+constexpr int kRest = 200;  // ms
 
 Project holding(const SceneMaterial& material) {
   Project project;
@@ -67,6 +72,10 @@ QStringList tagsOf(const LibraryEntry& entry) {
   return tags;
 }
 
+QString readAgain(const QString& label, const QString& path) {
+  return QStringLiteral("“%1” was read again from %2.").arg(label, path);
+}
+
 QString aboutOf(const PluginRegistry& plugins, const std::string& base) {
   for (const PluginInfo& plugin : plugins.plugins()) {
     if (plugin.id == base) return QString::fromStdString(plugin.help);
@@ -76,10 +85,10 @@ QString aboutOf(const PluginRegistry& plugins, const std::string& base) {
 
 }  // namespace
 
-/// A material as it was read, before it is looked into.
-struct MaterialLibrary::Found {
-  SceneMaterial material;
-  QString file, problem;
+/// A file of presets as it was read, before its materials are looked into.
+struct MaterialLibrary::Preset {
+  QString path, problem;
+  std::vector<SceneMaterial> materials;
 };
 
 MaterialLibrary::MaterialLibrary(Session& session, const QString& folder, QObject* parent)
@@ -89,71 +98,192 @@ MaterialLibrary::MaterialLibrary(Session& session, const QString& folder, QObjec
                                       QStringLiteral("/phasesketch/presets")
                                 : folder) {
   QDir().mkpath(m_folder);
-  m_watcher.addPath(m_folder);
   m_rest.setSingleShot(true);
   m_rest.setInterval(kRest);
   connect(&m_watcher, &QFileSystemWatcher::directoryChanged, &m_rest, qOverload<>(&QTimer::start));
   connect(&m_watcher, &QFileSystemWatcher::fileChanged, &m_rest, qOverload<>(&QTimer::start));
   connect(&m_rest, &QTimer::timeout, this, &MaterialLibrary::read);
   connect(&session, &Session::ready, this, &MaterialLibrary::read);
+  // The run of another project may not be made of what waits.
+  connect(&session, &Session::projectShown, this, [this] {
+    if (m_waiting.empty()) return;
+    m_waiting.clear();
+    read();
+  });
 }
 
 void MaterialLibrary::read() {
   if (!m_session.plugins()) return;
   m_session.worker().run([this, plugins = m_session.registry(), folder = m_folder] {
-    std::vector<Found> found;
-    for (const std::string& id : plugins->ids(PluginKind::Material)) {
-      SceneMaterial material;
-      material.id = material.base = id;
-      material.label = pluginLabel(plugins.get(), id).toStdString();
-      found.push_back({material, {}, {}});
-    }
+    std::vector<Preset> found;
     const QDir presets(folder);
     for (const QString& name : presets.entryList({QStringLiteral("*.json")}, QDir::Files, QDir::Name)) {
-      const QString path = presets.filePath(name);
+      Preset& preset = found.emplace_back();
+      preset.path = presets.filePath(name);
       try {
-        for (const SceneMaterial& material : loadProject(path.toStdString(), *plugins).project.materials)
-          found.push_back({material, path, {}});
+        preset.materials = loadProject(preset.path.toStdString(), *plugins).project.materials;
       } catch (const std::exception& error) {
-        found.push_back({{}, path, QString::fromUtf8(error.what())});
+        preset.problem = QString::fromUtf8(error.what());
       }
     }
-    QMetaObject::invokeMethod(this, [this, found = std::move(found)]() mutable { adopt(std::move(found)); });
+    QMetaObject::invokeMethod(
+        this, [this, found = std::move(found), readings = plugins->changedMaterials()] { adopt(found, readings); });
   });
 }
 
-void MaterialLibrary::adopt(std::vector<Found> found) {
-  m_entries.clear();
-  const PluginRegistry& plugins = *m_session.plugins();
-  QStringList files;
-  for (Found& each : found) {
-    if (!each.file.isEmpty()) files << each.file;
-    try {
-      if (!each.problem.isEmpty()) throw Error(each.problem.toStdString());
-      const Project project = holding(each.material);
-      EvaluatedMaterials evaluated;
-      LibraryEntry entry{each.material,
-                         compileMaterial(project, each.material, plugins, evaluated),
-                         QString::fromStdString(each.material.label),
-                         aboutOf(plugins, each.material.base),
-                         each.file,
-                         {},
-                         colourOf(project, &plugins, each.material.id),
-                         {}};
-      entry.bands = bandsOf(entry.values);
-      entry.tags = tagsOf(entry);
-      m_entries.push_back(std::move(entry));
-    } catch (const std::exception& error) {
-      Q_EMIT said(true, QString::fromUtf8(error.what()));
-    }
-  }
+void MaterialLibrary::adopt(const std::vector<Preset>& presets, const Readings& readings) {
+  const std::vector<LibraryEntry> before = std::exchange(m_entries, {});
+  Problems problems;
+  adoptInstalled(readings, problems);
+  adoptPresets(presets, before, problems);
   std::stable_sort(m_entries.begin(), m_entries.end(), [](const LibraryEntry& a, const LibraryEntry& b) {
     if (a.file.isEmpty() != b.file.isEmpty()) return a.file.isEmpty();
     return a.label.localeAwareCompare(b.label) < 0;
   });
-  if (const QStringList watched = m_watcher.files(); !watched.isEmpty()) m_watcher.removePaths(watched);
-  if (!files.isEmpty()) m_watcher.addPaths(files);
+  QStringList files;
+  for (const Preset& preset : presets) files << preset.path;
+  watch(files);
+  tell(std::move(problems));
   Q_EMIT changed();
+}
+
+/// What no run is made of acts at once; the rest waits.
+void MaterialLibrary::adoptInstalled(const Readings& readings, Problems& problems) {
+  PluginRegistry& plugins = *m_session.plugins();
+  const auto before = std::exchange(m_waiting, {});
+  bool others = false, offered = false;
+  for (const PluginRegistry::MaterialReading& reading : readings) {
+    const std::string& id = reading.info.id;
+    const QString path = QString::fromStdString(reading.info.path);
+    if (!reading.info.problem.empty()) {
+      problems[path] = QString::fromStdString(reading.info.problem) + QLatin1String(kStays);
+    } else if (runIsMadeOf(m_session, id)) {
+      const auto known = before.find(id);
+      others |= known == before.end() || known->second.material.properties != reading.material.properties;
+      m_waiting.emplace(id, reading);
+    } else {
+      plugins.offer(reading);
+      offered = true;
+      Q_EMIT said(false, readAgain(QString::fromStdString(reading.info.label), path));
+    }
+  }
+  if (offered) m_session.document().setPlugins(&plugins);
+  for (const std::string& id : plugins.ids(PluginKind::Material)) {
+    const auto waits = m_waiting.find(id);
+    SceneMaterial material;
+    material.id = material.base = id;
+    material.label = pluginLabel(&plugins, id).toStdString();
+    try {
+      m_entries.push_back(waits == m_waiting.end() ? entryOf(material, {}) : entryOf(waits->second));
+    } catch (const std::exception& error) {
+      problems[QString::fromStdString(id)] = QString::fromUtf8(error.what());
+    }
+  }
+  if (others || before.size() != m_waiting.size()) Q_EMIT waitingChanged();
+}
+
+/// Of a file that is broken by now, what was read before stays.
+void MaterialLibrary::adoptPresets(const std::vector<Preset>& presets, const std::vector<LibraryEntry>& before,
+                                   Problems& problems) {
+  const auto texts = std::exchange(m_texts, {});
+  for (const Preset& preset : presets) {
+    const auto known = texts.find(preset.path);
+    std::vector<LibraryEntry> entries;
+    Project whole;
+    try {
+      if (!preset.problem.isEmpty()) throw Error(preset.problem.toStdString());
+      for (const SceneMaterial& material : preset.materials) entries.push_back(entryOf(material, preset.path));
+      whole.materials = preset.materials;
+      m_texts[preset.path] = writeProject(whole);
+    } catch (const std::exception& error) {
+      entries.clear();
+      std::copy_if(before.begin(), before.end(), std::back_inserter(entries),
+                   [&](const LibraryEntry& entry) { return entry.file == preset.path; });
+      if (known != texts.end()) m_texts.insert(*known);
+      problems[preset.path] = QString::fromUtf8(error.what()) + QLatin1String(entries.empty() ? "" : kStays);
+      m_entries.insert(m_entries.end(), entries.begin(), entries.end());
+      continue;
+    }
+    const bool own = m_written.erase(preset.path) > 0;
+    if (!own && known != texts.end() && known->second != m_texts[preset.path] && !entries.empty())
+      Q_EMIT said(false, readAgain(entries.front().label, preset.path));
+    m_entries.insert(m_entries.end(), entries.begin(), entries.end());
+  }
+}
+
+LibraryEntry MaterialLibrary::entryOf(const SceneMaterial& material, const QString& file) const {
+  const PluginRegistry& plugins = *m_session.plugins();
+  const Project project = holding(material);
+  EvaluatedMaterials evaluated;
+  LibraryEntry entry{material,
+                     compileMaterial(project, material, plugins, evaluated),
+                     QString::fromStdString(material.label),
+                     aboutOf(plugins, material.base),
+                     file,
+                     {},
+                     colourOf(project, &plugins, material.id),
+                     {}};
+  entry.bands = bandsOf(entry.values);
+  entry.tags = tagsOf(entry);
+  return entry;
+}
+
+/// As its file has it by now.
+LibraryEntry MaterialLibrary::entryOf(const PluginRegistry::MaterialReading& waiting) const {
+  SceneMaterial material;
+  material.id = material.base = waiting.info.id;
+  material.label = waiting.info.label;
+  SceneMaterial coloured = material;
+  for (const auto& [key, value] : waiting.material.properties) coloured.properties.values[key] = value;
+  LibraryEntry entry = entryOf(coloured, {});
+  entry.material = material;
+  entry.values = waiting.material;
+  entry.about = QString::fromStdString(waiting.info.help);
+  entry.bands = bandsOf(entry.values);
+  entry.tags = tagsOf(entry);
+  return entry;
+}
+
+/// Each problem once, as long as it stays the same.
+void MaterialLibrary::tell(Problems problems) {
+  for (const auto& [path, problem] : problems) {
+    const auto told = m_problems.find(path);
+    if (told == m_problems.end() || told->second != problem) Q_EMIT said(true, problem);
+  }
+  m_problems = std::move(problems);
+}
+
+/// A file that is replaced is another one to the watcher, and a folder tells of one that comes.
+void MaterialLibrary::watch(QStringList files) {
+  QStringList folders{m_folder};
+  for (const PluginInfo& plugin : m_session.plugins()->plugins()) {
+    if (!plugin.json || plugin.state != PluginInfo::State::Loaded) continue;
+    files << QString::fromStdString(plugin.path);
+    folders << QFileInfo(files.back()).path();
+  }
+  folders.removeDuplicates();
+  if (const QStringList watched = m_watcher.files() + m_watcher.directories(); !watched.isEmpty())
+    m_watcher.removePaths(watched);
+  m_watcher.addPaths(files + folders);
+}
+
+QStringList MaterialLibrary::waiting() const {
+  QStringList labels;
+  for (const auto& [id, reading] : m_waiting) labels << QString::fromStdString(reading.info.label);
+  return labels;
+}
+
+void MaterialLibrary::takeWaiting() {
+  if (m_waiting.empty()) return;
+  for (const auto& [id, reading] : std::exchange(m_waiting, {})) {
+    m_session.plugins()->offer(reading);
+    Q_EMIT said(false,
+                readAgain(QString::fromStdString(reading.info.label), QString::fromStdString(reading.info.path)));
+  }
+  m_session.document().setPlugins(m_session.plugins());
+  m_session.reset();
+  Q_EMIT waitingChanged();
+  read();
 }
 
 QStringList MaterialLibrary::tags() const {
@@ -172,7 +302,8 @@ void MaterialLibrary::write(const SceneMaterial& material, const QString& path, 
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, done, problem] {
+    QMetaObject::invokeMethod(this, [this, path, done, problem] {
+      if (problem.isEmpty()) m_written.insert(path);
       Q_EMIT said(!problem.isEmpty(), problem.isEmpty() ? done : problem);
       read();
     });

@@ -3,6 +3,7 @@
 // it, and any project's materials can be imported.
 #pragma once
 #include "core/matter/material.h"
+#include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 
 #include <QtCore/QFileSystemWatcher>
@@ -12,11 +13,13 @@
 #include <QtCore/QTimer>
 #include <QtGui/QColor>
 
+#include <map>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace ps {
 
-class PluginRegistry;
 class Session;
 
 inline constexpr double kRoom = 293.15;  ///< K, at which materials are listed and compared
@@ -38,8 +41,11 @@ struct LibraryEntry {
   std::vector<PhaseBand> bands;  ///< coldest first
 };
 
-/// Installed materials, and the presets of the user's folder, which are read again when their files change. UI thread;
-/// files are read and written by the session's worker.
+/// Installed materials, and the presets of the user's folder. Files of both are read again when they change; of one
+/// that is broken by then, what was read before stays. The present scene's matter does not change with a file: values
+/// that a scene has of its own never do, and an installed material that its run is made of stays as it is until
+/// somebody takes the new values, with which the run begins anew. UI thread; files are read and written by the
+/// session's worker.
 class MaterialLibrary : public QObject {
   Q_OBJECT
  public:
@@ -55,14 +61,27 @@ class MaterialLibrary : public QObject {
   void importFrom(const QString& path);
   void exportTo(const LibraryEntry& entry, const QString& path);
   void removePreset(const LibraryEntry& entry);
+  /// Labels of installed materials whose files have other values by now than the scene's run is made of.
+  QStringList waiting() const;
+  /// Those come to act: the scene goes back to its start.
+  void takeWaiting();
 
  Q_SIGNALS:
   void changed();
   void said(bool failed, const QString& text);  ///< what became of reading or writing
+  void waitingChanged();
 
  private:
-  struct Found;
-  void adopt(std::vector<Found> found);
+  struct Preset;
+  using Readings = std::vector<PluginRegistry::MaterialReading>;
+  using Problems = std::map<QString, QString>;  ///< by the file's path
+  void adopt(const std::vector<Preset>& presets, const Readings& readings);
+  void adoptInstalled(const Readings& readings, Problems& problems);
+  void adoptPresets(const std::vector<Preset>& presets, const std::vector<LibraryEntry>& before, Problems& problems);
+  LibraryEntry entryOf(const SceneMaterial& material, const QString& file) const;
+  LibraryEntry entryOf(const PluginRegistry::MaterialReading& waiting) const;
+  void tell(Problems problems);
+  void watch(QStringList files);
   QString placeOf(const QString& label, bool replaces, const QStringList& taken) const;
   bool isAlone(const LibraryEntry& entry) const;  ///< in its file
   void keep(SceneMaterial material, const QString& label, const QString& path);
@@ -72,6 +91,10 @@ class MaterialLibrary : public QObject {
   QFileSystemWatcher m_watcher;
   QTimer m_rest;  ///< a file that is being written changes several times
   std::vector<LibraryEntry> m_entries;
+  std::map<std::string, PluginRegistry::MaterialReading> m_waiting;  ///< by id
+  Problems m_problems;                                               ///< as they were told
+  std::map<QString, std::string> m_texts;                            ///< of presets, as they were read last, by path
+  std::set<QString> m_written;                                       ///< by the library, which has told of it
 };
 
 }  // namespace ps

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/session/carriedmaterial.h"
+
 #include <QtGui/QColor>
 #include <QtWidgets/QWidget>
 
@@ -12,11 +14,6 @@ namespace ps {
 
 class Document;
 class Selection;
-
-/// What a material is dragged as: one of the scene, also as that of a body, by its id, one that can be added by its
-/// base.
-inline constexpr const char *kMaterialMime = "application/x-phasesketch-material",
-                            *kInstalledMime = "application/x-phasesketch-installed-material";
 
 /// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
 /// them those that are installed besides; a click brings one into the scene. All are dragged to where a material is

@@ -11,6 +11,7 @@
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/panels/outlinermodel.h"
 #include "ui/rows/filterfield.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -93,6 +94,8 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
       Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
   connect(m_model, &OutlinerModel::dropped, this, &Outliner::moveRows);
+  connect(m_model, &OutlinerModel::materialDropped, this,
+          [this](const QMimeData& carried, const std::string& body) { giveMaterial(m_document, body, carried); });
   connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
     if (!m_building) takeSelection();
   });
@@ -110,7 +113,8 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setEditable(kind == OutlineKind::Group || kind == OutlineKind::Body || kind == OutlineKind::Emitter ||
                     kind == OutlineKind::Sink || kind == OutlineKind::Probe);
   item->setDragEnabled(kind != OutlineKind::Scene && kind != OutlineKind::Environment && kind != OutlineKind::Probes);
-  item->setDropEnabled(kind == OutlineKind::Scene || kind == OutlineKind::Group || kind == OutlineKind::Probes);
+  item->setDropEnabled(kind == OutlineKind::Scene || kind == OutlineKind::Group || kind == OutlineKind::Probes ||
+                       kind == OutlineKind::Body);
   if (parent) {
     parent->appendRow(item);
   } else {

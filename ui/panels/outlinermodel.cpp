@@ -2,8 +2,8 @@
 #include "ui/panels/outlinermodel.h"
 
 #include "core/simulation/graphsource.h"
-#include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/sourcemime.h"
 
 #include <QtCore/QDataStream>
@@ -13,10 +13,16 @@
 namespace ps {
 namespace {
 constexpr char kRowsMime[] = "application/x-phasesketch-outliner-rows";
+
+bool isBody(const QModelIndex& row) {
+  return row.isValid() && row.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Body);
 }
 
+}  // namespace
+
 QStringList OutlinerModel::mimeTypes() const {
-  return {QLatin1String(kRowsMime), QLatin1String(kSourceMime), QLatin1String(kMaterialMime)};
+  return {QLatin1String(kRowsMime), QLatin1String(kSourceMime), QLatin1String(kMaterialMime),
+          QLatin1String(kInstalledMime), QLatin1String(kPresetMime)};
 }
 
 QMimeData* OutlinerModel::mimeData(const QModelIndexList& indexes) const {
@@ -37,13 +43,18 @@ QMimeData* OutlinerModel::mimeData(const QModelIndexList& indexes) const {
 }
 
 bool OutlinerModel::canDropMimeData(const QMimeData* data, Qt::DropAction, int, int, const QModelIndex& parent) const {
-  return parent.isValid() && data->hasFormat(QLatin1String(kRowsMime));
+  if (data->hasFormat(QLatin1String(kRowsMime))) return parent.isValid();
+  return isBody(parent) && !parent.data(outline::kLocked).toBool() && carriesMaterial(*data);
 }
 
 /// The document moves them, and the rows are made anew: nothing is left for the view to do.
 bool OutlinerModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,
                                  const QModelIndex& parent) {
   if (!canDropMimeData(data, action, row, column, parent)) return false;
+  if (!data->hasFormat(QLatin1String(kRowsMime))) {
+    Q_EMIT materialDropped(*data, parent.data(outline::kId).toString().toStdString());
+    return false;
+  }
   QByteArray bytes = data->data(QLatin1String(kRowsMime));
   QDataStream stream(&bytes, QIODevice::ReadOnly);
   std::vector<SelectedItem> rows;
@@ -53,7 +64,12 @@ bool OutlinerModel::dropMimeData(const QMimeData* data, Qt::DropAction action, i
     stream >> kind >> id;
     rows.push_back({static_cast<OutlineKind>(kind), id.toStdString()});
   }
-  Q_EMIT dropped(rows, parent, row);
+  // A body holds no rows: what is dropped on it comes to stand before it.
+  if (isBody(parent)) {
+    Q_EMIT dropped(rows, parent.parent(), parent.row());
+  } else {
+    Q_EMIT dropped(rows, parent, row);
+  }
   return false;
 }
 

@@ -24,6 +24,7 @@ class OutlinerModel : public QStandardItemModel {
                     const QModelIndex& parent) override;
 
  Q_SIGNALS:
+  void materialDropped(const QMimeData& data, const std::string& body);
   void dropped(const std::vector<ps::SelectedItem>& rows, const QModelIndex& parent, int row);
 };
 

@@ -5,6 +5,7 @@
 #include "ui/session/session.h"
 #include "ui/window/actions.h"
 #include "ui/window/filenames.h"
+#include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
 #include <QtGui/QAction>
@@ -24,16 +25,31 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
       m_page(new LibraryPage(m_library, session, selection)) {
   centre.addWidget(m_page);
   connect(m_page, &LibraryPage::closeRequested, this, [&centre, &scene] { centre.setCurrentWidget(&scene); });
+  connect(m_page, &LibraryPage::carrying, this, [&centre, &scene] { centre.setCurrentWidget(&scene); });
+  connect(m_page, &LibraryPage::broughtBack, this, [this] { m_centre.setCurrentWidget(m_page); });
   connect(m_page, &LibraryPage::importWanted, this, &LibraryActions::chooseImport);
   connect(m_page, &LibraryPage::exportWanted, this, &LibraryActions::chooseExport);
   connect(&m_library, &MaterialLibrary::said, this, [&notices](bool failed, const QString& text) {
     notices.message(failed ? MessageLevel::Warning : MessageLevel::Ok, QStringLiteral("Materials"), text);
   });
+  connect(&m_library, &MaterialLibrary::waitingChanged, this, [this, &notices] { offerWaiting(notices.bar()); });
 }
 
 void LibraryActions::addTo(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {},
                 [this] { m_centre.setCurrentWidget(m_page); });
+}
+
+/// The scene's own matter changes when somebody says so.
+void LibraryActions::offerWaiting(NoticeBar& bar) {
+  const QString topic = QStringLiteral("materials on disk");
+  const QStringList labels = m_library.waiting();
+  if (labels.isEmpty()) return bar.close(topic);
+  bar.show(topic, MessageLevel::Info,
+           labels.size() == 1 ? QStringLiteral("“%1” has changed on disk.").arg(labels.front())
+                              : QStringLiteral("%1 materials have changed on disk.").arg(labels.size()),
+           QStringLiteral("The scene goes on with the values that it began with, values of its own stay in any case."),
+           {{QStringLiteral("Take the new ones and reset"), [this] { m_library.takeWaiting(); }}});
 }
 
 void LibraryActions::chooseImport() {

@@ -10,6 +10,7 @@ class QStackedWidget;
 namespace ps {
 
 class Actions;
+class NoticeBar;
 class Notices;
 class Selection;
 class Session;
@@ -26,6 +27,7 @@ class LibraryActions : public QObject {
   MaterialLibrary& library() { return m_library; }
 
  private:
+  void offerWaiting(NoticeBar& bar);
   void chooseImport();
   void chooseExport(const LibraryEntry& entry);
   const Actions& m_actions;
