@@ -85,6 +85,7 @@ namespace {
 bool samePlace(const Body& a, const Body& b) { return a.shape == b.shape; }
 bool samePlace(const SceneWall& a, const SceneWall& b) { return a.point == b.point && a.normal == b.normal; }
 bool samePlace(const Probe& a, const Probe& b) { return a == b; }
+bool samePlace(const BodyPins& a, const BodyPins& b) { return a.boxes == b.boxes; }
 
 template <class Item>
 bool sameThings(const std::vector<Item>& a, const std::vector<Item>& b) {
@@ -97,11 +98,11 @@ bool samePlaces(const std::vector<Item>& a, const std::vector<Item>& b) {
 }
 bool samePlaces(const Placement& a, const Placement& b) {
   return samePlaces(a.bodies, b.bodies) && samePlaces(a.emitters, b.emitters) && samePlaces(a.sinks, b.sinks) &&
-         samePlaces(a.walls, b.walls) && samePlaces(a.probes, b.probes);
+         samePlaces(a.walls, b.walls) && samePlaces(a.probes, b.probes) && samePlaces(a.pins, b.pins);
 }
 bool sameThings(const Placement& a, const Placement& b) {
   return sameThings(a.bodies, b.bodies) && sameThings(a.emitters, b.emitters) && sameThings(a.sinks, b.sinks) &&
-         sameThings(a.walls, b.walls) && sameThings(a.probes, b.probes);
+         sameThings(a.walls, b.walls) && sameThings(a.probes, b.probes) && sameThings(a.pins, b.pins);
 }
 }  // namespace
 

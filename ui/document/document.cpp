@@ -25,7 +25,10 @@ Document::Document(QObject* parent) : QObject(parent) {
 }
 Document::~Document() { m_undo.disconnect(this); }
 
-void Document::setPlugins(const PluginRegistry* plugins) { m_plugins = plugins; }
+/// The same once more: its materials are others by now.
+void Document::setPlugins(const PluginRegistry* plugins) {
+  if (std::exchange(m_plugins, plugins) == plugins && plugins) Q_EMIT changed(MaterialsChanged{});
+}
 
 void Document::open(Project project, const QString& path, bool dirty, bool play, const FileStamp& file) {
   if (isDirty()) Q_EMIT replacing();

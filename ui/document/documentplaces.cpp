@@ -26,8 +26,14 @@ std::vector<Item> standing(const std::vector<Item>& all, const std::vector<Item>
   return found;
 }
 
-template <class Item>
-void keepKnown(const std::vector<Item>& all, std::vector<Item>& wanted) {
+std::vector<BodyPins> standing(const std::vector<Body>& all, const std::vector<BodyPins>& wanted) {
+  std::vector<BodyPins> found;
+  for (const BodyPins& pins : wanted) found.push_back({pins.id, at(all, pins.id)->pins});
+  return found;
+}
+
+template <class Known, class Item>
+void keepKnown(const std::vector<Known>& all, std::vector<Item>& wanted) {
   std::erase_if(wanted, [&](const Item& item) { return at(all, item.id) == all.end(); });
 }
 
@@ -52,13 +58,14 @@ void Document::place(Placement after, const QString& title) {
   keepKnown(m_project.sinks, after.sinks);
   keepKnown(m_project.environment.walls, after.walls);
   keepKnown(m_project.probes, after.probes);
+  keepKnown(m_project.bodies, after.pins);
   if (after.empty()) return;
   for (Emitter& emitter : after.emitters) keepWithin(m_project.environment, emitter);
   for (Sink& sink : after.sinks) keepWithin(m_project.environment, sink);
   if (m_gestureDepth == 0) ++m_gesture;
   Placement before{standing(m_project.bodies, after.bodies), standing(m_project.emitters, after.emitters),
-                   standing(m_project.sinks, after.sinks), standing(m_project.environment.walls, after.walls),
-                   standing(m_project.probes, after.probes)};
+                   standing(m_project.sinks, after.sinks),   standing(m_project.environment.walls, after.walls),
+                   standing(m_project.probes, after.probes), standing(m_project.bodies, after.pins)};
   m_undo.push(new PlacementCommand(*this, std::move(before), std::move(after), m_gesture, title));
 }
 
@@ -80,6 +87,10 @@ void Document::applyPlacement(const Placement& to) {
                               valueOf(std::get<SolidShape>(before.shape).parameters, declared)});
     }
     if (move || keys.empty()) notify(BodyChanged{body.id, {}, move});
+  }
+  for (const BodyPins& pins : to.pins) {
+    at(m_project.bodies, pins.id)->pins = pins.boxes;
+    notify(BodyChanged{pins.id, {}, {}});
   }
   for (const Emitter& emitter : to.emitters) {
     *at(m_project.emitters, emitter.id) = emitter;

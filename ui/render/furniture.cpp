@@ -61,7 +61,7 @@ std::vector<Cut> cutsOf(const Environment& environment, size_t except) {
 enum class Role { Floor, Side, Lid };
 Role roleOf(const SceneWall& wall) {
   const double up = wall.normal.normalized()[1];
-  return up > 0.7 ? Role::Floor : up < -0.7 ? Role::Lid : Role::Side;
+  return up > kLevel ? Role::Floor : up < -kLevel ? Role::Lid : Role::Side;
 }
 
 void addFaded(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, double opacityA, double opacityB) {
@@ -73,10 +73,15 @@ void addFaded(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, 
   for (const size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) out.push_back(corners[k]);
 }
 
+/// Where panes end: at a lid, or where they fade out.
+struct Top {
+  double height = 0;  // m
+  bool open = true;   // they fade
+  bool lid = false;   // one is seen
+};
+
 // The edges of a pane from the floor up to a lid, or fading out where the bounds are its only upper end.
-void addPane(Furniture& out, const Face& face, double top, bool open) {
-  Face shown = face;
-  clip(shown, {{{0, -1, 0}, -top}, false});
+void addPane(Furniture& out, const Face& shown, double top, bool open) {
   const size_t n = shown.corners.size();
   if (n < 3) return;
   const auto faded = [&](const Vector3& p) { return open && p[1] > top - 1e-6; };
@@ -115,6 +120,18 @@ void placeFloor(Furniture& out, const Environment& environment) {
   out.size = std::max({2 * out.half[0], 2 * out.half[1], 1e-4f});
 }
 
+Top topOf(const Environment& environment, const Furniture& floor) {
+  Top top{floor.floor + 0.55 * floor.size};
+  for (size_t i = 0; i < environment.walls.size(); ++i) {
+    if (roleOf(environment.walls[i]) != Role::Lid) continue;
+    const Face face = wallFace(environment, i);
+    for (const Vector3& p : face.corners) top.height = top.open ? p[1] : std::max(top.height, p[1]), top.open = false;
+    top.lid = top.lid || !face.corners.empty();
+  }
+  if (top.open) top.height = std::min(top.height, environment.boundsMaximum[1]);
+  return top;
+}
+
 }  // namespace
 
 void addEdge(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, double opacity) {
@@ -144,6 +161,15 @@ Face wallFace(const Environment& environment, size_t wall) {
   return face.corners.size() >= 3 ? face : Face{};
 }
 
+Face seenFace(const Environment& environment, size_t wall) {
+  Face face = wallFace(environment, wall);
+  if (face.corners.empty() || roleOf(environment.walls[wall]) != Role::Side) return face;
+  Furniture floor;
+  placeFloor(floor, environment);
+  clip(face, {{{0, -1, 0}, -topOf(environment, floor).height}, false});
+  return face.corners.size() >= 3 ? face : Face{};
+}
+
 bool sameFurniture(const Environment& a, const Environment& b) {
   return a.boundsMinimum == b.boundsMinimum && a.boundsMaximum == b.boundsMaximum &&
          std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(),
@@ -157,19 +183,12 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   placeFloor(out, environment);
   const double size = out.size, thickness = 0.065 * size, margin = 0.07 * size;
   out.ground = out.floor - static_cast<float>(out.hasFloor ? thickness + 0.035 * size : 0.02 * size);
-  double top = out.floor + 0.55 * size;
-  bool open = true;
-  for (size_t i = 0; i < environment.walls.size(); ++i)
-    if (roleOf(environment.walls[i]) == Role::Lid) {
-      const Face face = wallFace(environment, i);
-      for (const Vector3& p : face.corners) top = open ? p[1] : std::max(top, p[1]), open = false;
-      out.hasLid = out.hasLid || !face.corners.empty();
-    }
-  if (open) top = std::min(top, environment.boundsMaximum[1]);
-  out.lidHeight = static_cast<float>(top);
+  const Top top = topOf(environment, out);
+  out.hasLid = top.lid;
+  out.lidHeight = static_cast<float>(top.height);
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
-    const Face face = wallFace(environment, i);
+    const Face face = seenFace(environment, i);
     if (face.corners.empty()) continue;
     const Vector3 normal = environment.walls[i].normal.normalized();
     switch (roleOf(environment.walls[i])) {
@@ -188,7 +207,7 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
                 with(lid, 0.16), with(lid, 0.22));
         break;
       case Role::Side:
-        addPane(out, face, top, open);
+        addPane(out, face, top.height, top.open);
         break;
     }
   }

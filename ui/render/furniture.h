@@ -29,6 +29,10 @@ struct Face {
 /// The part of a wall that faces the scene: its plane within the bounds and the other walls. Empty where nothing is
 /// left.
 Face wallFace(const Environment& environment, size_t wall);
+/// What is shown of that: sides end at a lid, or fade out somewhat above the floor.
+Face seenFace(const Environment& environment, size_t wall);
+/// How much of its normal a wall has upwards or downwards at least to be drawn as a plate: 45 degrees.
+inline constexpr double kLevel = 0.7;
 
 /// What stands around the particles, as triangles. Built anew when the environment changes.
 struct Furniture {

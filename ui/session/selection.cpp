@@ -2,6 +2,7 @@
 #include "ui/session/selection.h"
 
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 
 #include <algorithm>
 #include <iterator>
@@ -93,6 +94,8 @@ bool Selection::isThere(const SelectedItem& item) const {
       return m_document.wall(item.id) != nullptr;
     case OutlineKind::Probe:
       return m_document.probe(item.id) != nullptr;
+    case OutlineKind::Pin:
+      return findPin(m_document.project(), item.id) != nullptr;
     default:
       return true;
   }

@@ -16,7 +16,8 @@ namespace ps {
 class Document;
 
 /// What can be selected: rows of the outliner.
-enum class OutlineKind { Scene, Group, Body, Emitter, Sink, Wall, Probes, Probe, Environment };
+/// Pins have no row, they are selected in the view; their id is a PinAddress.
+enum class OutlineKind { Scene, Group, Body, Emitter, Sink, Wall, Probes, Probe, Environment, Pin };
 
 /// One thing that is selected.
 struct SelectedItem {

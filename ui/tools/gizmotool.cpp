@@ -51,6 +51,11 @@ QString valueText(Kind kind, const GizmoDrag& dragged, bool hasAmount) {
   return QStringLiteral("× ") + formatFixed(dragged.amount, 3);
 }
 
+QString pinsName(const Document& document, const BodyPins& pins) {
+  const QString body = nameOf(*document.body(pins.id));
+  return pins.chosen.size() == 1 ? QStringLiteral("a pin of %1").arg(body) : QStringLiteral("pins of %1").arg(body);
+}
+
 QString labelOf(const GizmoPart& part, Kind kind) {
   constexpr const char *kAxes[] = {"X", "Y", "Z"}, *kPlanes[] = {"YZ", "XZ", "XY"};
   if (part.kind == GizmoPart::Kind::Middle) return kind == Kind::Scale ? QStringLiteral("All") : QString();
@@ -134,13 +139,14 @@ void GizmoTool::apply(GizmoDrag dragged) {
   }
   m_dragged = dragged;
   const size_t count = m_before.bodies.size() + m_before.emitters.size() + m_before.sinks.size() +
-                       m_before.walls.size() + m_before.probes.size();
+                       m_before.walls.size() + m_before.probes.size() + m_before.pins.size();
   const QString name = count > 1                    ? QStringLiteral("%1 things").arg(count)
                        : !m_before.bodies.empty()   ? nameOf(m_before.bodies[0])
                        : !m_before.emitters.empty() ? nameOf(m_before.emitters[0])
                        : !m_before.sinks.empty()    ? nameOf(m_before.sinks[0])
                        : !m_before.walls.empty()    ? nameOf(m_before.walls[0])
-                                                    : nameOf(m_before.probes[0]);
+                       : !m_before.probes.empty()   ? nameOf(m_before.probes[0])
+                                                    : pinsName(box().document(), m_before.pins[0]);
   const Gizmo& handles = m_grip->gizmo();
   Placement after;
   if (m_kind == Kind::Move) {
@@ -223,11 +229,16 @@ ToolPicture GizmoTool::picture() const {
   const Placeable things = selected();
   GizmoPicture shown;
   shown.note = things.note;
-  const auto isBody = [](const auto& item) { return item.first.kind == OutlineKind::Body; };
-  if (m_kind == Kind::Scale && std::any_of(things.items.begin(), things.items.end(), isBody)) {
+  const auto any = [&](OutlineKind kind) {
+    return std::any_of(things.items.begin(), things.items.end(),
+                       [&](const auto& item) { return item.first.kind == kind; });
+  };
+  const auto wait = [&](const QString& what) {
     if (!shown.note.isEmpty()) shown.note.prepend(QStringLiteral(". "));
-    shown.note.prepend(QStringLiteral("Sizes of bodies act at the next reset"));
-  }
+    shown.note.prepend(what);
+  };
+  if (any(OutlineKind::Pin)) wait(QStringLiteral("Pins act at the next reset"));
+  if (m_kind == Kind::Scale && any(OutlineKind::Body)) wait(QStringLiteral("Sizes of bodies act at the next reset"));
   shown.gizmo = gizmo(things);
   shown.hovered = m_hovered;
   if (m_grip) {

@@ -5,6 +5,7 @@
 #include "core/scene/solidform.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 
 #include <algorithm>
 
@@ -54,6 +55,10 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
     to.add(item, probe->region ? middleOf(*probe->region) : Vector3(Vector3::Zero()), nameOf(*probe),
            !probe->region ? QStringLiteral("it measures wherever its matter is")
                           : unless(kind == Kind::Rotate, "its box stands along the axes"));
+  } else if (const Region* pin = item.kind == OutlineKind::Pin ? findPin(document.project(), item.id) : nullptr) {
+    const Body& held = *document.body(PinAddress::parse(item.id)->body);
+    to.add(item, middleOf(*pin), QStringLiteral("Pin of %1").arg(nameOf(held)),
+           held.locked ? QStringLiteral("locked") : unless(kind == Kind::Rotate, "a pin stands along the axes"));
   }
 }
 
@@ -66,6 +71,14 @@ void chooseAxes(Placeable& out, const Document& document) {
     out.along = out.items.size() == 1;
     if (out.along) out.axes = SolidForm(*solid).axes();
   }
+}
+
+/// Adds a pin to those of its body that are meant.
+void choose(std::vector<BodyPins>& all, const Document& document, const PinAddress& pin) {
+  const auto same = [&](const BodyPins& pins) { return pins.id == pin.body; };
+  auto found = std::find_if(all.begin(), all.end(), same);
+  if (found == all.end()) found = all.insert(all.end(), {pin.body, document.body(pin.body)->pins});
+  found->chosen.push_back(pin.index);
 }
 
 template <class Box>
@@ -107,7 +120,14 @@ Placeable placeable(const Document& document, const std::vector<SelectedItem>& s
                     const MatterPlaces& matter) {
   Placeable out;
   Collector collector{out, {}};
-  for (const SelectedItem& item : selected) collect(collector, document, item, kind, matter);
+  const auto goesWithItsBody = [&](const SelectedItem& item) {  // what moves goes along as it is
+    const auto pin = item.kind == OutlineKind::Pin ? PinAddress::parse(item.id) : std::nullopt;
+    return pin &&
+           std::find(selected.begin(), selected.end(), SelectedItem{OutlineKind::Body, pin->body}) != selected.end();
+  };
+  for (const SelectedItem& item : selected) {
+    if (!goesWithItsBody(item)) collect(collector, document, item, kind, matter);
+  }
   if (kind == Kind::Scale) chooseAxes(out, document);
   constexpr int kMost = 2;
   if (collector.notes.size() > kMost) {
@@ -127,6 +147,7 @@ Placement placementOf(const Document& document, const Placeable& placeable) {
     if (item.kind == OutlineKind::Sink) things.sinks.push_back(*document.sink(item.id));
     if (item.kind == OutlineKind::Wall) things.walls.push_back(*document.wall(item.id));
     if (item.kind == OutlineKind::Probe) things.probes.push_back(*document.probe(item.id));
+    if (item.kind == OutlineKind::Pin) choose(things.pins, document, *PinAddress::parse(item.id));
   }
   return things;
 }
@@ -141,6 +162,9 @@ Placement shifted(Placement things, const Vector3& way) {
   for (SceneWall& wall : things.walls) wall.point += way;
   for (Probe& probe : things.probes) {
     if (probe.region) probe.region->minimum += way, probe.region->maximum += way;
+  }
+  for (BodyPins& pins : things.pins) {
+    for (const size_t k : pins.chosen) pins.boxes[k].minimum += way, pins.boxes[k].maximum += way;
   }
   return things;
 }
@@ -171,6 +195,9 @@ Placement stretched(Placement things, const Vector3& factors) {
   for (Sink& sink : things.sinks) stretch(sink, factors);
   for (Probe& probe : things.probes) {
     if (probe.region) stretch(*probe.region, factors);
+  }
+  for (BodyPins& pins : things.pins) {
+    for (const size_t k : pins.chosen) stretch(pins.boxes[k], factors);
   }
   return things;
 }

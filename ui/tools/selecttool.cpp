@@ -2,14 +2,27 @@
 #include "ui/tools/selecttool.h"
 
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
 #include "ui/tools/aim.h"
+#include "ui/tools/picking.h"
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
 
 namespace ps {
+
+void SelectTool::hover(const Pointer& pointer) {
+  m_handles.hover(pointer);
+  const auto pick = pickAt(box().document().project(), box().selection().items(), pointer);
+  m_hovered = pick && pick->byLine ? std::optional(pick->item) : std::nullopt;
+}
+
+void SelectTool::leave() {
+  m_handles.leave();
+  m_hovered.reset();
+}
 
 bool SelectTool::press(const Pointer& pointer) {
   if (!pointer.control) return m_handles.press(pointer);
@@ -81,6 +94,11 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
 void SelectTool::click(const Pointer& pointer) {
   Selection& selection = box().selection();
   const bool adds = pointer.shift || pointer.control;
+  const auto pick = pickAt(box().document().project(), selection.items(), pointer);
+  if (pick) {
+    if (adds) return selection.toggle(pick->item.kind, pick->item.id);
+    return selection.select(pick->item.kind, pick->item.id);
+  }
   const auto hit = pointer.scene ? pickParticle(*pointer.scene, pointer.ray) : std::nullopt;
   if (!hit) {
     if (!adds) selection.clear();
@@ -102,8 +120,27 @@ void SelectTool::click(const Pointer& pointer) {
   selection.mark(scene.revision, scene.id[*hit]);
 }
 
+/// Of walls that are selected or pointed at, and of pins.
+std::vector<Wire> SelectTool::wires() const {
+  const Project& project = box().document().project();
+  const Selection& selection = box().selection();
+  std::vector<Wire> list;
+  const auto add = [&](const SelectedItem& item, Lines lines, bool dashed) {
+    list.push_back({std::move(lines), selection.has(item.kind, item.id), m_hovered == item, dashed});
+  };
+  const Environment& scene = project.environment;
+  for (size_t k = 0; k < scene.walls.size(); ++k) {
+    const SelectedItem item{OutlineKind::Wall, scene.walls[k].id};
+    if (selection.has(item.kind, item.id) || m_hovered == item) add(item, wallLines(scene, k), false);
+  }
+  for (const SelectedItem& pin : shownPins(project, selection.items()))
+    add(pin, boxLines(*findPin(project, pin.id)), true);
+  return list;
+}
+
 ToolPicture SelectTool::picture() const {
   ToolPicture picture = m_handles.picture();
+  picture.wires = wires();
   if (m_opposite) {
     const Ray &from = m_corner->ray, &to = m_opposite->ray;
     picture.frame.emplace(from.origin + from.direction, to.origin + to.direction);
@@ -112,10 +149,11 @@ ToolPicture SelectTool::picture() const {
 }
 
 std::vector<Gesture> SelectTool::gestures() const {
-  std::vector<Gesture> list{
-      {QStringLiteral("Click"), QStringLiteral("Select the body, tap or drain, and tell the temperature"), {}},
-      {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
-      {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
+  std::vector<Gesture> list{{QStringLiteral("Click"),
+                             QStringLiteral("Select the body, tap, drain, wall or pin, and tell the temperature"),
+                             {}},
+                            {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
+                            {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
   for (Gesture& gesture : m_handles.gestures()) list.push_back(std::move(gesture));
   return list;
 }

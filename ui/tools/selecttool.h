@@ -7,18 +7,18 @@
 
 namespace ps {
 
-/// Selects what is clicked and tells how warm it is there; takes hold of taps and drains. With Shift one more, with
-/// Ctrl whatever lies in a frame that is drawn. Whatever else is dragged turns the view.
+/// Selects what is clicked and tells how warm it is there, walls and pins too; takes hold of taps and drains. With
+/// Shift one more, with Ctrl whatever lies in a frame that is drawn. Whatever else is dragged turns the view.
 class SelectTool final : public Tool {
  public:
   explicit SelectTool(Toolbox& box) : Tool(box), m_handles(box) {}
-  void hover(const Pointer& pointer) override { m_handles.hover(pointer); }
+  void hover(const Pointer& pointer) override;
   bool press(const Pointer& pointer) override;
   void drag(const Pointer& pointer) override;
   void release(const Pointer& pointer) override;
   void click(const Pointer& pointer) override;
   bool cancel() override;
-  void leave() override { m_handles.leave(); }
+  void leave() override;
   ToolPicture picture() const override;
   QString words() const override { return QStringLiteral("Select and orbit"); }
   std::vector<Gesture> gestures() const override;
@@ -28,7 +28,9 @@ class SelectTool final : public Tool {
  private:
   /// What of the scene is seen within the frame.
   std::vector<SelectedItem> framed(const Pointer& to) const;
+  std::vector<Wire> wires() const;
   HandleTool m_handles;
+  std::optional<SelectedItem> m_hovered;        ///< that has no matter, at one of its edges
   std::optional<Pointer> m_corner, m_opposite;  ///< of the frame that is drawn
 };
 

@@ -28,7 +28,7 @@ struct Pointer {
   double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
   double seconds = 0;         ///< on any clock that runs on
   bool shift = false, control = false, alt = false;
-  SnapshotPtr scene;                ///< as the view shows it; nullptr: nothing yet
+  SnapshotPtr scene;  ///< as the view shows it; nullptr: nothing yet
 };
 
 /// The brush under the pointer.
@@ -66,6 +66,13 @@ struct GizmoPicture {
 /// What the pointer itself looks like.
 enum class PointerShape { Arrow, Cross, Hidden, Move, Take };
 
+/// The outline of something without matter: a wall, a box that pins.
+struct Wire {
+  std::vector<std::pair<Vector3, Vector3>> lines;  ///< m
+  bool selected = false, hovered = false;
+  bool dashed = false;  ///< it is no surface that anything meets
+};
+
 /// What a view should draw of a tool.
 struct ToolPicture {
   PointerShape pointer = PointerShape::Arrow;
@@ -73,6 +80,7 @@ struct ToolPicture {
   std::vector<Emitter> emitters;  ///< that would be put there
   std::vector<Sink> sinks;
   std::optional<Port> hovered;  ///< would be taken hold of
+  std::vector<Wire> wires;
   std::optional<GizmoPicture> gizmo;
   std::optional<std::pair<Vector3, Vector3>> frame;  ///< opposite corners of one that is drawn, as they are seen
 };

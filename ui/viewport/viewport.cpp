@@ -57,6 +57,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
       m_tools(tools) {
   installViewportAccessibility();
   setMouseTracking(true);
+  setAcceptDrops(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(480, 300);
   setAccessibleName(QStringLiteral("Scene"));

@@ -58,6 +58,9 @@ class Viewport : public QOpenGLWidget {
   /// Of the picture that was drawn last, without what is selected or compared.
   Look shownLook() const;
   const std::set<std::string>& hiddenBodies() const { return m_hidden; }
+  /// The body that a dragged material would be dropped on, which has the line around it meanwhile; "" where there is
+  /// none.
+  const std::string& dropTarget() const { return m_dropTarget; }
   /// Tool, brush and what is marked, in words: what a screen reader says.
   QString summary() const;
   /// What the strip of hints says.
@@ -82,6 +85,10 @@ class Viewport : public QOpenGLWidget {
   void tabletEvent(QTabletEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dragMoveEvent(QDragMoveEvent* event) override;
+  void dragLeaveEvent(QDragLeaveEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
@@ -107,6 +114,9 @@ class Viewport : public QOpenGLWidget {
   std::optional<std::pair<Vector3, Vector3>> boxAround(const Port& port) const;
   void announce();  ///< tells assistive technology of another summary()
   void storeView();
+  // viewportdrops.cpp
+  std::string bodyForMaterial(const QPointF& position) const;
+  void setDropTarget(const std::string& body);
   // viewportinput.cpp
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
   std::optional<MouseBinding> bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const;
@@ -137,6 +147,7 @@ class Viewport : public QOpenGLWidget {
   /// The project that was opened has no camera of its own, and snapshots of this revision are of the one before.
   std::optional<uint64_t> m_unframed;
   std::set<std::string> m_hidden;
+  std::string m_dropTarget;
 
   ViewNavigator m_navigator;
   Navigation m_navigation{m_navigator};

@@ -56,12 +56,13 @@ Look Viewport::shownLook() const {
   return look;
 }
 
-/// Around the selected bodies, two logical pixels wide.
+/// Around the selected bodies, or the one that a material is about to be dropped on; two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
   if (!m_now || !m_now->bodyIds) return std::nullopt;
   BodyOutline outline;
   for (uint32_t k = 0; k < m_now->bodyIds->size(); ++k) {
-    if (m_selection.has(OutlineKind::Body, (*m_now->bodyIds)[k])) outline.bodies.push_back(k);
+    const std::string& id = (*m_now->bodyIds)[k];
+    if (m_dropTarget.empty() ? m_selection.has(OutlineKind::Body, id) : id == m_dropTarget) outline.bodies.push_back(k);
   }
   if (outline.bodies.empty()) return std::nullopt;
   outline.colour = channels(Theme::current()[Token::Accent]);

@@ -55,6 +55,8 @@ void PageChooser::onSelection() {
     case OutlineKind::Group:
       m_layout.showPage(kScene);
       break;
+    case OutlineKind::Pin:  // its body's rows say nothing of it
+      break;
     case OutlineKind::Probe:
       m_layout.showPage(kBody);
       [[fallthrough]];

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has no matter is picked where it is seen: walls, and pins, which are put elsewhere by the handles.
+#include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
+#include "ui/session/selection.h"
+#include "ui/tools/picking.h"
+#include "ui/tools/placing.h"
+#include "ui/tools/selecttool.h"
+#include "ui/tools/toolbox.h"
+
+#include <QtGui/QUndoStack>
+#include <QtTest/QTest>
+
+#include <memory>
+
+using namespace ps;
+
+namespace {
+
+const SelectedItem kRope{OutlineKind::Body, "rope"}, kPin{OutlineKind::Pin, "rope/1"};
+const SelectedItem kFloor{OutlineKind::Wall, "floor"}, kSide{OutlineKind::Wall, "side"};
+
+/// From above and in front, at a place of the scene.
+Pointer at(const Vector3& place) {
+  Pointer pointer;
+  pointer.ray.origin = Vector3(0.1, 1, 1);
+  pointer.ray.direction = (place - pointer.ray.origin).normalized();
+  return pointer;
+}
+
+/// A body with two pins over a floor, beside an upright wall.
+Project scene() {
+  Project project;
+  Environment& around = project.environment;
+  around.boundsMinimum = Vector3(-0.5, 0, -0.5), around.boundsMaximum = Vector3(0.5, 1, 0.5);
+  SceneWall floor, side;
+  floor.id = "floor", floor.normal = Vector3(0, 2, 0);
+  side.id = "side", side.point = Vector3(-0.5, 0, 0), side.normal = Vector3(1, 0, 0);
+  around.walls = {floor, side};
+  Body rope;
+  rope.id = "rope";
+  Region left, right;
+  left.minimum = Vector3(-0.3, 0.5, 0), left.maximum = Vector3(-0.2, 0.6, 0.1);
+  right.minimum = Vector3(0.2, 0.5, 0), right.maximum = Vector3(0.3, 0.6, 0.1);
+  rope.pins = {left, right};
+  project.bodies = {rope};
+  return project;
+}
+
+std::optional<SelectedItem> picked(const Project& project, const std::vector<SelectedItem>& selected,
+                                   const Vector3& place) {
+  const auto pick = pickAt(project, selected, at(place));
+  return pick ? std::optional(pick->item) : std::nullopt;
+}
+
+}  // namespace
+
+class TestPicking : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void init() {
+    m_document = std::make_unique<Document>();
+    m_document->open(scene(), {});
+    m_selection = std::make_unique<Selection>(*m_document);
+  }
+
+  /// A floor by its face, a side by its edges alone: one looks through it.
+  void wallsArePickedAsTheyAreDrawn() {
+    const Project project = scene();
+    QVERIFY(picked(project, {}, {0.3, 0, 0.2}) == kFloor);
+    QVERIFY(!picked(project, {}, {3, 0, 0.2}));
+    const Lines edges = wallLines(project.environment, 1);
+    QCOMPARE(edges.size(), size_t{4});
+    double highest = 0;
+    for (const auto& [from, to] : edges) highest = std::max({highest, from.y(), to.y()});
+    const Vector3 inside(-0.5, highest / 2, 0);
+    QVERIFY(highest > 0 && picked(project, {}, inside) != kSide);
+    const auto edge = pickAt(project, {}, at({-0.5, highest / 2, 0.5}));
+    QVERIFY(edge && edge->item == kSide && edge->byLine);
+  }
+
+  /// Pins show while their body is selected, or one of them; they come before a wall behind them.
+  void pinsArePickedOfWhatIsSelected() {
+    Project project = scene();
+    const Vector3 corner = project.bodies[0].pins[1].maximum;
+    QVERIFY(picked(project, {}, corner) != kPin);
+    QVERIFY(picked(project, {kRope}, corner) == kPin);
+    QVERIFY(picked(project, {{OutlineKind::Pin, "rope/0"}}, corner) == kPin);
+    project.bodies[0].visible = false;
+    QVERIFY(picked(project, {kRope}, corner) != kPin);
+  }
+
+  void addressesNamePinsThatAreThere() {
+    const Project project = scene();
+    QVERIFY(findPin(project, "rope/1") == &project.bodies[0].pins[1]);
+    for (const char* none : {"rope/2", "rope", "rope/", "rope/1x", "rope/-1", "cord/0", ""})
+      QVERIFY2(!findPin(project, none), none);
+  }
+
+  /// One step each, that pin alone; with its body it goes as that does.
+  void handlesPutPinsElsewhere() {
+    const Region first = pins()[0], second = pins()[1];
+    const Placeable one = placeable(*m_document, {kPin}, Gizmo::Kind::Move, {});
+    QCOMPARE(one.items.size(), size_t{1});
+    QVERIFY((one.middle() - 0.5 * (second.minimum + second.maximum)).norm() < 1e-12);
+    m_document->place(shifted(placementOf(*m_document, one), {0, 0.1, 0}), QStringLiteral("moving"));
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QVERIFY((pins()[1].minimum - second.minimum - Vector3(0, 0.1, 0)).norm() < 1e-12);
+    QVERIFY(pins()[0].minimum == first.minimum);
+    m_document->undoStack().undo();
+    QVERIFY(pins()[1].minimum == second.minimum && pins()[1].maximum == second.maximum);
+    m_document->place(stretched(placementOf(*m_document, one), {2, 1, 1}), QStringLiteral("scaling"));
+    QVERIFY(std::abs(pins()[1].maximum.x() - pins()[1].minimum.x() - 0.2) < 1e-12);
+    QVERIFY(placeable(*m_document, {kPin}, Gizmo::Kind::Rotate, {}).items.empty());
+    const Placeable both = placeable(*m_document, {kRope, kPin}, Gizmo::Kind::Move, {});
+    QVERIFY(std::none_of(both.items.begin(), both.items.end(),
+                         [](const auto& item) { return item.first.kind == OutlineKind::Pin; }));
+  }
+
+  /// By the tool: a click on a floor selects it, on nothing nothing; what is selected is outlined.
+  void aClickSelects() {
+    Toolbox tools(*m_document, *m_selection);
+    SelectTool tool(tools);
+    tool.click(at({0.3, 0, 0.2}));
+    QVERIFY(m_selection->has(OutlineKind::Wall, "floor"));
+    QCOMPARE(tool.picture().wires.size(), size_t{1});
+    QVERIFY(tool.picture().wires[0].selected);
+    m_selection->select(OutlineKind::Body, "rope");
+    QCOMPARE(tool.picture().wires.size(), size_t{2});
+    Pointer adding = at(pins()[1].maximum);
+    tool.hover(adding);
+    QVERIFY(tool.picture().wires[1].hovered && !tool.picture().wires[0].hovered);
+    tool.click(adding);
+    QVERIFY(m_selection->has(OutlineKind::Pin, "rope/1") && !m_selection->has(OutlineKind::Body, "rope"));
+    tool.click(at({3, 0, 0.2}));
+    QVERIFY(m_selection->empty());
+  }
+
+ private:
+  const std::vector<Region>& pins() const { return m_document->project().bodies[0].pins; }
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<Selection> m_selection;
+};
+
+QTEST_GUILESS_MAIN(TestPicking)
+#include "tst_picking.moc"

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/picking.h"
+
+#include "ui/document/pinaddress.h"
+#include "ui/render/furniture.h"
+#include "ui/tools/aim.h"
+#include "ui/tools/surface.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+
+namespace ps {
+namespace {
+
+constexpr double kReach = 7;  // units of fineness around a line that take hold of it
+
+bool has(const std::vector<SelectedItem>& items, const SelectedItem& item) {
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
+double distanceOf(const Pointer& pointer, const Lines& lines) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [from, to] : lines) least = std::min(least, aimDistance(pointer, from, to));
+  return least;
+}
+
+/// m along the ray to the face of a wall that looks at the viewer; infinite where it is missed.
+double depthOf(const Pointer& pointer, const SceneWall& wall, const render::Face& face) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const Vector3 normal = wall.normal.normalized();
+  const double against = -pointer.ray.direction.dot(normal);
+  if (!(against > 0) || face.corners.size() < 3) return kNone;
+  const double depth = (pointer.ray.origin - wall.point).dot(normal) / against;
+  const Vector3 at = pointer.ray.origin + depth * pointer.ray.direction;
+  for (size_t i = 0; i < face.corners.size(); ++i) {
+    const Vector3 &a = face.corners[i], &b = face.corners[(i + 1) % face.corners.size()];
+    if ((b - a).cross(at - a).dot(normal) < 0) return kNone;
+  }
+  return depth > 0 ? depth : kNone;
+}
+
+/// Floors and lids are drawn as plates, sides as the edges of panes.
+bool isPlate(const SceneWall& wall) { return std::abs(wall.normal.normalized().y()) > render::kLevel; }
+
+std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointer) {
+  std::optional<Pick> onLine, onFace;
+  double line = kReach, depth = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < environment.walls.size(); ++k) {
+    const SceneWall& wall = environment.walls[k];
+    const render::Face face = render::seenFace(environment, k);
+    const double near = distanceOf(pointer, wallLines(environment, k));
+    const double far = isPlate(wall) ? depthOf(pointer, wall, face) : std::numeric_limits<double>::infinity();
+    if (near < line) line = near, onLine = Pick{{OutlineKind::Wall, wall.id}, true};
+    if (far < depth) depth = far, onFace = Pick{{OutlineKind::Wall, wall.id}, false};
+  }
+  if (!onLine && !onFace) return std::nullopt;
+  if (matterOn(pointer)) return std::nullopt;
+  return onLine ? onLine : onFace;
+}
+
+}  // namespace
+
+Lines wallLines(const Environment& environment, size_t wall) {
+  const render::Face face = render::seenFace(environment, wall);
+  Lines lines;
+  for (size_t i = 0; i < face.corners.size(); ++i)
+    lines.emplace_back(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
+  return lines;
+}
+
+Lines boxLines(const Region& box) {
+  const auto corner = [&](int k) {
+    Vector3 p;
+    for (int a = 0; a < 3; ++a) p[a] = k >> a & 1 ? box.maximum[a] : box.minimum[a];
+    return p;
+  };
+  Lines lines;
+  for (int k = 0; k < 8; ++k) {
+    for (int bit = 1; bit < 8; bit *= 2) {
+      if (!(k & bit)) lines.emplace_back(corner(k), corner(k | bit));
+    }
+  }
+  return lines;
+}
+
+std::vector<SelectedItem> shownPins(const Project& project, const std::vector<SelectedItem>& selected) {
+  std::vector<SelectedItem> pins;
+  for (const Body& body : project.bodies) {
+    std::vector<SelectedItem> own;
+    for (size_t k = 0; k < body.pins.size(); ++k) own.push_back({OutlineKind::Pin, PinAddress{body.id, k}.text()});
+    const bool shown = has(selected, {OutlineKind::Body, body.id}) ||
+                       std::any_of(own.begin(), own.end(), [&](const SelectedItem& pin) { return has(selected, pin); });
+    if (shown && body.visible) pins.insert(pins.end(), own.begin(), own.end());
+  }
+  return pins;
+}
+
+std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedItem>& selected, const Pointer& pointer) {
+  std::optional<Pick> found;
+  double least = kReach;
+  for (const SelectedItem& pin : shownPins(project, selected)) {
+    const double near = distanceOf(pointer, boxLines(*findPin(project, pin.id)));
+    if (near < least) least = near, found = Pick{pin, true};
+  }
+  return found ? found : wallAt(project.environment, pointer);
+}
+
+}  // namespace ps

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/session/selection.h"
+#include "ui/tools/tool.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ps {
+
+/// What can be picked that has no matter: walls, and pins of bodies that are selected. Pure: no picture, no document.
+
+using Lines = std::vector<std::pair<Vector3, Vector3>>;
+
+/// The edges of a wall as it is seen, m; none where nothing of it is.
+Lines wallLines(const Environment& environment, size_t wall);
+Lines boxLines(const Region& box);
+
+/// Something that lies under a pointer.
+struct Pick {
+  SelectedItem item;
+  bool byLine = false;  ///< at one of its edges, not on its face
+};
+/// Pins first, then edges of walls, then floors and lids by the face that one sees; matter in front of a wall hides it.
+/// Sides are looked through, as they are drawn.
+std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedItem>& selected, const Pointer& pointer);
+/// The pins of bodies that are selected, or of which one is.
+std::vector<SelectedItem> shownPins(const Project& project, const std::vector<SelectedItem>& selected);
+
+}  // namespace ps
