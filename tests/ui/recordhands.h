@@ -42,6 +42,7 @@ inline void branchAt(MainWindow& window, uint64_t frame, uint64_t until) {
   QTRY_COMPARE_WITH_TIMEOUT(session.recorded().earlier().size(), runs + 1, kLong);
   QTRY_VERIFY_WITH_TIMEOUT(!session.recorded().isActive(), kLong);  // the window has heard of it
   session.pause();
+  hashNow(session);  // the frame that it was at is done
   while (session.newest()->stats.frame < until) {
     stepKept(session);
   }
