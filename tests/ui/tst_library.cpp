@@ -175,7 +175,7 @@ class TestLibrary : public SampleWindowTest {
   /// A preset is carried whole, with its values.
   void aPresetIsDroppedInTheView() {
     SceneMaterial preset;
-    preset.base = "wax";
+    preset.id = preset.base = "wax";
     preset.label = "Stiff wax";
     preset.properties.values["youngs_modulus"] = Response(3e6);
     QMimeData data, broken;

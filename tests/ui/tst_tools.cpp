@@ -527,7 +527,10 @@ class TestTools : public QObject {
     m_tools->tool().click(at({0, 0, 0}, scene));
     QCOMPARE(m_selection->body(), std::string("ice"));
     QCOMPARE(m_selection->marked(), (std::pair<uint64_t, uint32_t>{7, 42}));
-    m_tools->tool().click(at({0.2, 0, 0}, scene));
+    m_tools->tool().click(at({0.2, 0, 0}, scene));  // the floor
+    QVERIFY(!m_selection->marked());
+    QVERIFY(m_selection->items().size() == 1 && m_selection->items().front().kind == OutlineKind::Wall);
+    m_tools->tool().click(at({0.2, 2, 0}, scene));  // the sky
     QVERIFY(m_selection->empty() && !m_selection->marked());
   }
 

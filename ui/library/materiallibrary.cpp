@@ -76,6 +76,16 @@ QString readAgain(const QString& label, const QString& path) {
   return QStringLiteral("“%1” was read again from %2.").arg(label, path);
 }
 
+std::map<QString, QDateTime> installedFiles(const PluginRegistry& plugins) {
+  std::map<QString, QDateTime> files;
+  for (const PluginInfo& plugin : plugins.plugins()) {
+    if (!plugin.json || plugin.state != PluginInfo::State::Loaded) continue;
+    const QString path = QString::fromStdString(plugin.path);
+    files[path] = QFileInfo(path).lastModified();
+  }
+  return files;
+}
+
 QString aboutOf(const PluginRegistry& plugins, const std::string& base) {
   for (const PluginInfo& plugin : plugins.plugins()) {
     if (plugin.id == base) return QString::fromStdString(plugin.help);
@@ -116,22 +126,23 @@ void MaterialLibrary::read() {
   if (!m_session.plugins()) return;
   m_session.worker().run([this, plugins = m_session.registry(), folder = m_folder] {
     std::vector<Preset> found;
-    const QDir presets(folder);
-    for (const QString& name : presets.entryList({QStringLiteral("*.json")}, QDir::Files, QDir::Name)) {
+    Stamps stamps = installedFiles(*plugins);
+    for (const QFileInfo& file : QDir(folder).entryInfoList({QStringLiteral("*.json")}, QDir::Files, QDir::Name)) {
       Preset& preset = found.emplace_back();
-      preset.path = presets.filePath(name);
+      preset.path = file.filePath();
+      stamps[preset.path] = file.lastModified();
       try {
         preset.materials = loadProject(preset.path.toStdString(), *plugins).project.materials;
       } catch (const std::exception& error) {
         preset.problem = QString::fromUtf8(error.what());
       }
     }
-    QMetaObject::invokeMethod(
-        this, [this, found = std::move(found), readings = plugins->changedMaterials()] { adopt(found, readings); });
+    QMetaObject::invokeMethod(this, [this, found = std::move(found), stamps = std::move(stamps),
+                                     readings = plugins->changedMaterials()] { adopt(found, readings, stamps); });
   });
 }
 
-void MaterialLibrary::adopt(const std::vector<Preset>& presets, const Readings& readings) {
+void MaterialLibrary::adopt(const std::vector<Preset>& presets, const Readings& readings, const Stamps& stamps) {
   const std::vector<LibraryEntry> before = std::exchange(m_entries, {});
   Problems problems;
   adoptInstalled(readings, problems);
@@ -140,9 +151,7 @@ void MaterialLibrary::adopt(const std::vector<Preset>& presets, const Readings& 
     if (a.file.isEmpty() != b.file.isEmpty()) return a.file.isEmpty();
     return a.label.localeAwareCompare(b.label) < 0;
   });
-  QStringList files;
-  for (const Preset& preset : presets) files << preset.path;
-  watch(files);
+  watch(stamps);
   tell(std::move(problems));
   Q_EMIT changed();
 }
@@ -253,18 +262,22 @@ void MaterialLibrary::tell(Problems problems) {
   m_problems = std::move(problems);
 }
 
-/// A file that is replaced is another one to the watcher, and a folder tells of one that comes.
-void MaterialLibrary::watch(QStringList files) {
-  QStringList folders{m_folder};
-  for (const PluginInfo& plugin : m_session.plugins()->plugins()) {
-    if (!plugin.json || plugin.state != PluginInfo::State::Loaded) continue;
-    files << QString::fromStdString(plugin.path);
-    folders << QFileInfo(files.back()).path();
+/// A file that is replaced is another one to the watcher, and a folder tells of one that comes. What was written since
+/// it was read, nobody may have been told of.
+void MaterialLibrary::watch(const Stamps& read) {
+  QStringList files, folders{m_folder};
+  for (const auto& [path, written] : read) {
+    files << path;
+    folders << QFileInfo(path).path();
   }
   folders.removeDuplicates();
-  if (const QStringList watched = m_watcher.files() + m_watcher.directories(); !watched.isEmpty())
-    m_watcher.removePaths(watched);
-  m_watcher.addPaths(files + folders);
+  if (const QStringList watched = m_watcher.files(); !watched.isEmpty()) m_watcher.removePaths(watched);
+  m_watcher.addPaths(files);
+  for (const QString& folder : m_watcher.directories()) folders.removeAll(folder);
+  if (!folders.isEmpty()) m_watcher.addPaths(folders);
+  if (std::any_of(read.begin(), read.end(),
+                  [](const auto& file) { return QFileInfo(file.first).lastModified() != file.second; }))
+    m_rest.start();
 }
 
 QStringList MaterialLibrary::waiting() const {

@@ -6,6 +6,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 
+#include <QtCore/QDateTime>
 #include <QtCore/QFileSystemWatcher>
 #include <QtCore/QObject>
 #include <QtCore/QString>
@@ -75,13 +76,14 @@ class MaterialLibrary : public QObject {
   struct Preset;
   using Readings = std::vector<PluginRegistry::MaterialReading>;
   using Problems = std::map<QString, QString>;  ///< by the file's path
-  void adopt(const std::vector<Preset>& presets, const Readings& readings);
+  using Stamps = std::map<QString, QDateTime>;  ///< when a file was written last, by its path
+  void adopt(const std::vector<Preset>& presets, const Readings& readings, const Stamps& stamps);
   void adoptInstalled(const Readings& readings, Problems& problems);
   void adoptPresets(const std::vector<Preset>& presets, const std::vector<LibraryEntry>& before, Problems& problems);
   LibraryEntry entryOf(const SceneMaterial& material, const QString& file) const;
   LibraryEntry entryOf(const PluginRegistry::MaterialReading& waiting) const;
   void tell(Problems problems);
-  void watch(QStringList files);
+  void watch(const Stamps& read);
   QString placeOf(const QString& label, bool replaces, const QStringList& taken) const;
   bool isAlone(const LibraryEntry& entry) const;  ///< in its file
   void keep(SceneMaterial material, const QString& label, const QString& path);
