@@ -251,8 +251,10 @@ class TestPreferences : public SampleWindowTest {
   void theProjectIsDescribed() {
     m_window->action(QStringLiteral("edit.project"))->trigger();
     auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
-    QVERIFY(about && QTest::qWaitForWindowActive(about));  // or the field loses no focus by Tab
+    QVERIFY(about && QTest::qWaitForWindowExposed(about));
     auto* title = about->findChild<QLineEdit*>();
+    // The window behind may get an earlier request to become active only now.
+    QTRY_VERIFY_WITH_TIMEOUT((about->activateWindow(), title->setFocus(), title->hasFocus()), kLong);
     auto* text = about->findChild<QPlainTextEdit*>();
     const ProjectAbout before = document().about();
     QCOMPARE(title->text().toStdString(), before.title);
