@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Matter in and around walls that are cylinders and spheres: liquid at rest, what slides and strikes, heat.
-#include "heatscene.h"
+// Matter in and around walls that are cylinders and spheres: liquid at rest and in flow, what
+// slides and strikes.
+#include "curvedscene.h"
 #include "onehash.h"
 #include "rigidscene.h"
 
@@ -9,6 +10,8 @@
 #include <numbers>
 
 using namespace mechanics;
+using curvedwalls::curved;
+using curvedwalls::rings;
 using ps::Solver;
 using ps::SolverSettings;
 using ps::Vector3;
@@ -19,15 +22,6 @@ using ps::WallForm;
 namespace {
 
 constexpr double kPi = std::numbers::pi, kGravity = 9.81, kSpacing = 0.02;
-
-Wall curved(WallForm form, double radius, bool inside = true) {
-  Wall wall;
-  wall.form = form;
-  wall.radius = radius;
-  wall.inside = inside;
-  wall.friction = 0;
-  return wall;
-}
 
 /// A floor at the height y.
 Wall floorAt(double y) {
@@ -48,21 +42,6 @@ std::vector<ps::api::Double3> filled(const std::vector<Wall>& walls, const Vecto
                         [&](const Wall& wall) { return heightOver(wall, place) > 0.45 * kSpacing; }))
           points.push_back(place);
       }
-    }
-  }
-  return points;
-}
-
-/// Layers about the z axis, from `bottom` m on, of `count` rings each, a spacing apart; the first `first` spacings out.
-std::vector<ps::api::Double3> rings(int first, int count, int layers, double spacing, double bottom) {
-  std::vector<ps::api::Double3> points;
-  for (int ring = first; ring < first + count; ++ring) {
-    const double r = (ring + 0.5) * spacing;
-    const int around = static_cast<int>(std::lround(2 * kPi * r / spacing));
-    for (int k = 0; k < around; ++k) {
-      const double angle = 2 * kPi * k / around;
-      for (int z = 0; z < layers; ++z)
-        points.push_back({r * std::cos(angle), r * std::sin(angle), bottom + (z + 0.5) * spacing});
     }
   }
   return points;
@@ -199,6 +178,34 @@ class TestCurvedWalls : public QObject {
     QVERIFY(std::abs(heightOver(wall, solver.particles().position()[0]) / kSpacing - 0.5) < 1e-3);
   }
 
+  void frictionBrakesOnACurve_data() {
+    QTest::addColumn<double>("friction");
+    QTest::newRow("none") << 0.0;
+    QTest::newRow("ice on steel") << 0.02;
+  }
+  /// Each half of a swing is 2 mu less wide (Coulomb), and 2 % of that more, since what moves presses harder: the mean
+  /// of a^2 - t^2/2 over a swing of a = 0.2. Without friction none of it is lost.
+  void frictionBrakesOnACurve() {
+    QFETCH(double, friction);
+    const double radius = 0.5, length = radius - kSpacing / 2, swing = 0.2;
+    Wall wall = curved(WallForm::Cylinder, radius);
+    wall.normal = {0, 0, 1};
+    wall.centre = {0, radius, 0};
+    wall.friction = friction;
+    Solver solver;
+    prepare(solver, settingsOf(kSpacing));
+    solver.setWalls({wall});
+    ps::Spawn grain = ice({{length * std::sin(swing), radius - length * std::cos(swing), 0}}, 0);
+    grain.constraintSets.clear();
+    solver.spawn(grain);
+    double least = swing;
+    for (int f = 0; f < 55; ++f) {  // a half is 42
+      QVERIFY(run(solver, 1));
+      least = std::min(least, std::asin(double{solver.particles().position()[0].x} / length));
+    }
+    QVERIFY2(std::abs(swing + least - 2.04 * friction) < 1e-3, qPrintable(QString::number(swing + least)));
+  }
+
   /// A rigid block without friction in a bowl turns about its middle, as a pendulum: 2 pi sqrt(I/(m g l)).
   void aBlockSwingsAsAPendulum() {
     const double radius = 0.5;
@@ -328,80 +335,6 @@ class TestCurvedWalls : public QObject {
     qInfo("%.4f of the flow, deepest %.3f spacings", mean / expected, deepest(solver, {pipe}) / kSpacing);
     QVERIFY(std::abs(mean / expected - 1) < 0.1);
     QVERIFY(deepest(solver, {pipe}) < -0.5 * kSpacing + 1e-6);
-  }
-
-  /// A ring between two pipes held at two temperatures: T by the logarithm of the distance, Q = 2 pi k L dT/ln(b/a).
-  void heatFlowsThroughARing() {
-    const double inner = 0.03, outer = 0.08, cold = 273.15, hot = 373.15;
-    heattest::Scene scene;
-    scene.addMaterial(heattest::materialOf({}));
-    constexpr int kLayers = 10;
-    scene.addBox({-16, -16, 0}, {32, 32, kLayers}, 0);
-    Wall pillar = curved(WallForm::Cylinder, inner, false), pipe = curved(WallForm::Cylinder, outer);
-    for (Wall* wall : {&pillar, &pipe}) wall->normal = {0, 0, 1}, wall->heat = ps::WallHeat::FixedTemperature;
-    pillar.temperature = hot, pipe.temperature = cold;
-    scene.walls = {pillar, pipe};
-    const auto logarithm = [&](double r) { return hot + (cold - hot) * std::log(r / inner) / std::log(outer / inner); };
-    const auto distance = [&](size_t i) {
-      const auto& p = scene.store.position()[i];
-      return std::hypot(double{p.x}, double{p.y});
-    };
-    // Steps of a lattice along the curve would be what one sees.
-    const std::vector<ps::api::Double3> places = rings(6, 10, kLayers, scene.spacing, 0);
-    const size_t used = places.size();
-    for (size_t i = 0; i < used; ++i)
-      scene.store.position()[i] = {float(places[i].x), float(places[i].y), float(places[i].z), 0};
-    for (size_t i = used; i < scene.store.size(); ++i) {  // the rest is far away, and as warm as it begins
-      scene.store.position()[i] = {10 + 0.1f * float(i), 0, 0, 0};
-    }
-    scene.start([&](size_t i) { return i < used ? logarithm(distance(i)) : 300.0; });
-    scene.run(300);
-    double worst = 0;
-    for (size_t i = 0; i < used; ++i)
-      worst = std::max(worst, std::abs(scene.store.temperature()[i] - logarithm(distance(i))));
-    const ps::HeatLedger before = scene.heat.ledger();
-    const double seconds = 100;
-    scene.run(seconds);
-    const double through = (scene.heat.ledger().exchanged - before.exchanged) / (2 * seconds);
-    const double expected = 2 * kPi * kLayers * scene.spacing * (hot - cold) / std::log(outer / inner);
-    qInfo("%.4f of the heat, worst temperature off by %.3f K", through / expected, worst);
-    QVERIFY(std::abs(through / expected - 1) < 0.04);  // as between planes: tst_heat
-    QVERIFY(worst < 2.5);
-  }
-
-  /// A ball in a sphere held at a temperature: its mean excess goes as exp(-a (pi/R)^2 t), once the first mode is left.
-  void aBallCoolsInASphere() {
-    heattest::Scene scene;
-    heattest::Matter matter;
-    scene.addMaterial(heattest::materialOf(matter));
-    constexpr int kCells = 24;
-    scene.addBox({-kCells / 2, -kCells / 2, -kCells / 2}, {kCells, kCells, kCells}, 0);
-    const double radius = 0.5 * kCells * scene.spacing, held = 300;
-    Wall wall = curved(WallForm::Sphere, radius);
-    wall.heat = ps::WallHeat::FixedTemperature;
-    wall.temperature = held;
-    scene.walls = {wall};
-    std::vector<size_t> ball;
-    for (size_t i = 0; i < scene.store.size(); ++i) {
-      if (vectorOf(scene.store.position()[i]).norm() < radius)
-        ball.push_back(i);
-      else
-        scene.store.position()[i] = {10 + 0.1f * float(i), 0, 0, 0};
-    }
-    scene.start([&](size_t) { return held + 50; });
-    const auto excess = [&] {
-      double sum = 0;
-      for (const size_t i : ball) sum += scene.store.temperature()[i] - held;
-      return sum / static_cast<double>(ball.size());
-    };
-    const double diffusivity = matter.conductivitySolid / (matter.density * matter.capacitySolid);
-    const double rate = diffusivity * (kPi / radius) * (kPi / radius);
-    scene.run(0.7 / rate);
-    const double before = excess();
-    scene.run(1 / rate);
-    const double measured = std::log(before / excess());
-    qInfo("%.4f of the rate; excess %.3f", measured, before);
-    QVERIFY(std::abs(measured - 1) < 0.05);
   }
 
   void theSameOnAllThreads_data() { onehash::addRows(); }

@@ -11,6 +11,30 @@ namespace {
 /// Spacings: iterations move a particle by less than this, and whoever goes further is caught at the substep's end.
 constexpr double kReach = 1;
 constexpr size_t kSpare = 16;
+/// Least cosine between the ways out of a curved wall before a substep and after it: who has gone farther leaves by the
+/// nearest way.
+constexpr float kTurned = 0.9f;
+
+struct WayOut {
+  WallPlane plane;
+  float depth;  ///< m, along its normal
+};
+
+/// Out of a curved wall what holds together goes along the normal where it was before the substep (SHAKE: Ryckaert et
+/// al. 1977), until it is on the face. By the nearest way what slides would lose speed of first order in the substep: a
+/// swing of 1.4 s 3 % of its width in each half, in substeps of 4 ms.
+WayOut wayOut(const WallSurface& wall, const ParticleStore& store, size_t i, float depth) {
+  const api::Float4& x = store.position()[i];
+  if (!wall.isCurved() || store.motion()[i] != api::Motion::Solid) return {wall.at(x), depth};
+  const WallPlane before = wall.at(store.previous()[i]);
+  const api::Float4 out = wall.fromMiddle(x);
+  const float upright = wall.side * (out.x * before.x + out.y * before.y + out.z * before.z);
+  if (!(upright > kTurned * out.w)) return {wall.at(x), depth};
+  // |out + t normal| = radius.
+  const float square = depth * (out.w + wall.radius), inner = upright * upright + wall.side * square;
+  if (!(inner > 0)) return {wall.at(x), depth};
+  return {before, square / (upright + std::sqrt(inner))};
+}
 }  // namespace
 
 void WallStage::configure(const SolverSettings& settings, const std::vector<Wall>& walls) {
@@ -69,7 +93,9 @@ void WallStage::projectOut(ParticleStore& store, size_t i, const WallSet& walls,
   const api::Float4* position = store.position();
   walls.forEach(m_walls.size(), [&](size_t w) {
     const float depth = -m_walls[w].heightOf(position[i]);
-    if (depth > 0) book(store, i, w, projectOne(m_walls[w].at(position[i]), store, i, depth), chunk);
+    if (!(depth > 0)) return;
+    const WayOut out = wayOut(m_walls[w], store, i, depth);
+    book(store, i, w, projectOne(out.plane, store, i, out.depth), chunk);
   });
 }
 
