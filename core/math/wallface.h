@@ -20,7 +20,7 @@ class WallFace {
   static WallFace sphere(const Vector3& centre, double radius, bool inside);
   bool operator==(const WallFace& other) const;
 
-  /// The face `inset` m before this one, towards the matter.
+  /// The face `inset` m before this one, towards the matter; at most its middle.
   WallFace before(double inset) const;
   WallForm form() const { return m_form; }
   bool isCurved() const { return m_form != WallForm::Plane; }
