@@ -116,6 +116,8 @@ std::string explanation(const Project& project, const SoakOutcome& outcome, cons
   constexpr auto kAsked = static_cast<StepFlags>(StepFlag::LostParticle) | static_cast<StepFlags>(StepFlag::Diverged);
   if ((outcome.flags & ~kAsked) != 0 || !change) return {};
   const std::string& key = change->address.key;
+  if (change->address.owner == Owner::Wall && (key == "shape" || key == "matter" || key == "radius"))
+    return "the wall comes to stand where matter is: " + key;
   const bool lost = (outcome.flags & static_cast<StepFlags>(StepFlag::LostParticle)) != 0;
   const bool diverged = (outcome.flags & static_cast<StepFlags>(StepFlag::Diverged)) != 0;
   // Only who moves a body can ask it to leave no room, or to be squeezed by what it strikes; nothing moves by

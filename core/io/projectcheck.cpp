@@ -4,6 +4,7 @@
 #include "core/base/nearest.h"
 #include "core/io/projectfields.h"
 #include "core/io/trackcheck.h"
+#include "core/io/wallcheck.h"
 #include "core/matter/material.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
@@ -24,9 +25,6 @@
 
 namespace ps {
 namespace {
-
-/// Share of a wall's normal along a periodic axis that rounding explains.
-constexpr double kLeaning = 1e-6;
 
 /// To four digits.
 std::string shortText(double value) {
@@ -187,12 +185,9 @@ class ProjectChecker : public FieldVisitor {
   void object(const Environment& environment, const std::string& pointer) override {
     requireBox(environment.boundsMinimum, environment.boundsMaximum, pointer + "/bounds");
     for (size_t i = 0; i < environment.walls.size(); ++i) {
-      const Vector3& n = environment.walls[i].normal;
-      for (size_t a = 0; a < 3; ++a) {
-        if (!environment.periodic[a] || std::abs(n[a]) <= kLeaning * std::hypot(n[0], n[1], n[2])) continue;
-        fail(at(at(pointer + "/walls", i) + "/normal", a),
-             std::string("must be 0: the scene is periodic along ") + "xyz"[a] +
-                 ", and a wall that leans along it would not meet its own image; let gravity lean instead");
+      for (const WallFinding& finding : findingsOf(m_project, environment.walls[i])) {
+        const std::string place = at(pointer + "/walls", i) + finding.pointer;
+        finding.refused ? fail(place, finding.what) : warn(place, finding.what);
       }
     }
     checkPeriods();

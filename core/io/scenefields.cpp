@@ -9,11 +9,14 @@ namespace {
 
 const FieldTable<SceneWall>& wallFields() {
   static const FieldTable<SceneWall> table{
-      .help = "a half-space that particles cannot enter",
+      .help = "a plane, cylinder or sphere that particles cannot pass",
       .rows = {field("id", &SceneWall::id, Id{}, "").required(),
                field("name", &SceneWall::name, Text{}, "name shown to people"),
-               field("point", &SceneWall::point, Vector{"m"}, "a point on the wall").required(),
-               field("normal", &SceneWall::normal, Direction{}, "direction into the scene, any length but zero")
+               field("point", &SceneWall::point, Vector{"m"},
+                     "a point on the wall; of a cylinder on its axis, of a sphere its centre")
+                   .required(),
+               field("normal", &SceneWall::normal, Direction{},
+                     "direction into the scene, of a cylinder along its axis, of a sphere any; any length but zero")
                    .required()},
       .parameters = &SceneWall::parameters,
       .declarations = &wallParameters,

@@ -10,12 +10,22 @@
 
 namespace ps {
 
-/// Share of the kernel that lies beyond a plane at a distance d, and its slope: how a wall counts in a density sum
-/// without particles of its own.
+/// How a wall's face bends: 1/m of mean curvature where matter touches it is `share` over `radius`.
+struct Bend {
+  double radius = 0;  ///< m, above 0 with matter inside, below 0 outside; 0: a plane
+  double share = 1;   ///< 1 of a sphere, 1/2 of a cylinder
+  bool operator==(const Bend&) const = default;
+};
+
+/// Share of the kernel that lies beyond a wall at a distance d, and its slope: how a wall counts in a density sum
+/// without particles of its own. Beyond a plane that is S(d) = int_d^R A dz, A(z) = 2 pi int_z^R r W dr what lies over
+/// a plane at z; beyond a sphere about a centre D away exactly int_d^R (1 + z/D) A dz, since the sphere through z has
+/// that much more of it; beyond a cylinder to first order in R/D, with half of what bends a sphere. Of spheres and
+/// cylinders wider than the kernel reaches.
 class HalfSpaceTable {
  public:
   HalfSpaceTable() = default;
-  explicit HalfSpaceTable(const Kernel& kernel);
+  explicit HalfSpaceTable(const Kernel& kernel, const Bend& bend = {});
   static constexpr size_t kIntervals = 256;
   struct Value {
     float share, slope;  ///< 1, 1/m

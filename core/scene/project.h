@@ -169,12 +169,12 @@ struct Sink {
   Unknown unknown;
 };
 
-/// A half-space with a name: floor, lid, sides of a tray.
+/// What nothing passes, with a name: floor, lid, sides of a tray, a pipe, a bowl, a pillar. Its face: scenewall.h.
 struct SceneWall {
   std::string id, name;
-  Vector3 point{0, 0, 0};   ///< m, on the wall
-  Vector3 normal{0, 1, 0};  ///< into the scene; any length but zero
-  ParameterSet parameters;  ///< see wallParameters(): heat, temperature, friction, film_coefficient, ...
+  Vector3 point{0, 0, 0};   ///< m, on the wall; on the axis of a cylinder, the centre of a sphere
+  Vector3 normal{0, 1, 0};  ///< into the scene, along a cylinder; any length but zero; idle for a sphere
+  ParameterSet parameters;  ///< see wallParameters(): shape, radius, heat, temperature, friction, ...
   Unknown unknown;
 };
 /// Whether its parameter `temperature` acts: its surface or the fluid behind it has one.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/parameters/condition.h"
 #include "core/scene/declare.h"
-#include "core/scene/project.h"
+#include "core/scene/scenewall.h"
 
 namespace ps {
 namespace {
@@ -9,6 +9,18 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kWall[] = {
+    choice(
+        {"shape", "Shape", "", ""}, "plane|cylinder|sphere", 0,
+        {"Shape",
+         "An endless plane, an endless cylinder that planes close at its ends, or a whole sphere. Curved walls should "
+         "be four particle spacings in radius or more.",
+         "floor and sides: plane; pipe, glass, pillar: cylinder; bowl, flask, ball: sphere", ""}),
+    actingWhen("shape = cylinder|sphere", choice({"matter", "Matter is", "", ""}, "inside|outside", 0,
+                                                 {"Shape", "On which side of a curved wall matter can be.",
+                                                  "pipe and bowl: inside; pillar and ball: outside", ""})),
+    actingWhen("shape = cylinder|sphere",
+               number({"radius", "Radius", "R", "m"}, {0.25, 0.01, 2, 1e-6, 1e4},
+                      {"Shape", "Of a cylinder or a sphere, up to its face.", "garden hose 0.006, bucket 0.15", ""})),
     actingWhen(
         "scene/thermal_model != none",
         choice(
@@ -61,6 +73,19 @@ constexpr api::ParameterDeclaration kWall[] = {
 }  // namespace
 
 api::ParameterList wallParameters() { return api::listOf(kWall); }
+
+WallFace faceOf(const SceneWall& wall) {
+  const api::ParameterList list = wallParameters();
+  const Vector3 normal = wall.normal.normalized();
+  // Brushes ask for each cell: most walls are planes that say nothing of it.
+  const std::string shape =
+      wall.parameters.values.contains("shape") ? choiceOf(wall.parameters, list, "shape") : "plane";
+  if (shape == "plane") return WallFace(Plane{normal, normal.dot(wall.point)});
+  const double radius = numberOf(wall.parameters, list, "radius");
+  const bool inside = choiceOf(wall.parameters, list, "matter") == "inside";
+  return shape == "sphere" ? WallFace::sphere(wall.point, radius, inside)
+                           : WallFace::cylinder(wall.point, normal, radius, inside);
+}
 
 bool hasTemperature(const SceneWall& wall) {
   const api::ParameterList list = wallParameters();

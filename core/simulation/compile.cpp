@@ -8,6 +8,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
+#include "core/scene/scenewall.h"
 #include "core/scene/shownname.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
@@ -197,6 +198,11 @@ std::vector<Wall> compileWalls(const Project& project) {
     const Vector3 normal = source.normal / length;
     wall.normal = double3Of(normal);
     wall.offset = normal.dot(source.point);
+    const WallFace face = faceOf(source);
+    wall.form = face.form();
+    wall.centre = double3Of(source.point);
+    wall.radius = face.radius();
+    wall.inside = face.isInside();
     wall.friction = numberOf(source.parameters, list, "friction");
     wall.noSlip = toggleOf(source.parameters, list, "no_slip");
     const std::string heat = choiceOf(source.parameters, list, "heat");

@@ -46,9 +46,8 @@ double massOf(const ParticleStore& store, std::span<const uint32_t> ids) {
 
 /// Whether a particle could stand here as far as walls go.
 bool clearOfWalls(const std::vector<Wall>& walls, const api::Double3& p, double spacing) {
-  return std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
-    return wall.normal.x * p.x + wall.normal.y * p.y + wall.normal.z * p.z - wall.offset >= 0.5 * spacing;
-  });
+  return std::all_of(walls.begin(), walls.end(),
+                     [&](const Wall& wall) { return heightOver(wall, p) >= 0.5 * spacing; });
 }
 
 }  // namespace

@@ -277,9 +277,8 @@ class Measurement {
     size_t count = 0;
     for (const size_t i : m_chosen) {
       const api::Float4& p = m_store.position()[i];
-      count += std::any_of(m_view.walls.begin(), m_view.walls.end(), [&](const Wall& w) {
-        return w.normal.x * p.x + w.normal.y * p.y + w.normal.z * p.z < w.offset;
-      });
+      count +=
+          std::any_of(m_view.walls.begin(), m_view.walls.end(), [&](const Wall& w) { return heightOver(w, p) < 0; });
     }
     return count;
   }

@@ -2,6 +2,7 @@
 #include "core/simulation/probeparameters.h"
 
 #include "core/scene/declare.h"
+#include "core/scene/scenewall.h"
 
 #include <algorithm>
 #include <array>
@@ -52,8 +53,9 @@ std::optional<Face> faceOf(const std::string& key) {
   return std::nullopt;
 }
 
-/// The force along the axis that a wall faces most.
+/// The force along the axis that a wall faces most; of one that faces all ways the upright one.
 std::string forceOn(const SceneWall& wall) {
+  if (faceOf(wall).isCurved()) return "force_y";
   Eigen::Index axis = 0;
   wall.normal.cwiseAbs().maxCoeff(&axis);
   return std::string("force_") + "xyz"[axis];

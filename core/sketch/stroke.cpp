@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/shorttext.h"
+#include "core/scene/scenewall.h"
 #include "core/sketch/symmetry.h"
 
 #include <Eigen/Geometry>
@@ -177,6 +178,8 @@ bool isInScene(const Environment& environment, const SketchGrid& grid, const api
     if (c[i] < environment.boundsMinimum[i] + radius || c[i] > environment.boundsMaximum[i] - radius) return false;
   }
   return std::none_of(environment.walls.begin(), environment.walls.end(), [&](const SceneWall& wall) {
+    const WallFace face = faceOf(wall);
+    if (face.isCurved()) return face.heightOf(c) < radius;
     return (c - wall.point).dot(wall.normal) < radius * wall.normal.norm();
   });
 }

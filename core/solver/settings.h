@@ -3,6 +3,7 @@
 #include <phasesketch/types.h>
 
 #include "core/math/kernels.h"
+#include "core/math/wallface.h"
 
 #include <array>
 #include <string>
@@ -49,11 +50,15 @@ enum class HeatSteps { Automatic, Explicit };
 /// Heat at a wall: none, a temperature held on its surface, heat per area, or a fluid that flows behind it.
 enum class WallHeat { Adiabatic, FixedTemperature, FixedFlux, Convective };
 
-/// A half-space boundary: particles stay where normal . x >= offset.
+/// A boundary: of a plane particles stay where normal . x >= offset, of a cylinder or sphere inside of it, or outside.
 struct Wall {
   std::string id;
-  api::Double3 normal{0, 1, 0};  ///< unit vector into the scene
-  double offset = 0;             ///< m
+  WallForm form = WallForm::Plane;
+  api::Double3 normal{0, 1, 0};  ///< unit vector: of a plane into the scene, of a cylinder along its axis
+  double offset = 0;             ///< m, of a plane
+  api::Double3 centre{0, 0, 0};  ///< m, of a sphere; of a cylinder a point on its axis
+  double radius = 1;             ///< m, of cylinder and sphere
+  bool inside = true;            ///< whether particles are inside of cylinder or sphere
   double friction = 0.3;
   bool noSlip = true;  ///< implicit viscosity: liquid sticks to it
   WallHeat heat = WallHeat::Adiabatic;
@@ -63,6 +68,16 @@ struct Wall {
   double emissivity = 0.9;       ///< of FixedTemperature and Convective, where heat is radiated
   double filmCoefficient = 500;  ///< W/(m2 K), condensation on walls below the boiling point
 };
+
+/// The face of a wall, or the one `inset` m before it.
+WallFace faceOf(const Wall& wall, double inset = 0);
+/// m from a place (Float4, Double3) to the face of a wall; negative behind it.
+template <class Place>
+double heightOver(const Wall& wall, const Place& place) {
+  if (wall.form != WallForm::Plane) return faceOf(wall).heightOf(vectorOf(place));
+  const api::Double3& n = wall.normal;
+  return n.x * double{place.x} + n.y * double{place.y} + n.z * double{place.z} - wall.offset;
+}
 
 struct Bounds {
   api::Double3 minimum{-1, 0, -1}, maximum{1, 2, 1};  ///< m; a particle that leaves by more than its size is lost

@@ -135,6 +135,25 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(document().project().environment.walls.size(), walls);
   }
 
+  /// A cylinder and a sphere come as one step each, selected, with their rows.
+  void curvedWallsAreAdded() {
+    const size_t walls = document().project().environment.walls.size();
+    for (const char* shape : {"cylinder", "sphere"}) {
+      m_window->action(QStringLiteral("sketch.wall.") + QString::fromLatin1(shape))->trigger();
+      const SceneWall* wall = document().wall(shape);
+      QVERIFY(wall);
+      QCOMPARE(std::get<std::string>(wall->parameters.values.at("shape")), std::string(shape));
+      QCOMPARE(m_window->outliner()->selected(), std::pair(OutlineKind::Wall, std::string(shape)));
+      for (const char* row : {"shape", "matter", "radius"}) {
+        const QString path = QStringLiteral("wall/%1/%2").arg(QLatin1String(shape), QLatin1String(row));
+        QVERIFY2(m_window->inspector().scenePanel()->row(path), qPrintable(path));
+      }
+    }
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().project().environment.walls.size(), walls);
+  }
+
   /// What has nothing to do with the last edit does not offer to undo it.
   void lostMatterOffersSides() {
     document().setParameter({Owner::Wall, "floor", "temperature"}, 350.0);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has no matter is picked where it is seen: walls, and pins, which are put elsewhere by the handles.
+#include "core/scene/scenewall.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
+#include "ui/document/wallside.h"
 #include "ui/session/selection.h"
 #include "ui/tools/picking.h"
 #include "ui/tools/placing.h"
@@ -11,7 +13,10 @@
 #include <QtGui/QUndoStack>
 #include <QtTest/QTest>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 using namespace ps;
 
@@ -77,6 +82,57 @@ class TestPicking : public QObject {
     QVERIFY(highest > 0 && picked(project, {}, inside) != kSide);
     const auto edge = pickAt(project, {}, at({-0.5, highest / 2, 0.5}));
     QVERIFY(edge && edge->item == kSide && edge->byLine);
+  }
+
+  /// Curved walls by their rings and lines; planes do not end at them, and no plate is looked for.
+  void curvedWallsArePickedByTheirLines() {
+    Project project = scene();
+    const size_t edges = wallLines(project.environment, 0).size();
+    for (const char* shape : {"cylinder", "sphere"}) {
+      SceneWall wall;
+      wall.id = shape, wall.point = Vector3(0, 0.3, 0);
+      wall.parameters.values = {{"shape", std::string(shape)}, {"radius", 0.2}};
+      project.environment.walls.push_back(wall);
+    }
+    QCOMPARE(wallLines(project.environment, 0).size(), edges);
+    const WallFace pipe = faceOf(project.environment.walls[2]);
+    for (const size_t k : {size_t{2}, size_t{3}}) {
+      const Lines lines = wallLines(project.environment, k);
+      QVERIFY(lines.size() > 40);
+      for (const auto& [from, to] : lines)
+        QVERIFY(std::abs(faceOf(project.environment.walls[k]).heightOf(from)) < 1e-9 && to.y() > -1e-9);
+      const auto pick = pickAt(project, {}, at(lines.back().first));
+      QVERIFY(pick && pick->byLine);
+      QCOMPARE(pick->item.id, project.environment.walls[k].id);
+    }
+    QVERIFY(pipe.form() == WallForm::Cylinder && wallLines(project.environment, 2)[0].first.y() == 0);  // on the floor
+    QVERIFY(picked(project, {}, {0.3, 0, 0.2}) == kFloor);
+  }
+
+  /// Added, moved, made wider and turned: a step each, and back.
+  void curvedWallsAreAddedAndPlaced() {
+    Project things;
+    things.environment.walls = {roundWall("cylinder", m_document->project())};
+    const SelectedItem pipe{OutlineKind::Wall, m_document->insertThings(things, QStringLiteral("adding")).walls[0].id};
+    const auto face = [&] { return faceOf(*m_document->wall(pipe.id)); };
+    QVERIFY(face().isInside() && face().form() == WallForm::Cylinder);
+    for (const double x : {-0.5, 0.5}) QVERIFY(face().heightOf({x, 0.5, 0.5}) > -1e-9);  // it pushes no body
+    const double radius = face().radius();
+    const Placeable one = placeable(*m_document, {pipe}, Gizmo::Kind::Scale, {});
+    QCOMPARE(one.items.size(), size_t{1});
+    QVERIFY(placeable(*m_document, {kFloor}, Gizmo::Kind::Scale, {}).items.empty());
+    m_document->place(stretched(placementOf(*m_document, one), {1, 3, 0.5}), QStringLiteral("scaling"));
+    QVERIFY(std::abs(face().radius() - radius / 2) < 1e-12);  // along its axis it has no end
+    m_document->place(shifted(placementOf(*m_document, one), {0.1, 0, 0}), QStringLiteral("moving"));
+    const Quaternion quarter(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3(1, 0, 0)));
+    m_document->place(turned(placementOf(*m_document, one), {}, face().centre(), quarter), QStringLiteral("turning"));
+    QVERIFY((face().axis() - Vector3(0, 0, 1)).norm() < 1e-12);
+    QCOMPARE(m_document->undoStack().count(), 4);
+    for (int step = 0; step < 3; ++step) m_document->undoStack().undo();
+    QCOMPARE(face().radius(), radius);
+    QVERIFY(face().axis() == Vector3(0, 1, 0));
+    m_document->undoStack().undo();
+    QVERIFY(!m_document->wall(pipe.id));
   }
 
   /// Pins show while their body is selected, or one of them; they come before a wall behind them.

@@ -255,6 +255,14 @@ void TestProjectIo::slipsAreNamed() {
     for (const ProjectMessage& message : parse(document.dump()).warnings) all += message.text + "\n";
     return QString::fromStdString(all);
   };
+  const auto pipe = [&](double radius) {
+    const json wall = {
+        {"id", "floor"}, {"point", {0, 0, 0}}, {"normal", {0, 1, 0}}, {"shape", "cylinder"}, {"radius", radius}};
+    return warningsOf("/environment/walls/0", wall);
+  };
+  QVERIFY2(pipe(1e-4).contains(QStringLiteral("/environment/walls/0/radius: is less than a particle spacing")),
+           qPrintable(pipe(1e-4)));
+  QVERIFY(!pipe(10).contains(QStringLiteral("walls/0/radius")));
   const QString slip = warningsOf("/bodies/0/constrants", json::array());
   QVERIFY2(slip.contains(QStringLiteral("(did you mean 'constraints'?)")), qPrintable(slip));
   const QString plugin = warningsOf("/bodies/0/constraints", json::array({{{"plugin", "rigit"}}}));
@@ -342,6 +350,19 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
   row("one axis periodic", "environment/periodic=[true]", "/environment/periodic: must have 3 elements, not 1");
   row("a wall that leans along a periodic axis", "environment/periodic=[true, false, false]",
       "/environment/walls/1/normal/0: must be 0: the scene is periodic along x, and a wall that leans along it");
+  const auto curved = [](const char* shape, const char* more) {
+    return QStringLiteral(
+               "environment={\"periodic\": [false, true, false], \"walls\": [{\"id\": \"round\", \"point\": [0, "
+               "0, 0], \"shape\": \"%1\", %2}]}")
+        .arg(QLatin1String(shape), QLatin1String(more))
+        .toStdString();
+  };
+  row("a sphere in a periodic scene", curved("sphere", "\"normal\": [0, 1, 0]").c_str(),
+      "/environment/walls/0/shape: cannot be sphere: the scene is periodic along y");
+  row("a cylinder across a periodic axis", curved("cylinder", "\"normal\": [1, 1, 0]").c_str(),
+      "/environment/walls/0/normal: must point along y: the scene is periodic along y");
+  row("a shape of no wall", curved("cone", "\"normal\": [0, 1, 0]").c_str(),
+      "/environment/walls/0/shape: must be one of plane, cylinder, sphere");
   row("a periodic box too small",
       "environment={\"periodic\": [false, true, false], \"bounds\": {\"minimum\": [0, 0, 0], \"maximum\": [1, 0.1, "
       "1]}}",

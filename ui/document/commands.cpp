@@ -83,7 +83,9 @@ bool PortCommand::mergeWith(const QUndoCommand* other) {
 
 namespace {
 bool samePlace(const Body& a, const Body& b) { return a.shape == b.shape; }
-bool samePlace(const SceneWall& a, const SceneWall& b) { return a.point == b.point && a.normal == b.normal; }
+bool samePlace(const SceneWall& a, const SceneWall& b) {
+  return a.point == b.point && a.normal == b.normal && a.parameters == b.parameters;
+}
 bool samePlace(const Probe& a, const Probe& b) { return a == b; }
 bool samePlace(const BodyPins& a, const BodyPins& b) { return a.boxes == b.boxes; }
 

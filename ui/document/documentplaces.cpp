@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Places of a document's things: moved, turned and stretched together, each drag as one command.
 #include "core/scene/pose.h"
+#include "core/scene/scenewall.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/portbounds.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -100,7 +102,15 @@ void Document::applyPlacement(const Placement& to) {
     *at(m_project.sinks, sink.id) = sink;
     notify(PortChanged{true, sink.id, {}});
   }
-  for (const SceneWall& wall : to.walls) *at(m_project.environment.walls, wall.id) = wall;
+  for (const SceneWall& wall : to.walls) {
+    SceneWall& here = *at(m_project.environment.walls, wall.id);
+    const SceneWall before = std::exchange(here, wall);
+    if (before.parameters == wall.parameters) continue;
+    const api::ParameterDeclaration& declared = *findDeclaration(wallParameters(), "radius");
+    notify(ParameterChanged{{Owner::Wall, wall.id, declared.key},
+                            valueOf(wall.parameters, declared),
+                            valueOf(before.parameters, declared)});
+  }
   if (!to.walls.empty()) notify(WallsChanged{true});
   for (const Probe& probe : to.probes) {
     *at(m_project.probes, probe.id) = probe;

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls of a document: they come where the scene ends, and go.
+#include "core/scene/scenewall.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
 
 /// Whether a wall looks the same way: it keeps matter from leaving on that side already.
 bool stands(const SceneWall& wall, const WallSide& side) {
-  return (side.upper ? -1 : 1) * wall.normal[side.axis] > 0.99 * wall.normal.norm();
+  return !faceOf(wall).isCurved() && (side.upper ? -1 : 1) * wall.normal[side.axis] > 0.99 * wall.normal.norm();
 }
 
 /// "" or why no wall comes on that side.
@@ -56,6 +58,21 @@ SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& ma
   wall.normal.setZero();
   wall.point[side.axis] = (side.upper ? maximum : minimum)[side.axis];
   wall.normal[side.axis] = side.upper ? -1 : 1;
+  return wall;
+}
+
+SceneWall roundWall(const std::string& shape, const Project& project) {
+  const Room room = roomOf(project.environment);
+  const Vector3 size = room.maximum - room.minimum;
+  const bool sphere = shape == "sphere";
+  SceneWall wall;
+  wall.id = shape;
+  wall.name = sphere ? "Sphere" : "Cylinder";
+  wall.point = 0.5 * (room.minimum + room.maximum);
+  wall.parameters.values["shape"] = shape;
+  const double around = 0.5 * (sphere ? size.norm() : std::hypot(size.x(), size.z()));
+  const double within = 0.5 * (sphere ? size.minCoeff() : std::min(size.x(), size.z()));
+  wall.parameters.values["radius"] = project.bodies.empty() ? within : around;
   return wall;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/render/framing.h"
 
+#include "core/scene/scenewall.h"
 #include "ui/render/furniture.h"
 
 #include <algorithm>
@@ -29,6 +30,11 @@ std::optional<Box> boxOf(const Snapshot& snapshot, std::optional<uint32_t> body)
 Box boxOf(const Snapshot& snapshot, const Environment& environment) {
   std::optional<Box> box = boxOf(snapshot);
   for (size_t i = 0; i < environment.walls.size(); ++i) {
+    const WallFace round = faceOf(environment.walls[i]);
+    if (round.form() == WallForm::Sphere && round.isInside()) {
+      const Vector3 radius = Vector3::Constant(round.radius());
+      join(box, round.centre() - radius, round.centre() + radius);
+    }
     // A wall that goes on to the bounds, like a floor without sides, is as large as the world and would make everything
     // else small.
     const render::Face face = render::wallFace(environment, i);

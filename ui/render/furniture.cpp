@@ -2,12 +2,15 @@
 #include "ui/render/furniture.h"
 
 #include "core/math/plane.h"
+#include "core/scene/scenewall.h"
 #include "ui/render/colourmap.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 namespace ps::render {
 namespace {
@@ -41,6 +44,8 @@ void clip(Face& face, const Cut& cut) {
   face = std::move(out);
 }
 
+bool isRound(const Environment& environment, size_t wall) { return faceOf(environment.walls[wall]).isCurved(); }
+
 std::vector<Cut> cutsOf(const Environment& environment, size_t except) {
   std::vector<Cut> cuts;
   for (size_t k = 0; k < 3; ++k) {
@@ -51,7 +56,7 @@ std::vector<Cut> cutsOf(const Environment& environment, size_t except) {
     cuts.push_back({{axis, -environment.boundsMaximum[k]}, false});
   }
   for (size_t i = 0; i < environment.walls.size(); ++i) {
-    if (i == except) continue;
+    if (i == except || isRound(environment, i)) continue;
     const Vector3 normal = environment.walls[i].normal.normalized();
     cuts.push_back({{normal, normal.dot(environment.walls[i].point)}, true});
   }
@@ -101,7 +106,7 @@ void placeFloor(Furniture& out, const Environment& environment) {
   Vector3 low = environment.boundsMinimum, high = environment.boundsMaximum;
   double largest = 0;
   for (size_t i = 0; i < environment.walls.size(); ++i) {
-    if (roleOf(environment.walls[i]) != Role::Floor) continue;
+    if (isRound(environment, i) || roleOf(environment.walls[i]) != Role::Floor) continue;
     const Face face = wallFace(environment, i);
     if (face.corners.size() < 3) continue;
     Vector3 first = face.corners[0], last = face.corners[0];
@@ -123,13 +128,61 @@ void placeFloor(Furniture& out, const Environment& environment) {
 Top topOf(const Environment& environment, const Furniture& floor) {
   Top top{floor.floor + 0.55 * floor.size};
   for (size_t i = 0; i < environment.walls.size(); ++i) {
-    if (roleOf(environment.walls[i]) != Role::Lid) continue;
+    if (isRound(environment, i) || roleOf(environment.walls[i]) != Role::Lid) continue;
     const Face face = wallFace(environment, i);
     for (const Vector3& p : face.corners) top.height = top.open ? p[1] : std::max(top.height, p[1]), top.open = false;
     top.lid = top.lid || !face.corners.empty();
   }
   if (top.open) top.height = std::min(top.height, environment.boundsMaximum[1]);
   return top;
+}
+
+using Lines = std::vector<std::pair<Vector3, Vector3>>;
+constexpr int kAround = 48;  // corners of a ring
+
+void addRing(Lines& lines, const Vector3& centre, const Vector3& u, const Vector3& v) {
+  const auto corner = [&](int k) {
+    const double angle = 2 * std::numbers::pi * k / kAround;
+    return Vector3(centre + std::cos(angle) * u + std::sin(angle) * v);
+  };
+  for (int k = 0; k < kAround; ++k) lines.emplace_back(corner(k), corner(k + 1));
+}
+
+Lines sphereLines(const WallFace& face, const std::vector<Plane>& ends) {
+  Lines all, seen;
+  for (Eigen::Index a = 0; a < 3; ++a)
+    addRing(all, face.centre(), face.radius() * Vector3::Unit((a + 1) % 3), face.radius() * Vector3::Unit((a + 2) % 3));
+  const auto isSeen = [&](const std::pair<Vector3, Vector3>& line) {
+    return std::all_of(ends.begin(), ends.end(), [&](const Plane& end) {
+      return end.heightOf(line.first) > -1e-9 && end.heightOf(line.second) > -1e-9;
+    });
+  };
+  std::copy_if(all.begin(), all.end(), std::back_inserter(seen), isSeen);
+  return seen;
+}
+
+/// From where its axis comes into the scene to where it leaves it; of what stands beside the scene nothing.
+Lines cylinderLines(const WallFace& face, const std::vector<Plane>& ends) {
+  constexpr int kStraight = 8;
+  double from = -1e4, to = 1e4;
+  for (const Plane& end : ends) {
+    const double rise = end.normal.dot(face.axis()), height = end.heightOf(face.centre());
+    if (rise > 1e-6) from = std::max(from, -height / rise);
+    if (rise < -1e-6) to = std::min(to, -height / rise);
+  }
+  Lines lines;
+  if (!(from < to)) return lines;
+  const Vector3& axis = face.axis();
+  const Vector3 u = face.radius() * axis.unitOrthogonal(), v = axis.cross(u);
+  const Vector3 low = face.centre() + from * axis, high = face.centre() + to * axis;
+  addRing(lines, low, u, v);
+  addRing(lines, high, u, v);
+  for (int k = 0; k < kStraight; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kStraight;
+    const Vector3 out = std::cos(angle) * u + std::sin(angle) * v;
+    lines.emplace_back(low + out, high + out);
+  }
+  return lines;
 }
 
 }  // namespace
@@ -146,6 +199,7 @@ double glowOf(const SceneWall& wall) {
 }
 
 Face wallFace(const Environment& environment, size_t wall) {
+  if (isRound(environment, wall)) return {};
   const Vector3 normal = environment.walls[wall].normal.normalized();
   const Vector3 helper = std::abs(normal[1]) < 0.9 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
   const Vector3 u = helper.cross(normal).normalized(), v = normal.cross(u);
@@ -170,6 +224,20 @@ Face seenFace(const Environment& environment, size_t wall) {
   return face.corners.size() >= 3 ? face : Face{};
 }
 
+std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall) {
+  const WallFace face = faceOf(environment.walls[wall]);
+  if (!face.isCurved()) return {};
+  Furniture floor;
+  placeFloor(floor, environment);
+  std::vector<Plane> ends;  // of what is seen
+  for (const Cut& cut : cutsOf(environment, wall)) {
+    if (cut.wall || face.form() == WallForm::Cylinder) ends.push_back(cut.plane);
+  }
+  if (face.form() == WallForm::Sphere) return sphereLines(face, ends);
+  if (std::abs(face.axis().y()) > kLevel) ends.push_back({{0, -1, 0}, -topOf(environment, floor).height});
+  return cylinderLines(face, ends);
+}
+
 bool sameFurniture(const Environment& a, const Environment& b) {
   return a.boundsMinimum == b.boundsMinimum && a.boundsMaximum == b.boundsMaximum &&
          std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(),
@@ -188,6 +256,8 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   out.lidHeight = static_cast<float>(top.height);
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
+    constexpr double kRound = 0.3;
+    for (const auto& [from, to] : roundLines(environment, i)) addEdge(out.edges, from, to, kRound);
     const Face face = seenFace(environment, i);
     if (face.corners.empty()) continue;
     const Vector3 normal = environment.walls[i].normal.normalized();

@@ -3,6 +3,7 @@
 #include "ui/render/instances.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace ps::render {
@@ -26,9 +27,12 @@ struct Face {
   std::vector<bool> walled;  ///< the edge from corner i to i + 1 lies on another wall (else on the bounds)
 };
 
-/// The part of a wall that faces the scene: its plane within the bounds and the other walls. Empty where nothing is
-/// left.
+/// The part of a wall that faces the scene: its plane within the bounds and the other planes. Empty where nothing is
+/// left, and of curved walls.
 Face wallFace(const Environment& environment, size_t wall);
+/// The lines by which a curved wall is seen, m: rings and straight lines of a cylinder from floor to lid, or where
+/// panes fade; three great circles of a sphere, as far as planes do not hide them. Nothing of a plane.
+std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall);
 /// What is shown of that: sides end at a lid, or fade out somewhat above the floor.
 Face seenFace(const Environment& environment, size_t wall);
 /// How much of its normal a wall has upwards or downwards at least to be drawn as a plate: 45 degrees.
@@ -49,7 +53,8 @@ struct Furniture {
 /// Whether two environments look the same.
 bool sameFurniture(const Environment& a, const Environment& b);
 
-/// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes.
+/// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes,
+/// curved walls thin lines.
 Furniture buildFurniture(const Environment& environment, bool dark);
 
 /// How much a floor glows, 0 below hand warmth to 1 far above boiling water; 0 for walls that are not held at a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/picking.h"
 
+#include "core/scene/scenewall.h"
 #include "ui/document/pinaddress.h"
 #include "ui/render/furniture.h"
 #include "ui/tools/aim.h"
@@ -41,8 +42,10 @@ double depthOf(const Pointer& pointer, const SceneWall& wall, const render::Face
   return depth > 0 ? depth : kNone;
 }
 
-/// Floors and lids are drawn as plates, sides as the edges of panes.
-bool isPlate(const SceneWall& wall) { return std::abs(wall.normal.normalized().y()) > render::kLevel; }
+/// Floors and lids are drawn as plates, sides as the edges of panes, curved walls as rings and lines.
+bool isPlate(const SceneWall& wall) {
+  return !faceOf(wall).isCurved() && std::abs(wall.normal.normalized().y()) > render::kLevel;
+}
 
 std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointer) {
   std::optional<Pick> onLine, onFace;
@@ -63,6 +66,7 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
 }  // namespace
 
 Lines wallLines(const Environment& environment, size_t wall) {
+  if (faceOf(environment.walls[wall]).isCurved()) return render::roundLines(environment, wall);
   const render::Face face = render::seenFace(environment, wall);
   Lines lines;
   for (size_t i = 0; i < face.corners.size(); ++i)

@@ -2,12 +2,14 @@
 #include "ui/tools/placing.h"
 
 #include "core/scene/pose.h"
+#include "core/scene/scenewall.h"
 #include "core/scene/solidform.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
@@ -50,7 +52,8 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
     to.add(item, 0.5 * (sink->minimum + sink->maximum), nameOf(*sink),
            unless(kind == Kind::Rotate, "a drain stands along the axes"));
   } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
-    to.add(item, wall->point, nameOf(*wall), unless(kind == Kind::Scale, "a wall has no end"));
+    to.add(item, wall->point, nameOf(*wall),
+           unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));
   } else if (const Probe* probe = item.kind == OutlineKind::Probe ? document.probe(item.id) : nullptr) {
     to.add(item, probe->region ? middleOf(*probe->region) : Vector3(Vector3::Zero()), nameOf(*probe),
            !probe->region ? QStringLiteral("it measures wherever its matter is")
@@ -86,6 +89,20 @@ void stretch(Box& box, const Vector3& factors) {
   const Vector3 middle = 0.5 * (box.minimum + box.maximum);
   box.minimum = middle + (box.minimum - middle).cwiseProduct(factors);
   box.maximum = middle + (box.maximum - middle).cwiseProduct(factors);
+}
+
+/// A curved wall stays round: the greatest change counts, of a cylinder across its axis.
+void stretch(SceneWall& wall, const Vector3& factors) {
+  const WallFace face = faceOf(wall);
+  if (!face.isCurved()) return;
+  constexpr double kAlong = 0.9;
+  double factor = 1;
+  for (int a = 0; a < 3; ++a) {
+    const bool across = std::abs(face.axis()[a]) < kAlong;
+    if (across && std::abs(factors[a] - 1) > std::abs(factor - 1)) factor = factors[a];
+  }
+  const api::ParameterDeclaration& declared = *findDeclaration(wallParameters(), "radius");
+  wall.parameters.values["radius"] = std::clamp(factor * face.radius(), declared.hardMinimum, declared.hardMaximum);
 }
 
 }  // namespace
@@ -191,6 +208,7 @@ Placement turned(Placement things, const MatterPlaces& matter, const Vector3& pi
 }
 
 Placement stretched(Placement things, const Vector3& factors) {
+  for (SceneWall& wall : things.walls) stretch(wall, factors);
   for (Body& body : things.bodies) body = scaled(std::move(body), factors);
   for (Sink& sink : things.sinks) stretch(sink, factors);
   for (Probe& probe : things.probes) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/surface.h"
 
+#include "core/scene/scenewall.h"
 #include "core/sketch/drawingplane.h"
 #include "ui/render/camera.h"
 
@@ -37,7 +38,8 @@ Vector3 normalAt(const Snapshot& scene, const Vector3& point) {
 double floorHeight(const Environment& environment) {
   double height = environment.boundsMinimum[1];
   for (const SceneWall& wall : environment.walls) {
-    if (wall.normal.y() > 0.9 * wall.normal.norm()) height = std::max(height, wall.point.y());
+    if (!faceOf(wall).isCurved() && wall.normal.y() > 0.9 * wall.normal.norm())
+      height = std::max(height, wall.point.y());
   }
   return height;
 }

@@ -43,6 +43,12 @@ void EditActions::makeWallMenu(QMenu* menu) {
                   [this, side] { addWalls({side.id}); });
   }
   menu->addSeparator();
+  for (const char* shape : {"cylinder", "sphere"}) {
+    m_actions.add(menu, QStringLiteral("sketch.wall.") + QString::fromLatin1(shape),
+                  QStringLiteral("Add wall: %1").arg(QString::fromLatin1(shape)), {},
+                  [this, shape] { addRoundWall(shape); });
+  }
+  menu->addSeparator();
   m_actions.add(menu, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
                 [this] { addWalls(kUprightSides); });
 }
@@ -85,6 +91,13 @@ void EditActions::addProbe() {
     probe.name = ownerLabel(m_document.project(), {owner, probe.body, ""}).toStdString();
   }
   m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
+}
+
+void EditActions::addRoundWall(const std::string& shape) {
+  Project things;
+  things.environment.walls = {roundWall(shape, m_document.project())};
+  const QString title = QStringLiteral("adding %1").arg(nameOf(things.environment.walls[0]));
+  m_selection.select(OutlineKind::Wall, m_document.insertThings(std::move(things), title).walls.front().id);
 }
 
 void EditActions::addWalls(const std::vector<std::string>& sides) {

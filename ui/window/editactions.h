@@ -32,6 +32,7 @@ class EditActions {
 
  private:
   void addProbe();
+  void addRoundWall(const std::string& shape);           ///< see roundWall()
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
   Document& m_document;
   Selection& m_selection;

@@ -32,7 +32,7 @@ void Impacts::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_gravity = vectorOf(settings.gravity);
   m_surface.configure(m_spacing);
   m_slowest = 2 * m_gravity.norm() * m_dt;
-  findContactPlanes(walls, settings.spacing, m_planes);
+  findContactFaces(walls, settings.spacing, m_walls);
   m_restitution.clear();
   for (const BakedMaterial& m : materials) m_restitution.push_back(m.scalar(propertyIndex("restitution")));
 }
@@ -123,7 +123,7 @@ bool Impacts::isFast(const ParticleStore& store, uint32_t i) const { return wayO
 
 /// By chunks: most of them are far from all walls, or at rest.
 void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rigid) {
-  if (m_planes.empty()) return;
+  if (m_walls.empty()) return;
   const size_t chunks = chunkCount(store.size(), grain::kParticles);
   startChunks(chunks);
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
@@ -131,9 +131,9 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
     const double fastest = fastestSolid(store, first, last);
     if (fastest <= m_slowest) return;
     const PlaceBox box = PlaceBox::around({store.previous() + first, last - first});
-    for (uint32_t plane = 0; plane < m_planes.size(); ++plane) {
+    for (uint32_t plane = 0; plane < m_walls.size(); ++plane) {
       const double reach = fastest * m_dt + kRounding * m_spacing;
-      if (!(box.leastHeight(m_planes[plane]) > reach)) findImpacts(store, rigid, plane, first, last, found);
+      if (!(box.leastHeight(m_walls[plane]) > reach)) findImpacts(store, rigid, plane, first, last, found);
     }
   });
   takeChunks(chunks);
@@ -141,10 +141,17 @@ void Impacts::findWalls(const ParticleStore& store, std::span<const uint8_t> rig
 
 void Impacts::findImpacts(const ParticleStore& store, std::span<const uint8_t> rigid, uint32_t plane, size_t first,
                           size_t last, std::vector<Impact>& found) const {
-  const Plane& p = m_planes[plane];
+  const WallFace& face = m_walls[plane];
+  Plane p = face.plane();
   for (size_t k = first; k < last; ++k) {
     const auto i = static_cast<uint32_t>(k);
     if (store.motion()[i] != api::Motion::Solid || rigid[i] != 0 || !(store.velocity()[i].w > 0)) continue;
+    if (face.isCurved()) {  // it meets the plane that touches it there
+      const Vector3 from = vectorOf(store.previous()[i]), way = m_dt * vectorOf(store.velocity()[i]);
+      const std::optional<double> met = face.meets(from, way);
+      if (!met || *met > 1) continue;
+      p = face.at(from + *met * way);
+    }
     const double approach = vectorOf(store.velocity()[i]).dot(p.normal);
     if (!(approach < -m_slowest)) continue;
     const double gap = std::max(0.0, p.heightOf(vectorOf(store.previous()[i])));

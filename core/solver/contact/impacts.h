@@ -79,7 +79,7 @@ class Impacts {
 
   double m_dt = 0, m_diameter = 0, m_spacing = 0, m_slowest = 0;
   Vector3 m_gravity;
-  std::vector<Plane> m_planes;
+  std::vector<WallFace> m_walls;      ///< half a spacing before them
   std::vector<double> m_restitution;  ///< by material
   std::vector<Impact> m_impacts;
   std::vector<std::vector<Impact>> m_found;  ///< by chunk of what is looked through

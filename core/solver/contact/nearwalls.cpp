@@ -15,14 +15,24 @@ namespace ps {
 namespace HWY_NAMESPACE {
 
 /// m over a wall.
-HWY_INLINE V heightOver(const WallPlane& p, const Vectors4& place) {
+HWY_INLINE V heightOver(const WallSurface& wall, const Vectors4& place) {
   const D d;
+  if (wall.isCurved()) {
+    const V ax = hn::Set(d, wall.axisX), ay = hn::Set(d, wall.axisY), az = hn::Set(d, wall.axisZ);
+    const V x = hn::Sub(place.x, hn::Set(d, wall.centreX)), y = hn::Sub(place.y, hn::Set(d, wall.centreY)),
+            z = hn::Sub(place.z, hn::Set(d, wall.centreZ));
+    const V along = hn::Add(hn::Add(hn::Mul(ax, x), hn::Mul(ay, y)), hn::Mul(az, z));
+    const V a = hn::Sub(x, hn::Mul(along, ax)), b = hn::Sub(y, hn::Mul(along, ay)), c = hn::Sub(z, hn::Mul(along, az));
+    const V out = hn::Sqrt(hn::Add(hn::Add(hn::Mul(a, a), hn::Mul(b, b)), hn::Mul(c, c)));
+    return hn::Mul(hn::Set(d, wall.side), hn::Sub(out, hn::Set(d, wall.radius)));
+  }
+  const WallPlane& p = wall.plane;
   const V along = hn::Add(hn::Add(hn::Mul(hn::Set(d, p.x), place.x), hn::Mul(hn::Set(d, p.y), place.y)),
                           hn::Mul(hn::Set(d, p.z), place.z));
   return hn::Sub(along, hn::Set(d, p.offset));
 }
 
-void FindNearWalls(std::span<const WallPlane> walls, const WallSet& met, float reach,
+void FindNearWalls(std::span<const WallSurface> walls, const WallSet& met, float reach,
                    std::span<const api::Float4> places, std::span<WallSet> near) {
   const D d;
   const hn::RebindToUnsigned<D> du;
@@ -41,8 +51,8 @@ void FindNearWalls(std::span<const WallPlane> walls, const WallSet& met, float r
   }
 }
 
-size_t FindBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
-                 size_t first, size_t last, uint32_t* out) {
+size_t FindBelow(std::span<const WallSurface> walls, const WallSet& met, const api::Float4* places,
+                 const uint32_t* which, size_t first, size_t last, uint32_t* out) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   size_t used = 0;
@@ -74,7 +84,7 @@ HWY_AFTER_NAMESPACE();
 namespace ps {
 HWY_EXPORT(FindNearWalls);
 HWY_EXPORT(FindBelow);
-void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
+void findNearWalls(std::span<const WallSurface> walls, float reach, std::span<const api::Float4> places,
                    std::span<WallSet> near) {
   const WallSet met = wallsBelow(walls, reach, places);
   if (met.any())
@@ -82,8 +92,8 @@ void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<cons
   else
     std::fill(near.begin(), near.end(), WallSet());
 }
-size_t findBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
-                 size_t first, size_t last, uint32_t* out) {
+size_t findBelow(std::span<const WallSurface> walls, const WallSet& met, const api::Float4* places,
+                 const uint32_t* which, size_t first, size_t last, uint32_t* out) {
   return HWY_DYNAMIC_DISPATCH(FindBelow)(walls, met, places, which, first, last, out);
 }
 }  // namespace ps

@@ -63,10 +63,25 @@ struct PlaceBox {
   float leastHeight(const WallPlane& p) const {
     return p.heightOf({p.x > 0 ? low[0] : high[0], p.y > 0 ? low[1] : high[1], p.z > 0 ? low[2] : high[2], 0});
   }
+  /// No more than that of what is lowest over a curved wall: heights change by no more than places do.
+  double leastHeight(const WallFace& face) const {
+    if (!face.isCurved()) return leastHeight(face.plane());
+    const Vector3 least(double{low[0]}, double{low[1]}, double{low[2]});
+    const Vector3 most(double{high[0]}, double{high[1]}, double{high[2]});
+    return face.heightOf(0.5 * (least + most)) - 0.5 * (most - least).norm();
+  }
+  float leastHeight(const WallSurface& wall) const {
+    if (!wall.isCurved()) return leastHeight(wall.plane);
+    constexpr float kRounding = 1e-5f;
+    const float x = 0.5f * (high[0] - low[0]), y = 0.5f * (high[1] - low[1]), z = 0.5f * (high[2] - low[2]);
+    const float half = std::sqrt(x * x + y * y + z * z);
+    const float height = wall.heightOf({low[0] + x, low[1] + y, low[2] + z, 0});
+    return height - half - kRounding * (std::abs(height) + half + wall.radius);
+  }
 };
 
 /// The walls over which some of these places may be no higher than `height`, m; to rounding.
-inline WallSet wallsBelow(std::span<const WallPlane> walls, float height, std::span<const api::Float4> places) {
+inline WallSet wallsBelow(std::span<const WallSurface> walls, float height, std::span<const api::Float4> places) {
   const PlaceBox box = PlaceBox::around(places);
   WallSet below;
   for (size_t w = 0; w < walls.size(); ++w) {
@@ -77,13 +92,13 @@ inline WallSet wallsBelow(std::span<const WallPlane> walls, float height, std::s
 
 /// For each of these places the walls over which it is no higher than `reach`, m. Compared a vector at a time
 /// (Highway).
-void findNearWalls(std::span<const WallPlane> walls, float reach, std::span<const api::Float4> places,
+void findNearWalls(std::span<const WallSurface> walls, float reach, std::span<const api::Float4> places,
                    std::span<WallSet> near);
 
 /// Writes to `out` which of the particles which[first .. last) (nullptr: first .. last) are below any of these walls,
 /// and returns how many. `out` has room for 16 more than are found. Compared a vector at a time
 /// (Highway).
-size_t findBelow(std::span<const WallPlane> walls, const WallSet& met, const api::Float4* places, const uint32_t* which,
-                 size_t first, size_t last, uint32_t* out);
+size_t findBelow(std::span<const WallSurface> walls, const WallSet& met, const api::Float4* places,
+                 const uint32_t* which, size_t first, size_t last, uint32_t* out);
 
 }  // namespace ps

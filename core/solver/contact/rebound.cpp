@@ -35,10 +35,9 @@ void Rebound::configure(const SolverSettings& settings, const std::vector<Wall>&
   m_spacing = settings.spacing;
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
-  std::swap(m_planes, m_planesBefore);
-  findContactPlanes(walls, settings.spacing, m_planes);
-  const auto same = [](const Plane& x, const Plane& y) { return x.normal == y.normal && x.offset == y.offset; };
-  if (!std::equal(m_planes.begin(), m_planes.end(), m_planesBefore.begin(), m_planesBefore.end(), same))
+  std::swap(m_walls, m_wallsBefore);
+  findContactFaces(walls, settings.spacing, m_walls);
+  if (m_walls != m_wallsBefore)
     std::erase_if(m_touches, [](const Touch& t) { return t.plane != kNone; });  // that may be others by now
   m_wallFriction.clear();
   for (const Wall& w : walls) m_wallFriction.push_back(w.friction);
@@ -266,8 +265,8 @@ bool Rebound::keptShape(const Encounter& e) const {
 }
 
 bool Rebound::touches(const ParticleStore& store, const Touch& t) const {
-  if (t.b == kNone && t.plane >= m_planes.size()) return false;
-  const double gap = t.b == kNone ? m_planes[t.plane].heightOf(vectorOf(store.position()[t.a]))
+  if (t.b == kNone && t.plane >= m_walls.size()) return false;
+  const double gap = t.b == kNone ? m_walls[t.plane].heightOf(vectorOf(store.position()[t.a]))
                                   : vectorOf(store.separation(t.a, t.b)).dot(t.normal) - kFaceDistance * m_spacing;
   return gap < kApart * m_spacing;
 }

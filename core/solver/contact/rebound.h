@@ -129,7 +129,7 @@ class Rebound {
 
   double m_dt = 0, m_spacing = 0, m_slowest = 0;
   Vector3 m_gravity;
-  std::vector<Plane> m_planes, m_planesBefore;
+  std::vector<WallFace> m_walls, m_wallsBefore;
   /// Of a material; delivered as the last impact had it.
   struct Bounce {
     std::string id;

@@ -38,7 +38,7 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
   m_dt = settings.dt / settings.substeps;
   m_gravity = vectorOf(settings.gravity);
   m_slowest = 2 * m_gravity.norm() * m_dt;
-  findContactPlanes(walls, settings.spacing, m_planes);
+  findContactFaces(walls, settings.spacing, m_walls);
   m_wallFriction.clear();
   for (const Wall& w : walls) m_wallFriction.push_back(w.friction);
   m_materials.clear();
@@ -104,8 +104,7 @@ RigidContact::Contact RigidContact::planeContactOf(const ParticleStore& store, c
   c.a = {i, m_bodyOf[i]};
   c.plane = plane;
   c.key = candidate.key;
-  c.normal = m_planes[plane].normal;
-  c.distance = m_planes[plane].offset;
+  faceWall(store.position()[i], c);
   c.staticFriction = c.kineticFriction = m_wallFriction[plane];
   if (store.material()[i] < m_materials.size()) c.restitution = m_materials[store.material()[i]].bounce;
   return c;
@@ -199,8 +198,8 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
     found.clear();
     for (auto i = static_cast<uint32_t>(first); i < last; ++i) {
       if (m_isMember[i] == 0) continue;
-      for (uint32_t p = 0; p < m_planes.size(); ++p) {
-        if (m_planes[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
+      for (uint32_t p = 0; p < m_walls.size(); ++p) {
+        if (m_walls[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
         found.push_back(candidateOf(i, kNone, p, uint64_t{id[i]} << 32 | (kNone - p)));
       }
       // Each pair of bodies once, from the body that comes first.
@@ -282,6 +281,12 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
 }
 
 /// Normal and distance at rest of a contact of particles.
+void RigidContact::faceWall(const api::Float4& place, Contact& c) const {
+  const Plane plane = m_walls[c.plane].at(vectorOf(place));
+  c.normal = plane.normal;
+  c.distance = plane.offset;
+}
+
 void RigidContact::orient(const ParticleStore& store, Contact& c) const {
   const uint32_t a = c.a.particle, b = c.b.particle;
   const Vector3 line = vectorOf(store.separation(a, b));

@@ -161,6 +161,7 @@ void RigidContact::begin(const ParticleStore& store) {
 }
 
 void RigidContact::beginContact(const ParticleStore& store, Contact& c) const {
+  if (c.plane != kNone && m_walls[c.plane].isCurved()) faceWall(store.position()[c.a.particle], c);
   // What is far from a wall does not come to it while positions are corrected.
   c.active = c.plane == kNone || gapAt(c, store.position()) < kOpen * m_spacing;
   if (!c.active) {

@@ -172,8 +172,15 @@ class RigidContact {
     Vector3 low, high;  ///< m
   };
   static Box boxOf(const Body& body, const api::Float4* points);
-  static bool isClear(const Plane& plane, const Box& box, double depth);
-  static double depthOf(const Plane& plane, const Body& body, const api::Float4* points);
+  static bool isClear(const WallFace& wall, const Box& box, double depth);
+  struct Deepest {
+    double depth = 0;
+    Vector3 normal;
+    void operator+=(const Deepest& other) {
+      if (other.depth > depth) *this = other;
+    }
+  };
+  static Deepest depthOf(const WallFace& wall, const Body& body, const api::Float4* points);
   Vector3 movedBy(const ParticleStore& store, const Side& side) const;
   Vector3 readSide(const ParticleStore& store, Side& side, const Vector3& place) const;
   Response responseOf(const Side& side, const Vector3& impulse) const;
@@ -197,6 +204,8 @@ class RigidContact {
   template <class T, size_t Each, class Put>
   void saveEach(StateWriter& writer, const char* name, const Put& put) const;
   void orient(const ParticleStore& store, Contact& contact) const;
+  /// By the wall where it is nearest to a place; a plane is the same everywhere.
+  void faceWall(const api::Float4& place, Contact& contact) const;
   void remember(Contact& contact) const;
   static double slideOf(const Contact& contact, const Vector3& speed);
   double gapOf(const ParticleStore& store, const Open& open) const;
@@ -238,7 +247,7 @@ class RigidContact {
   bool m_resume = false;  ///< the substep's first pass is to come
   double m_spacing = 0, m_dt = 0, m_slowest = 0;
   Vector3 m_gravity;
-  std::vector<Plane> m_planes;         ///< of the walls, half a spacing before them
+  std::vector<WallFace> m_walls;       ///< half a spacing before them
   std::vector<double> m_wallFriction;  ///< theirs
   struct Rub {
     double staticFriction, kineticFriction, bounce;

@@ -152,8 +152,9 @@ bool RigidContact::isStruck(const ParticleStore& store, Contact& c) const {
     orient(store, c);
     if (!c.active) return false;
     if (!(line.dot(c.normal) < c.distance)) return false;
-  } else if (!(gapAt(c, store.position()) < 0)) {
-    return false;
+  } else {
+    if (m_walls[c.plane].isCurved()) faceWall(store.position()[c.a.particle], c);
+    if (!(gapAt(c, store.position()) < 0)) return false;
   }
   return speed.dot(c.normal) < -m_slowest;
 }

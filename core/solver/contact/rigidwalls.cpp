@@ -16,17 +16,13 @@ constexpr int kInwardPasses = 8;
 
 }  // namespace
 
-/// m, how far a body would be behind a wall if its members were at `points`.
-double RigidContact::depthOf(const Plane& plane, const Body& body, const api::Float4* points) {
-  struct Deepest {
-    double depth = 0;
-    void operator+=(const Deepest& other) { depth = std::max(depth, other.depth); }
-  };
-  return sumOver<Deepest>(body.members,
-                          [&](Deepest& deepest, uint32_t i) {
-                            deepest.depth = std::max(deepest.depth, -plane.heightOf(vectorOf(points[i])));
-                          })
-      .depth;
+/// m, how far a body would be behind a wall if its members were at `points`, and the way out of it there.
+RigidContact::Deepest RigidContact::depthOf(const WallFace& wall, const Body& body, const api::Float4* points) {
+  return sumOver<Deepest>(body.members, [&](Deepest& deepest, uint32_t i) {
+    const Vector3 place = vectorOf(points[i]);
+    const double depth = -wall.heightOf(place);
+    if (depth > deepest.depth) deepest = {depth, wall.at(place).normal};
+  });
 }
 
 RigidContact::Box RigidContact::boxOf(const Body& body, const api::Float4* points) {
@@ -44,7 +40,9 @@ RigidContact::Box RigidContact::boxOf(const Body& body, const api::Float4* point
 }
 
 /// Whether nothing in a box is behind a wall by more than `depth` m.
-bool RigidContact::isClear(const Plane& plane, const Box& box, double depth) {
+bool RigidContact::isClear(const WallFace& wall, const Box& box, double depth) {
+  if (wall.isCurved()) return wall.heightOf(0.5 * (box.low + box.high)) - 0.5 * (box.high - box.low).norm() >= -depth;
+  const Plane& plane = wall.plane();
   const Vector3 nearest = (plane.normal.array() > 0).select(box.low, box.high);
   return plane.heightOf(nearest) >= -depth;
 }
@@ -55,17 +53,17 @@ Vector3 RigidContact::keepInside(ParticleStore& store) const {
   for (const Body& body : m_bodies) {
     if (!body.hasContacts) continue;
     const Box box = boxOf(body, store.position());
-    if (std::all_of(m_planes.begin(), m_planes.end(), [&](const Plane& plane) { return isClear(plane, box, most); }))
+    if (std::all_of(m_walls.begin(), m_walls.end(), [&](const WallFace& wall) { return isClear(wall, box, most); }))
       continue;
     int walls = 0;
     for (int pass = 0; pass < kInwardPasses; ++pass) {
       Vector3 way;
       walls = 0;
       uint32_t by = 0;
-      for (uint32_t w = 0; w < m_planes.size(); ++w) {
-        const double depth = depthOf(m_planes[w], body, store.position());
-        if (!(depth > most)) continue;
-        way += (depth - most) * m_planes[w].normal;
+      for (uint32_t w = 0; w < m_walls.size(); ++w) {
+        const Deepest deepest = depthOf(m_walls[w], body, store.position());
+        if (!(deepest.depth > most)) continue;
+        way += (deepest.depth - most) * deepest.normal;
         by = w;
         ++walls;
       }
@@ -82,9 +80,9 @@ Vector3 RigidContact::keepInside(ParticleStore& store) const {
 /// A turn that walls leave no room for does not take place: the body stays where it was, unless that was worse.
 Vector3 RigidContact::takeBack(ParticleStore& store, const Body& body) const {
   double now = 0, before = 0;
-  for (const Plane& plane : m_planes) {
-    now = std::max(now, depthOf(plane, body, store.position()));
-    before = std::max(before, depthOf(plane, body, store.previous()));
+  for (const WallFace& wall : m_walls) {
+    now = std::max(now, depthOf(wall, body, store.position()).depth);
+    before = std::max(before, depthOf(wall, body, store.previous()).depth);
   }
   Vector3 moved;
   if (now <= before || now < kDeepest * m_spacing + kCreep * m_spacing) return moved;

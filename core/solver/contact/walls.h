@@ -7,9 +7,10 @@
 
 namespace ps {
 
-/// Half-space walls: a particle's centre stays half a spacing inside. Projection onto a plane is already swept, so that
-/// nothing passes a wall at any speed. Solids rub: the tangential way of the substep is reduced by up to friction times
-/// the depth (Macklin et al. 2014, eq. 24).
+/// Walls: a particle's centre stays half a spacing before them. Projection onto a plane, or onto a vessel around all
+/// matter, is already swept, so that nothing passes a wall at any speed; what flies through a pillar or a ball is put
+/// where it met it. Solids rub: the tangential way of the substep is reduced by up to friction times the depth (Macklin
+/// et al. 2014, eq. 24).
 class WallStage {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls);
@@ -32,10 +33,16 @@ class WallStage {
   Vector3 projectOne(const WallPlane& plane, ParticleStore& store, size_t i, float depth) const;
   /// Moves particle i out of these walls.
   void projectOut(ParticleStore& store, size_t i, const WallSet& walls, size_t chunk);
+  /// Puts what went through a wall with matter outside where it met it.
+  void sweep(ParticleStore& store, size_t first, size_t last);
+  void book(const ParticleStore& store, size_t i, size_t wall, const Vector3& moved, size_t chunk);
   void startSums(size_t chunks);
   void finishSums();
 
-  std::vector<WallPlane> m_planes;
+  std::vector<WallSurface> m_walls;
+  std::vector<WallFace> m_passable;    ///< with matter outside, on which centres lie
+  std::vector<size_t> m_passableWall;  ///< their indices
+  double m_narrowest = 0;              ///< m, the least radius of these
   std::vector<uint32_t> m_near;
   std::vector<WallSet> m_nearWalls;  ///< by particle
   std::vector<uint8_t> m_rigid;

@@ -75,7 +75,7 @@ void DensityStage::configure(const SolverSettings& settings, const std::vector<W
   m_support = settings.spacing * settings.supportRatio;
   m_scale = Kernel(settings.kernel, m_support).value(0);  // w(0) = 1 for both shapes
   m_walls.configure(settings, walls, shapes);
-  m_film.configure(settings, m_walls.planes());
+  m_film.configure(settings, m_walls.walls());
 }
 
 PairLists DensityStage::lists(const ParticleStore& store, const Neighbours& neighbours) const {

@@ -9,17 +9,16 @@
 
 namespace ps {
 
-/// What walls, and the surfaces of fixed bodies, add to density sums: half a space behind each. Few particles are near
-/// one: which walls each may feel is found with the lists.
+/// What walls, and the surfaces of fixed bodies, add to density sums: half a space behind each, or what is behind a
+/// curved wall (HalfSpaceTable). Few particles are near one: which walls each may feel is found with the lists.
 class HalfSpaces {
  public:
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
                  const FixedShapes& shapes = FixedShapes::none());
   /// After new lists, with the places that they were made for. Iterations move a particle by less than a spacing.
   void refresh(std::span<const api::Float4> built);
-  /// Of walls.
-  const std::vector<WallPlane>& planes() const { return m_planes; }
-  bool any() const { return !m_planes.empty() || m_shapes->any(); }
+  const std::vector<WallSurface>& walls() const { return m_walls; }
+  bool any() const { return !m_walls.empty() || m_shapes->any(); }
   /// Whose a plane is: of a wall, by index, or of a fixed body.
   struct Owner {
     bool isBody;
@@ -35,7 +34,8 @@ class HalfSpaces {
   /// Of particle i at a place.
   Sum of(uint32_t i, const api::Float4& at) const {
     Sum sum;
-    forNear(i, at, [&](const WallPlane& p, const Owner&, float distance) { add(sum, p, distance); });
+    forNear(i, at,
+            [&](const WallPlane& p, const Owner& owner, float distance) { add(sum, p, tableOf(owner).at(distance)); });
     return sum;
   }
   /// The part of the surfaces of fixed bodies in it.
@@ -49,9 +49,13 @@ class HalfSpaces {
     for (size_t k = 0; k < count; ++k) met.add(m_near[which[k]]);
     return met;
   }
-  const HalfSpaceTable& table() const { return m_table; }
-  float support() const { return m_support; }  ///< m
-  float nearest() const { return m_nearest; }  ///< m: a wall counts as no nearer than this
+  /// What a wall adds, by its index.
+  const HalfSpaceTable& tableOf(size_t wall) const {
+    return m_tables.empty() || m_bends[wall].radius == 0 ? m_table : m_tables[wall];
+  }
+  float perMetre() const { return m_table.perMetre(); }  ///< of all tables
+  float support() const { return m_support; }            ///< m
+  float nearest() const { return m_nearest; }            ///< m: a wall counts as no nearer than this
   /// What walls add to CompressionSums.
   struct Compression {
     float excess = 0;
@@ -59,8 +63,8 @@ class HalfSpaces {
   };
   Compression compressionOf(uint32_t i, const api::Float4& at) const {
     Compression sum;
-    forNear(i, at, [&](const WallPlane&, const Owner&, float distance) {
-      const HalfSpaceTable::Value value = m_table.at(distance);
+    forNear(i, at, [&](const WallPlane&, const Owner& owner, float distance) {
+      const HalfSpaceTable::Value value = tableOf(owner).at(distance);
       sum.excess += value.share;
       sum.byVolumes += double{value.share} - double{distance} * value.slope / 3;
     });
@@ -70,7 +74,7 @@ class HalfSpaces {
   template <class Visit>
   void forSlopes(uint32_t i, const api::Float4& at, Visit&& visit) const {
     forNear(i, at, [&](const WallPlane& p, const Owner& owner, float distance) {
-      visit(p, owner, m_table.at(distance).slope);
+      visit(p, owner, tableOf(owner).at(distance).slope);
     });
   }
 
@@ -78,9 +82,9 @@ class HalfSpaces {
   /// visit(plane, owner, m to its face, at least half a spacing) for those within the support.
   template <class Visit>
   void forNear(uint32_t i, const api::Float4& at, Visit&& visit) const {
-    m_near[i].forEach(m_planes.size(), [&](size_t wall) {
-      const float distance = m_planes[wall].heightOf(at);
-      if (distance < m_support) visit(m_planes[wall], Owner{false, wall}, std::max(m_nearest, distance));
+    m_near[i].forEach(m_walls.size(), [&](size_t wall) {
+      const float distance = m_walls[wall].heightOf(at);
+      if (distance < m_support) visit(m_walls[wall].at(at), Owner{false, wall}, std::max(m_nearest, distance));
     });
     forNearShapes(i, at, visit);
   }
@@ -91,17 +95,19 @@ class HalfSpaces {
       if (distance < m_support) visit(face.plane, Owner{true, face.body}, std::max(m_nearest, distance));
     }
   }
-  void add(Sum& sum, const WallPlane& p, float distance) const {
-    const HalfSpaceTable::Value value = m_table.at(distance);
+  const HalfSpaceTable& tableOf(const Owner& owner) const { return owner.isBody ? m_table : tableOf(owner.index); }
+  static void add(Sum& sum, const WallPlane& p, const HalfSpaceTable::Value& value) {
     sum.excess += value.share;
     sum.x += p.x * value.slope;
     sum.y += p.y * value.slope;
     sum.z += p.z * value.slope;
   }
 
-  std::vector<WallPlane> m_planes;
+  std::vector<WallSurface> m_walls;
   const FixedShapes* m_shapes = nullptr;
-  HalfSpaceTable m_table;
+  HalfSpaceTable m_table;                ///< of planes
+  std::vector<Bend> m_bends;             ///< by wall
+  std::vector<HalfSpaceTable> m_tables;  ///< by wall, those of curved ones; none where none is
   KernelShape m_kernel = KernelShape::CubicSpline;
   float m_support = 0, m_nearest = 0, m_reach = 0;  ///< m
   std::vector<WallSet> m_near;                      ///< by particle

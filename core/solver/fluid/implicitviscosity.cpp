@@ -70,11 +70,11 @@ void ImplicitViscosity::configure(const SolverSettings& settings, const std::vec
   m_shapes = &shapes;
   m_settings = settings;
   m_dirty = true;
-  m_planes.clear();
+  m_held.clear();
   m_wallOf.clear();
   for (size_t w = 0; w < walls.size(); ++w) {
     if (!walls[w].noSlip) continue;
-    m_planes.emplace_back(walls[w]);
+    m_held.emplace_back(walls[w]);
     m_wallOf.push_back(w);
   }
   const double support = settings.spacing * settings.supportRatio;
@@ -182,7 +182,7 @@ bool ImplicitViscosity::addWall(const WallPlane& p, const api::Float4& at, float
 
 template <class Visit>
 void ImplicitViscosity::forPlanes(uint32_t i, Visit&& visit) const {
-  for (size_t w = 0; w < m_planes.size(); ++w) visit(m_planes[w], m_reactions->ofWall(m_wallOf[w]));
+  for (size_t w = 0; w < m_held.size(); ++w) visit(m_held[w].at(m_points[i]), m_reactions->ofWall(m_wallOf[w]));
   for (const FixedShapes::Near& face : m_shapes->near(i)) visit(face.plane, m_reactions->ofBody(face.body));
 }
 

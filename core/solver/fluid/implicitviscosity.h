@@ -83,8 +83,8 @@ class ImplicitViscosity {
 
   SolverSettings m_settings;
   const FixedShapes* m_shapes = nullptr;
-  std::vector<WallPlane> m_planes;
-  std::vector<size_t> m_wallOf;                   ///< index of the wall, by plane
+  std::vector<WallSurface> m_held;                ///< walls that liquid sticks to
+  std::vector<size_t> m_wallOf;                   ///< index of the wall, by wall that is held
   double m_support = 0;                           ///< m
   std::vector<std::array<float, 2>> m_wallTable;  ///< tangential and normal, over distance 0 .. R, 1/m2 times d
   bool m_active = false, m_dirty = true;

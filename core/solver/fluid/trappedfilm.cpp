@@ -30,7 +30,7 @@ double densityOf(const ParticleStore& store, uint32_t i) {
 
 }  // namespace
 
-void TrappedFilm::configure(const SolverSettings& settings, const std::vector<WallPlane>& planes) {
+void TrappedFilm::configure(const SolverSettings& settings, const std::vector<WallSurface>& walls) {
   m_spacing = settings.spacing;
   m_support = settings.spacing * settings.supportRatio;
   const Vector3 gravity = vectorOf(settings.gravity);
@@ -38,9 +38,13 @@ void TrappedFilm::configure(const SolverSettings& settings, const std::vector<Wa
   m_up = Vector3::Zero();
   if (size > 0) m_up = -1 / size * gravity;
   m_floors.clear();
-  for (const WallPlane& p : planes) {
-    if (Vector3{p.x, p.y, p.z}.dot(m_up) > kLevel) m_floors.push_back(p);
+  for (const WallSurface& wall : walls) {
+    if (wall.isCurved() || isLevel(wall.plane)) m_floors.push_back(wall);
   }
+}
+
+bool TrappedFilm::isLevel(const WallPlane& floor) const {
+  return Vector3{floor.x, floor.y, floor.z}.dot(m_up) > kLevel;
 }
 
 /// m, by which `j` is above `i` where it is straight above enough, else 0.
@@ -59,7 +63,9 @@ double TrappedFilm::boundaryBelow(const ParticleStore& store, const Neighbours& 
                                   uint32_t body) const {
   const std::span<const api::Float4> at = neighbours.built();
   double depth = HUGE_VAL;
-  for (const WallPlane& floor : m_floors) depth = std::min(depth, double{floor.heightOf(at[liquid])});
+  for (const WallSurface& floor : m_floors) {
+    if (!floor.isCurved() || isLevel(floor.at(at[liquid]))) depth = std::min(depth, double{floor.heightOf(at[liquid])});
+  }
   const api::NeighbourView view = neighbours.view();
   for (uint32_t q = view.begin[liquid]; q < view.last[liquid]; ++q) {
     const uint32_t j = view.index[q];

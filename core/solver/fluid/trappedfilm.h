@@ -23,7 +23,7 @@ namespace ps {
 /// beside it or much liquid below, were seen to at a sixth.
 class TrappedFilm {
  public:
-  void configure(const SolverSettings& settings, const std::vector<WallPlane>& planes);
+  void configure(const SolverSettings& settings, const std::vector<WallSurface>& walls);
   /// After new lists: `solids` are those that move and have fluid near, ascending.
   void refresh(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> solids);
   bool any() const { return !m_liquids.empty(); }
@@ -53,11 +53,12 @@ class TrappedFilm {
   bool restsOnOwn(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid) const;
   void findBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t solid);
   double boundaryBelow(const ParticleStore& store, const Neighbours& neighbours, uint32_t liquid, uint32_t body) const;
+  bool isLevel(const WallPlane& floor) const;
   double riseOf(const ParticleStore& store, std::span<const api::Float4> at, uint32_t i, uint32_t j) const;
 
   double m_spacing = 0, m_support = 0;
-  Vector3 m_up;  ///< zero without gravity
-  std::vector<WallPlane> m_floors;
+  Vector3 m_up;                       ///< zero without gravity
+  std::vector<WallSurface> m_floors;  ///< walls that are level, or somewhere so
   std::vector<uint32_t> m_liquids;
   std::vector<uint8_t> m_inside;     ///< of the solids asked for: whether one rests on its own body, or swims
   std::vector<float> m_yield;        ///< by particle

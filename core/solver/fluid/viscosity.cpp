@@ -53,9 +53,9 @@ void ViscosityStage::configure(const SolverSettings& settings, const std::vector
   m_materials = materials;
   m_secondMoment = secondMoment(Kernel(settings.kernel, settings.spacing * settings.supportRatio));
   m_implicit.configure(settings, walls, shapes);
-  m_planes.clear();
+  m_held.clear();
   for (const Wall& wall : walls) {
-    if (wall.noSlip) m_planes.emplace_back(wall);
+    if (wall.noSlip) m_held.emplace_back(wall);
   }
   m_mushy.clear();
   for (const BakedMaterial& material : materials) {
@@ -72,8 +72,7 @@ double ViscosityStage::calming() const {
 }
 
 double ViscosityStage::filterSuffices() const {
-  return std::min(filterReach(),
-                  m_settings.spacing * m_settings.spacing / (m_planes.empty() ? kNoWallTime : kWallTime));
+  return std::min(filterReach(), m_settings.spacing * m_settings.spacing / (m_held.empty() ? kNoWallTime : kWallTime));
 }
 
 double ViscosityStage::viscosityOf(const ParticleStore& store, size_t i) const {

@@ -81,7 +81,7 @@ class ViscosityStage {
   void addYieldStress(const ParticleStore& store);
 
   SolverSettings m_settings;
-  std::vector<WallPlane> m_planes;  ///< that liquid sticks to
+  std::vector<WallSurface> m_held;  ///< walls that liquid sticks to
   std::span<const BakedMaterial> m_materials;
   ImplicitViscosity m_implicit;
   double m_secondMoment = 0;     ///< s2, m2

@@ -51,14 +51,15 @@ double heldShare(double slope, double layers) {
 
 /// By material, then by wall: of the filter, and of the implicit stage.
 std::vector<ViscosityStage::AtWall> ViscosityStage::atWalls(const ParticleStore& store) const {
-  std::vector<AtWall> found(2 * m_planes.size() * m_materials.size());
+  std::vector<AtWall> found(2 * m_held.size() * m_materials.size());
   if (found.empty()) return found;
   const float spacing = static_cast<float>(m_settings.spacing);
   for (size_t i = 0; i < store.size(); ++i) {
     if (!isLiquid(store, i)) continue;
     const size_t stage = m_implicit.active() && i < m_viscous.size() && m_viscous[i] > 0 ? 1 : 0;
-    AtWall* wall = &found[2 * m_planes.size() * store.material()[i]] + stage;
-    for (const WallPlane& plane : m_planes) {
+    AtWall* wall = &found[2 * m_held.size() * store.material()[i]] + stage;
+    for (const WallSurface& held : m_held) {
+      const WallPlane plane = held.at(store.position()[i]);
       const float height = plane.heightOf(store.position()[i]);
       ++wall->all;
       wall->near += height < kNearLayers * spacing ? 1 : 0;
@@ -157,7 +158,8 @@ void ViscosityStage::filmLimits(const AtWall& film, double few, double faster, c
 /// no room to pass each other; 1 where they do, or where it does not fill one. What sticks to a wall flows three times
 /// as fast at 1 1/2 spacings as at a half, a little less in a narrow gap: what hardly does moves as one.
 double ViscosityStage::gapShare(size_t one, size_t other, std::span<const AtWall> atWalls) const {
-  const WallPlane &a = m_planes[one], &b = m_planes[other];
+  if (m_held[one].isCurved() || m_held[other].isCurved()) return 1;  // no gap is everywhere as wide
+  const WallPlane &a = m_held[one].plane, &b = m_held[other].plane;
   if (a.x * b.x + a.y * b.y + a.z * b.z > kOpposite) return 1;
   const AtWall &near = atWalls[2 * one + 1], &far = atWalls[2 * other + 1];
   const auto first = static_cast<double>(near.touching + far.touching);
@@ -187,7 +189,7 @@ void ViscosityStage::wallLimits(size_t material, double time, std::span<const At
   const auto flows = [&](const AtWall& at, double spacings) {
     return at.touching > 0 && at.speed > spacings * spacing * static_cast<double>(at.touching);
   };
-  for (size_t w = 0; w < m_planes.size(); ++w) {
+  for (size_t w = 0; w < m_held.size(); ++w) {
     const AtWall &filtered = atWalls[2 * w], &solved = atWalls[2 * w + 1];
     if (flows(filtered, kSlides)) {
       const auto touching = static_cast<double>(filtered.touching);
@@ -204,8 +206,8 @@ void ViscosityStage::wallLimits(size_t material, double time, std::span<const At
       tell(viscosity, 1 + kCalmed * calmed / nu, "calming resists more", "solver/xsph_minimum=0");
   }
   const bool flowsEvenly = m_mushy[material] == 0 && !m_yields;  // what yields moves as one where it does not
-  for (size_t w = 0; w < m_planes.size() && flowsEvenly; ++w) {
-    for (size_t v = w + 1; v < m_planes.size(); ++v) {
+  for (size_t w = 0; w < m_held.size() && flowsEvenly; ++w) {
+    for (size_t v = w + 1; v < m_held.size(); ++v) {
       const double share = gapShare(w, v, atWalls);
       const AtWall& at = atWalls[2 * w + 1];
       if (share < kPassing)
@@ -243,7 +245,7 @@ void ViscosityStage::limits(const ParticleStore& store, double time, std::vector
     if (asked[m].viscosity > delivered)
       out.push_back({id + ".viscosity", asked[m].viscosity, delivered, "Pa·s"});
     else if (asked[m].viscosity > 0)
-      wallLimits(m, time, std::span(walls).subspan(2 * m_planes.size() * m, 2 * m_planes.size()), out);
+      wallLimits(m, time, std::span(walls).subspan(2 * m_held.size() * m, 2 * m_held.size()), out);
     if (filterAlone && asked[m].yieldStress > 0) out.push_back({id + ".yield_stress", asked[m].yieldStress, 0, "Pa"});
   }
   if (m_implicit.residual() > m_settings.viscosityTolerance)

@@ -31,8 +31,8 @@ void Hovering::configure(const SolverSettings& settings, const std::vector<Wall>
                          std::span<const BakedMaterial> materials) {
   m_settings = settings;
   m_materials = materials;
-  m_planes.clear();
-  for (const Wall& wall : walls) m_planes.emplace_back(wall);
+  m_walls.clear();
+  for (const Wall& wall : walls) m_walls.emplace_back(wall);
   m_kernel = Kernel(settings.kernel, settings.spacing * settings.supportRatio);
   m_halfSpace = HalfSpaceTable(m_kernel);
   const Vector3 gravity = vectorOf(settings.gravity);
@@ -121,7 +121,7 @@ void Hovering::remember() {
 double Hovering::wallShare(const api::Float4& at) const {
   const float nearest = static_cast<float>(0.5 * m_settings.spacing);
   double share = 0;
-  for (const WallPlane& plane : m_planes) share += double{m_halfSpace.at(std::max(nearest, plane.heightOf(at))).share};
+  for (const WallSurface& wall : m_walls) share += double{m_halfSpace.at(std::max(nearest, wall.heightOf(at))).share};
   return share;
 }
 
@@ -130,7 +130,8 @@ void Hovering::lookAround(const Matter& matter, uint32_t i, Around& around) cons
   const ParticleStore& store = matter.store;
   const double spacing = m_settings.spacing;
   const api::Float4& at = store.position()[i];
-  for (const WallPlane& plane : m_planes) {
+  for (const WallSurface& wall : m_walls) {
+    const WallPlane plane = wall.at(at);
     const bool below = Vector3{plane.x, plane.y, plane.z}.dot(m_up) > kBelow;
     around.stands = around.stands || (below && double{plane.heightOf(at)} < (kGap + 0.5) * spacing);
   }

@@ -65,7 +65,7 @@ class Hovering {
 
   SolverSettings m_settings;
   std::span<const BakedMaterial> m_materials;
-  std::vector<WallPlane> m_planes;
+  std::vector<WallSurface> m_walls;
   Kernel m_kernel{KernelShape::CubicSpline, 1};
   HalfSpaceTable m_halfSpace;
   Vector3 m_up;  ///< zero without gravity

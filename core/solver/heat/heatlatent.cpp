@@ -66,9 +66,8 @@ void HeatStage::filmHeat(const ParticleStore& store, size_t i, double frame, Par
   for (const Wall& wall : m_surroundings.walls()) {
     const bool cold = wall.heat == WallHeat::FixedTemperature && wall.temperature < c.boilingPoint;
     if (!cold) continue;
-    const double depth =
-        wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
-    if (depth < kFilmReach * dx) joules += wall.filmCoefficient * dx * dx * (wall.temperature - t) * frame;
+    if (heightOver(wall, x) < kFilmReach * dx)
+      joules += wall.filmCoefficient * dx * dx * (wall.temperature - t) * frame;
   }
   if (!(joules < 0)) return;
   const double superheat = double{store.mass()[i]} * c.heatCapacityGas * std::max(0.0, t - c.boilingPoint);

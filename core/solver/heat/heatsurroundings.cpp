@@ -2,6 +2,7 @@
 #include "core/solver/heat/heatsurroundings.h"
 
 #include "core/base/parallel.h"
+#include "core/solver/contact/wallplane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,16 @@ double convectionIn(double still, double wind) {
 double inSeries(double film, double conductivity, double spacing) {
   if (!(film > 0) || !(conductivity > 0)) return 0;
   return 1 / (1 / film + 0.5 * spacing / conductivity);
+}
+
+/// How much more of a curved layer `behind` m behind a wall's face is seen from `depth` m before that layer than of a
+/// plane one: of a sphere R'/(R' - depth), exactly, of a cylinder the root of that, to first order in depth/R'.
+double spreadOf(const Bend& bend, double depth, double behind) {
+  if (bend.radius == 0) return 1;
+  const double radius = bend.radius + behind;    // below 0 where matter is outside
+  if (bend.radius < 0 && radius >= 0) return 0;  // there is no such layer
+  const double spread = radius / (radius < 0 ? radius - depth : std::max(radius - depth, 0.5 * radius));
+  return bend.share < 1 ? std::sqrt(spread) : spread;
 }
 
 }  // namespace
@@ -121,9 +132,9 @@ void HeatSurroundings::touchWalls(const ParticleStore& store, const HeatPairs& p
   for (size_t w = 0; w < m_walls.size(); ++w) {
     const Wall& wall = m_walls[w];
     if (wall.heat == WallHeat::Adiabatic) continue;
-    const double depth =
-        wall.normal.x * double{x.x} + wall.normal.y * double{x.y} + wall.normal.z * double{x.z} - wall.offset;
-    const double g = 4 * volume * dx * 2 * std::numbers::pi * kernel.value(std::max(depth, 0.0) + 0.5 * dx);
+    const double depth = std::max(heightOver(wall, x), 0.0) + 0.5 * dx;
+    const double g =
+        4 * volume * dx * 2 * std::numbers::pi * kernel.value(depth) * spreadOf(bendOf(wall), depth, 0.5 * dx);
     if (!(g > 0)) continue;
     const double area = dx * dx * g / m_wholeLayer;
     double conductance = 0;

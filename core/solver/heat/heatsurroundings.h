@@ -29,8 +29,9 @@ struct HeatBooks {
 ///
 /// Walls: a layer of boundary matter of volume dx^3 half a spacing behind the plane, smeared out along it:
 /// G = 4 k V dx A(d + dx/2), A(h) = integral of -F over the plane at distance h = 2 pi W(h). A fixed temperature holds
-/// on the plane itself. Flux and convection reach a particle by its share of the wall's area, A = dx2 G/G', G' that of
-/// a whole layer: on a lattice the shares add up to the area exactly. Convection: 1/U = 1/h + (dx/2)/k.
+/// on the plane itself, and on the face of a curved wall, whose layer is curved too. Flux and convection reach a
+/// particle by its share of the wall's area, A = dx2 G/G', G' that of a whole layer: on a lattice the shares add up to
+/// the area exactly. Convection: 1/U = 1/h + (dx/2)/k.
 ///
 /// Air: G = A U on free surfaces (OpenSurface) with the same U; vapour by its own size where no liquid surrounds it.
 /// Wind of 2 to 20 m/s takes h = 10.45 - v + 10 sqrt(v) kcal/(m2 h K), v in m/s (Siple & Passel 1945), where that is

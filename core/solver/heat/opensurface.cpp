@@ -93,6 +93,16 @@ const std::array<std::array<float, 3>, OpenSurface::kDirections>& OpenSurface::d
   return list;
 }
 
+/// The directions that lead behind a plane with that normal.
+uint64_t OpenSurface::behind(const api::Double3& n) {
+  uint64_t behind = 0;
+  for (size_t d = 0; d < kDirections; ++d) {
+    const auto& way = directions()[d];
+    if (n.x * double{way[0]} + n.y * double{way[1]} + n.z * double{way[2]} < kBelowLevel) behind |= uint64_t{1} << d;
+  }
+  return behind;
+}
+
 void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& lists, std::span<const float> filled,
                           std::span<const Wall> walls, double spacing, std::span<const double> scaledArea) {
   m_spacing = spacing;
@@ -100,14 +110,7 @@ void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& 
   m_open.resize(store.size());
   m_scale.assign(store.size(), 1.0f);
   m_behindWall.assign(walls.size(), 0);
-  for (size_t w = 0; w < walls.size(); ++w) {
-    for (size_t d = 0; d < kDirections; ++d) {
-      const auto& way = directions()[d];
-      const api::Double3& n = walls[w].normal;
-      if (n.x * double{way[0]} + n.y * double{way[1]} + n.z * double{way[2]} < kBelowLevel)
-        m_behindWall[w] |= uint64_t{1} << d;
-    }
-  }
+  for (size_t w = 0; w < walls.size(); ++w) m_behindWall[w] = behind(walls[w].normal);
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     store.period().any() ? cover<true>(store, lists, filled, walls, first, last)
                          : cover<false>(store, lists, filled, walls, first, last);
@@ -153,9 +156,9 @@ void OpenSurface::cover(const ParticleStore& store, const api::NeighbourView& li
     if (motion[i] == api::Motion::Gas || filled[i] >= kInside) continue;
     uint64_t covered = 0;
     for (size_t w = 0; w < walls.size(); ++w) {
-      const api::Double3& n = walls[w].normal;
-      const double depth = n.x * double{x[i].x} + n.y * double{x[i].y} + n.z * double{x[i].z} - walls[w].offset;
-      if (depth < kBesideWall * m_spacing) covered |= m_behindWall[w];
+      if (!(heightOver(walls[w], x[i]) < kBesideWall * m_spacing)) continue;
+      covered |= walls[w].form == WallForm::Plane ? m_behindWall[w]
+                                                  : behind(double3Of(faceOf(walls[w]).at(vectorOf(x[i])).normal));
     }
     for (uint32_t k = lists.begin[i]; k < lists.last[i] && ~covered != 0; ++k) {
       const uint32_t j = lists.index[k];

@@ -48,6 +48,7 @@ class OpenSurface {
   template <bool kPeriodic>
   void cover(const ParticleStore& store, const api::NeighbourView& lists, std::span<const float> filled,
              std::span<const Wall> walls, size_t first, size_t last);
+  static uint64_t behind(const api::Double3& normal);
   void scaleToBodies(const ParticleStore& store, std::span<const double> scaledArea);
 
   double m_spacing = 0.02, m_unit = 0;  ///< m, m2

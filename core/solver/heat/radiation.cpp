@@ -58,7 +58,13 @@ std::pair<size_t, double> Radiation::nearestWall(const Ray& ray) const {
   constexpr double kRounding = 1 + 1e-12;
   std::pair<size_t, double> nearest{m_mirrors.size(), kFar};
   for (size_t w = 0; w < m_mirrors.size(); ++w) {
-    const Plane& plane = m_mirrors[w].plane;
+    const WallFace& face = m_mirrors[w].face;
+    if (face.isCurved()) {
+      const std::optional<double> distance = face.meets(ray.from, ray.way);
+      if (distance && *distance < nearest.second) nearest = {w, *distance};
+      continue;
+    }
+    const Plane& plane = face.plane();
     const double towards = -plane.normal.dot(ray.way), height = plane.heightOf(ray.from);
     // Most are farther than one that is known, which is told without a division.
     if (!(towards > 0) || height > kRounding * nearest.second * towards) continue;
@@ -79,7 +85,7 @@ void Radiation::trace(const RadiationScene& scene) {
   const size_t n = scene.store.size();
   m_walls = scene.walls.size();
   m_mirrors.clear();
-  for (const Wall& wall : scene.walls) m_mirrors.push_back({planeOf(wall), exchanges(wall)});
+  for (const Wall& wall : scene.walls) m_mirrors.push_back({faceOf(wall), exchanges(wall)});
   m_sky.assign(n, 0.0f);
   m_wall.assign(n * m_walls, 0.0f);
   findBoxes(scene);
@@ -216,7 +222,7 @@ Radiation::End Radiation::endOf(const RadiationScene& scene, Ray ray) const {
     ray.from += distance * ray.way;
     if (!mirror.exchanges && !within(scene.bounds, ray.from, scene.spacing))
       return {RayGrid::kNone, nowhere.wall, true, false};
-    const Vector3& normal = mirror.plane.normal;
+    const Vector3 normal = mirror.face.at(ray.from).normal;
     ray.way -= 2 * normal.dot(ray.way) * normal;
     ray.straight = false;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/math/plane.h"
 #include "core/math/vector.h"
+#include "core/math/wallface.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/heat/opensurface.h"
 #include "core/solver/heat/raygrid.h"
@@ -104,7 +104,7 @@ class Radiation {
 
   /// A wall as rays meet it.
   struct Mirror {
-    Plane plane;
+    WallFace face;
     bool exchanges;  ///< has a temperature
   };
   /// The wall that a ray would meet first, its number where there is none, and how far it is.

@@ -147,8 +147,9 @@ void findBareFaces(const SurfaceSurroundings& around, Near near, SurfaceBox& box
   }
   const Vector3 x = vectorOf(around.store.position()[box.particle]);
   for (const Wall& wall : around.walls) {
-    const Vector3 normal = vectorOf(wall.normal);
-    if (normal.dot(x) - wall.offset >= kBesideWall * dx) continue;
+    const Plane plane = faceOf(wall).at(x);
+    const Vector3& normal = plane.normal;
+    if (plane.heightOf(x) >= kBesideWall * dx) continue;
     for (size_t face = 0; face < 6; ++face) {
       if (normal.dot(box.normal(face)) < -kFacing) closed |= 1u << face;
     }
