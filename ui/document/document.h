@@ -57,7 +57,7 @@ class Document : public QObject {
   /// Rises with every change of the project, and when another takes its place.
   uint64_t changeCount() const { return m_changes; }
 
-  ProjectAbout about() const { return {m_project.title, m_project.description, m_project.toTry}; }
+  ProjectAbout about() const;
   void setAbout(ProjectAbout about, const QString& text);
 
   // Parameters
