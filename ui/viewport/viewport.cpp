@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 #include "ui/render/framing.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
@@ -352,6 +353,8 @@ std::optional<Box> Viewport::boxOfSelection() const {
   for (const SelectedItem& item : m_selection.items()) {
     if (item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink)
       add(boxAround({item.kind == OutlineKind::Sink, item.id}));
+    const Region* pin = item.kind == OutlineKind::Pin ? findPin(m_document.project(), item.id) : nullptr;
+    if (pin) add(Box(pin->minimum, pin->maximum));
   }
   return all;
 }
