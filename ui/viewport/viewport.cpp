@@ -206,9 +206,11 @@ void Viewport::paintGL() {
     if (m_renderer) {
       m_tools.tool().see(m_now.get());
       paintPortsOver(painter);
-      const ToolPicture picture = m_tools.tool().picture();
+      ToolPicture picture = m_tools.tool().picture();
+      if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
       if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
       if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
+      if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size());
       m_hits = paintOverlays(painter, overlayState());
     } else {
       painter.fillRect(rect(), Theme::current()[Token::Panel]);
