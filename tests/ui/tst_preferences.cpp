@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dialog of preferences: each choice acts at once, and stands there the next time.
+#include "core/io/projectio.h"
 #include "core/simulation/runrecord.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
@@ -9,6 +10,7 @@
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
+#include "ui/timeline/transport.h"
 #include "ui/tools/navigation.h"
 #include "ui/window/help.h"
 #include "ui/window/shortcutswindow.h"
@@ -22,6 +24,8 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPlainTextEdit>
 #include <QtWidgets/QPushButton>
+
+#include <algorithm>
 
 using namespace ps;
 
@@ -287,6 +291,60 @@ class TestPreferences : public SampleWindowTest {
     document().undoStack().undo();
     QVERIFY(document().about() == before);
     QVERIFY(m_window->windowTitle().contains(QString::fromStdString(before.title)));
+  }
+
+  /// With a unit; what is no duration is told of, and the one before stays.
+  void theProjectsDurationIsTyped() {
+    const std::string before = writeProject(document().project());
+    m_window->action(QStringLiteral("edit.project"))->trigger();
+    auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+    QVERIFY(about && QTest::qWaitForWindowActive(about));
+    QApplication::setActiveWindow(about);
+    QLineEdit* field = nullptr;
+    for (QLineEdit* line : about->findChildren<QLineEdit*>()) {
+      if (line->accessibleName() == QStringLiteral("Duration")) field = line;
+    }
+    QVERIFY(field);
+    const auto type = [&](const QString& text) {
+      field->setFocus();
+      field->selectAll();
+      QTest::keyClicks(field, text);
+      QTest::keyClick(field, Qt::Key_Tab);
+    };
+    type(QStringLiteral("1500 ms"));
+    QCOMPARE(document().project().duration, 1.5);
+    QCOMPARE(field->text(), QStringLiteral("1.500 s"));
+    QVERIFY2(m_window->transport()->durationText().startsWith(QStringLiteral("/ 00:01")),
+             qPrintable(m_window->transport()->durationText()));
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("duration"));
+    for (const char* wrong : {"-1", "a while", "3 kg"}) {
+      type(QString::fromLatin1(wrong));
+      QCOMPARE(document().project().duration, 1.5);
+      const auto labels = about->findChildren<QLabel*>();
+      QVERIFY(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+        return label->isVisible() && label->property("role") == QStringLiteral("error") && !label->text().isEmpty();
+      }));
+    }
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) about->grab().save(folder + QStringLiteral("/tst_project_duration.png"));
+    type(QStringLiteral("2"));
+    about->close();
+    QCOMPARE(document().project().duration, 2.0);
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  /// A dialog that is open, with something typed, goes with its window.
+  void aWindowClosesWithItsDialogs() {
+    auto other = sampleWindow({1280, 800});
+    QVERIFY(other);
+    other->action(QStringLiteral("edit.project"))->trigger();
+    auto* about = other->findChild<QDialog*>(QStringLiteral("psProject"));
+    QVERIFY(about && QTest::qWaitForWindowActive(about));
+    about->findChild<QLineEdit*>()->setText(QStringLiteral("Puddle"));
+    other.reset();
+    QApplication::setActiveWindow(m_window.get());
   }
 
   /// From field to field by Tab, to the next choice by an arrow.

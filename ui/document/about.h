@@ -7,7 +7,8 @@ namespace ps {
 /// What a project says of itself.
 struct ProjectAbout {
   std::string title, description;
-  std::string toTry;  ///< a sentence
+  std::string toTry;     ///< a sentence
+  double duration = 60;  ///< s, that a run is planned to last
   bool operator==(const ProjectAbout&) const = default;
 };
 

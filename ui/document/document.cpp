@@ -260,6 +260,10 @@ void Document::removeState() {
     m_undo.push(new StateCommand(*this, m_project.state, nullptr, QStringLiteral("removal of the saved state")));
 }
 
+ProjectAbout Document::about() const {
+  return {m_project.title, m_project.description, m_project.toTry, m_project.duration};
+}
+
 void Document::setAbout(ProjectAbout about, const QString& text) {
   if (about != this->about()) m_undo.push(new AboutCommand(*this, this->about(), std::move(about), text));
 }
@@ -316,6 +320,7 @@ void Document::applyAbout(const ProjectAbout& about) {
   m_project.title = about.title;
   m_project.description = about.description;
   m_project.toTry = about.toTry;
+  m_project.duration = about.duration;
   ++m_changes;
   notify(AboutChanged{});
 }

@@ -57,7 +57,7 @@ class Document : public QObject {
   /// Rises with every change of the project, and when another takes its place.
   uint64_t changeCount() const { return m_changes; }
 
-  ProjectAbout about() const { return {m_project.title, m_project.description, m_project.toTry}; }
+  ProjectAbout about() const;
   void setAbout(ProjectAbout about, const QString& text);
 
   // Parameters
@@ -123,9 +123,10 @@ class Document : public QObject {
   void removeWall(const std::string& id);
 
   // Things of several kinds
-  /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their materials, but
-  /// for those that the scene has already; what they refer to among themselves follows their new ids. Returns them as
-  /// they are here.
+  /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their tracks, groups
+  /// and materials, but for materials that the scene has already; what they refer to among themselves follows their new
+  /// ids. A copy of some of a group's members joins that group, one of all of them is a group more. Returns them as they
+  /// are here.
   Placement insertThings(Project things, const QString& title);
   /// How things stand in lists, and their groups (see livingGroups()).
   SceneOrder order() const;

@@ -37,9 +37,9 @@ EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
   row->addWidget(m_ledger);
   connect(&session, &Session::valuesDue, this, &EnergyPanel::readHistory);
   connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
-    if (!std::holds_alternative<ProjectOpened>(event)) return;
-    clear();
-    setDuration(session.document().project().duration);
+    const bool opened = std::holds_alternative<ProjectOpened>(event);
+    if (opened) clear();
+    if (opened || std::holds_alternative<AboutChanged>(event)) setDuration(session.document().project().duration);
   });
 }
 

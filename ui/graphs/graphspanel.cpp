@@ -98,6 +98,10 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
                         std::holds_alternative<WallsChanged>(event) || std::holds_alternative<MaterialsChanged>(event);
     if (owners && plotsParameters()) rebuild();
     if (std::holds_alternative<MarkersChanged>(event)) setMarkers();
+    for (const Shown& shown : m_shown) {
+      if (shown.overTime && std::holds_alternative<AboutChanged>(event))
+        shown.overTime->setDuration(m_session.document().project().duration);
+    }
   });
 }
 

@@ -94,8 +94,10 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
       Q_EMIT menuRequested(m_view->viewport()->mapToGlobal(at));
   });
   connect(m_model, &OutlinerModel::dropped, this, &Outliner::moveRows);
-  connect(m_model, &OutlinerModel::materialDropped, this,
-          [this](const QMimeData& carried, const std::string& body) { giveMaterial(m_document, body, carried); });
+  connect(m_model, &OutlinerModel::materialDropped, this, [this](const QMimeData& carried, const std::string& body) {
+    giveMaterial(m_document, takersOf(m_document, m_selection, body), carried);
+  });
+  m_view->viewport()->installEventFilter(this);
   connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
     if (!m_building) takeSelection();
   });

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+class QDragMoveEvent;
 class QLabel;
 class QLayout;
 class QModelIndex;
@@ -46,6 +47,7 @@ class Outliner : public QWidget {
   void toggleLocked();
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
   void menuRequested(const QPoint& global);  ///< of the selected body, tap or drain
@@ -66,6 +68,7 @@ class Outliner : public QWidget {
   void filter();
   void moveRows(std::vector<SelectedItem> rows, const QModelIndex& parent, int row);
   static void moveGroup(SceneOrder& order, const std::string& id, const std::string& before);
+  void tellDrop(const QDragMoveEvent& event) const;
   void readValues();  ///< counts, probe values
   void refreshSurroundings();
   void refreshCounts();

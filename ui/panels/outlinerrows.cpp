@@ -5,7 +5,10 @@
 #include "ui/panels/outliner.h"
 #include "ui/panels/outlinermodel.h"
 #include "ui/rows/filterfield.h"
+#include "ui/session/carriedmaterial.h"
+#include "ui/theme/plaintext.h"
 
+#include <QtGui/QDropEvent>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QTreeView>
@@ -104,6 +107,24 @@ void Outliner::takeSelection() {
   std::stable_sort(rows.begin(), rows.end(),
                    [&](const SelectedItem& a, const SelectedItem& b) { return rank(a) < rank(b); });
   m_selection.selectAll(std::move(rows));
+}
+
+bool Outliner::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::DragMove) tellDrop(*static_cast<QDragMoveEvent*>(event));
+  if (event->type() == QEvent::DragLeave || event->type() == QEvent::Drop) showTip({}, {}, m_view->viewport());
+  return QWidget::eventFilter(watched, event);
+}
+
+/// Why the body of a row takes no material, while one is held over it.
+void Outliner::tellDrop(const QDragMoveEvent& event) const {
+  const QPoint place = event.position().toPoint();
+  const SelectedItem item = itemOf(m_view->indexAt(place));
+  const bool asks = event.source() != m_view && carriesMaterial(*event.mimeData()) && item.kind == OutlineKind::Body;
+  const QString why = asks ? whyNoMaterial(m_document, item.id) : QString();
+  if (why.isEmpty())
+    showTip({}, {}, m_view->viewport());
+  else
+    showTip(m_view->viewport()->mapToGlobal(place), why, m_view->viewport());
 }
 
 SelectedItem Outliner::itemOf(const QModelIndex& index) const {

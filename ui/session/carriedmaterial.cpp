@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
+#include "ui/session/selection.h"
 
 #include <QtCore/QMimeData>
 
@@ -40,25 +41,47 @@ void carryPreset(QMimeData& data, const SceneMaterial& preset) {
   Project project;
   project.title = preset.label;
   project.materials.push_back(preset);
+  if (preset.id.empty()) project.materials.back().id = preset.base;  // no file holds one without
   data.setData(QLatin1String(kPresetMime), QByteArray::fromStdString(writeProject(project)));
 }
 
-bool giveMaterial(Document& document, const std::string& body, const QMimeData& data) {
+QString whyNoMaterial(const Document& document, const std::string& body) {
+  if (const Emitter* tap = document.emitter(body))
+    return QStringLiteral("What “%1” pours stays what it is. Drop it on a body.").arg(nameOf(*tap));
   const Body* target = document.body(body);
-  if (!target || target->locked) return false;
-  if (const std::string id = textOf(data, kMaterialMime); !id.empty()) {
-    const auto& materials = document.project().materials;
-    if (std::none_of(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; }))
-      return false;
-    document.setBodyMaterial(body, id);
-    return true;
-  }
-  const std::string base = textOf(data, kInstalledMime);
-  const std::optional<SceneMaterial> preset = base.empty() ? presetOf(document, data) : std::nullopt;
+  if (!target) return QStringLiteral("Drop it on a body.");
+  return target->locked ? QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*target)) : QString();
+}
+
+std::vector<std::string> takersOf(const Document& document, const Selection& selection, const std::string& body) {
+  if (!whyNoMaterial(document, body).isEmpty()) return {};
+  if (!selection.has(OutlineKind::Body, body)) return {body};
+  std::vector<std::string> all = selection.bodies();
+  std::erase_if(all, [&](const std::string& each) { return !whyNoMaterial(document, each).isEmpty(); });
+  return all;
+}
+
+bool giveMaterial(Document& document, std::vector<std::string> bodies, const QMimeData& data) {
+  std::erase_if(bodies, [&](const std::string& each) { return !whyNoMaterial(document, each).isEmpty(); });
+  if (bodies.empty()) return false;
+  const auto& materials = document.project().materials;
+  const auto known = [&](const auto& isIt) {
+    const auto found = std::find_if(materials.begin(), materials.end(), isIt);
+    return found == materials.end() ? std::string() : found->id;
+  };
+  const std::string id = textOf(data, kMaterialMime), base = textOf(data, kInstalledMime);
+  std::string material = !id.empty() ? known([&](const SceneMaterial& m) { return m.id == id; })
+                                     : known([&](const SceneMaterial& m) { return m.base == base; });
   const bool installed = !base.empty() && document.plugins() && document.plugins()->material(base);
-  if (!installed && !preset) return false;
-  document.undoStack().beginMacro(QStringLiteral("material of %1").arg(nameOf(*target)));
-  document.setBodyMaterial(body, installed ? document.addMaterial(base) : addPreset(document, *preset));
+  const auto preset = id.empty() && base.empty() ? presetOf(document, data) : std::nullopt;
+  if (material.empty() && (!id.empty() || !(installed || preset))) return false;
+  std::erase_if(bodies, [&](const std::string& each) { return document.body(each)->material == material; });
+  if (bodies.empty()) return true;  // no step that does nothing
+  document.undoStack().beginMacro(bodies.size() == 1
+                                      ? QStringLiteral("material of %1").arg(nameOf(*document.body(bodies[0])))
+                                      : QStringLiteral("material of %1 bodies").arg(bodies.size()));
+  if (material.empty()) material = preset ? addPreset(document, *preset) : document.addMaterial(base);
+  for (const std::string& body : bodies) document.setBodyMaterial(body, material);
   document.undoStack().endMacro();
   return true;
 }

@@ -2,6 +2,8 @@
 #include "ui/session/excerpt.h"
 
 #include "core/io/projectio.h"
+#include "core/scene/group.h"
+#include "core/scene/track.h"
 
 #include <algorithm>
 #include <set>
@@ -32,6 +34,16 @@ std::set<std::string> materialsOf(const Project& things) {
   return ids;
 }
 
+/// Groups and tracks of what was taken; tracks of the scene itself, of its air or its solver, are no thing's.
+void takeWhatBelongs(const Project& from, Project& excerpt) {
+  excerpt.groups = from.groups;
+  excerpt.groups = livingGroups(excerpt);
+  excerpt.tracks = from.tracks;
+  excerpt.tracks = ownedTracks(excerpt);
+  std::erase_if(excerpt.tracks,
+                [](const Track& track) { return TrackTarget::parse(track.parameter)->address.id.empty(); });
+}
+
 }  // namespace
 
 Project excerptOf(const Project& project, const std::vector<SelectedItem>& items) {
@@ -52,12 +64,14 @@ Project excerptOf(const Project& project, const std::vector<SelectedItem>& items
   for (const SceneMaterial& material : project.materials) {
     if (used.count(material.id) > 0) excerpt.materials.push_back(material);
   }
+  takeWhatBelongs(project, excerpt);
   return excerpt;
 }
 
 Project excerptOf(const Project& project, const std::string& material) {
   Project excerpt;
   take(project.materials, material, excerpt.materials);
+  takeWhatBelongs(project, excerpt);
   return excerpt;
 }
 

@@ -13,7 +13,8 @@ namespace ps {
 
 class PluginRegistry;
 
-/// What is copied: a project of some of the things of another, with the materials that they need.
+/// What is copied: a project of some of the things of another, with the materials that they need, their tracks, and the
+/// groups that they are in.
 Project excerptOf(const Project& project, const std::vector<SelectedItem>& items);
 /// The same of one material.
 Project excerptOf(const Project& project, const std::string& material);

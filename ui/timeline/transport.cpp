@@ -181,10 +181,8 @@ void Transport::makeSpeeds() {
 void Transport::onChanged(const ChangeEvent& event) {
   const bool opened = std::holds_alternative<ProjectOpened>(event);
   const Project& project = m_session.document().project();
-  if (opened) {
-    setDuration(project.duration);
-    setSnapshot(nullptr);
-  }
+  if (opened || std::holds_alternative<AboutChanged>(event)) setDuration(project.duration);
+  if (opened) setSnapshot(nullptr);
   if (opened || std::holds_alternative<StateChanged>(event)) setStateTime(project.state ? project.state->time : 0);
   if (opened || std::holds_alternative<ParameterChanged>(event) || std::holds_alternative<TracksChanged>(event))
     showTimeScale();

@@ -125,16 +125,6 @@ void paintField(QPainter& painter, const GizmoPicture& picture, const QRectF& re
   paintText(painter, inner, Qt::AlignRight | Qt::AlignVCenter, picture.value, font, theme[Token::Text]);
 }
 
-/// What cannot be dragged, and why: at the top.
-void paintNote(QPainter& painter, const QString& note, const QSizeF& size) {
-  const QFont font = Theme::font(TextRole::Normal);
-  const double width = std::min(textWidth(note, font) + 2 * kPadding, size.width() - 2 * kMargin);
-  const QRectF rect((size.width() - width) / 2, kMargin, width, kField);
-  const Theme& theme = Theme::current();
-  paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line], 4);
-  paintText(painter, rect.adjusted(kPadding, 0, -kPadding, 0), Qt::AlignCenter, note, font, theme[Token::Text]);
-}
-
 }  // namespace
 
 QRectF gizmoField(const GizmoPicture& picture, const Camera& camera, const QSizeF& size) {
@@ -154,6 +144,15 @@ void paintGizmo(QPainter& painter, const GizmoPicture& picture, const Camera& ca
   if (picture.gizmo) GizmoPainter(painter, picture, camera, size).paint();
   if (const QRectF field = gizmoField(picture, camera, size); !field.isEmpty()) paintField(painter, picture, field);
   if (!picture.note.isEmpty()) paintNote(painter, picture.note, size);
+}
+
+void paintNote(QPainter& painter, const QString& note, const QSizeF& size) {
+  const QFont font = Theme::font(TextRole::Normal);
+  const double width = std::min(textWidth(note, font) + 2 * kPadding, size.width() - 2 * kMargin);
+  const QRectF rect((size.width() - width) / 2, kMargin, width, kField);
+  const Theme& theme = Theme::current();
+  paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line], 4);
+  paintText(painter, rect.adjusted(kPadding, 0, -kPadding, 0), Qt::AlignCenter, note, font, theme[Token::Text]);
 }
 
 void paintFrame(QPainter& painter, const std::pair<Vector3, Vector3>& corners, const Camera& camera,

@@ -5,6 +5,7 @@
 
 #include <QtCore/QRectF>
 #include <QtCore/QSizeF>
+#include <QtCore/QString>
 
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace ps {
 /// Handles over a picture: arms, faces and rings in the colours of the axes; while one is dragged it alone with its
 /// number in a field. Places in logical pixels of a picture of `size`.
 void paintGizmo(QPainter& painter, const GizmoPicture& picture, const Camera& camera, const QSizeF& size);
+/// A sentence at the top: what cannot be done with what is dragged, and why.
+void paintNote(QPainter& painter, const QString& note, const QSizeF& size);
 /// A frame that is drawn between two places.
 void paintFrame(QPainter& painter, const std::pair<Vector3, Vector3>& corners, const Camera& camera,
                 const QSizeF& size);

@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 #include "ui/render/framing.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
@@ -205,9 +206,11 @@ void Viewport::paintGL() {
     if (m_renderer) {
       m_tools.tool().see(m_now.get());
       paintPortsOver(painter);
-      const ToolPicture picture = m_tools.tool().picture();
+      ToolPicture picture = m_tools.tool().picture();
+      if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
       if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
       if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
+      if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size());
       m_hits = paintOverlays(painter, overlayState());
     } else {
       painter.fillRect(rect(), Theme::current()[Token::Panel]);
@@ -352,6 +355,8 @@ std::optional<Box> Viewport::boxOfSelection() const {
   for (const SelectedItem& item : m_selection.items()) {
     if (item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink)
       add(boxAround({item.kind == OutlineKind::Sink, item.id}));
+    const Region* pin = item.kind == OutlineKind::Pin ? findPin(m_document.project(), item.id) : nullptr;
+    if (pin) add(Box(pin->minimum, pin->maximum));
   }
   return all;
 }

@@ -61,6 +61,8 @@ class Viewport : public QOpenGLWidget {
   /// The body that a dragged material would be dropped on, which has the line around it meanwhile; "" where there is
   /// none.
   const std::string& dropTarget() const { return m_dropTarget; }
+  /// What is said at the top meanwhile; "" for nothing.
+  const QString& dropNote() const { return m_dropNote; }
   /// Tool, brush and what is marked, in words: what a screen reader says.
   QString summary() const;
   /// What the strip of hints says.
@@ -115,8 +117,9 @@ class Viewport : public QOpenGLWidget {
   void announce();  ///< tells assistive technology of another summary()
   void storeView();
   // viewportdrops.cpp
-  std::string bodyForMaterial(const QPointF& position) const;
-  void setDropTarget(const std::string& body);
+  std::string matterAt(const QPointF& position) const;
+  void aimDrop(const QPointF& position);
+  void endDrop();
   // viewportinput.cpp
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
   std::optional<MouseBinding> bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const;
@@ -148,6 +151,7 @@ class Viewport : public QOpenGLWidget {
   std::optional<uint64_t> m_unframed;
   std::set<std::string> m_hidden;
   std::string m_dropTarget;
+  QString m_dropNote;  ///< why nothing takes it, or that several bodies do
 
   ViewNavigator m_navigator;
   Navigation m_navigation{m_navigator};

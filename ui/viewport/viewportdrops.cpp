@@ -11,19 +11,30 @@
 
 namespace ps {
 
-/// "" where there is none that may become of something else: matter of a tap is the tap's, and a locked body stays.
-std::string Viewport::bodyForMaterial(const QPointF& position) const {
+/// Whose it is, Body::id or Emitter::id; "" where there is none.
+std::string Viewport::matterAt(const QPointF& position) const {
   const Pointer pointer = pointerAt(position, {});
   const auto hit = m_now && m_now->bodyIds ? pickParticle(*m_now, pointer.ray) : std::nullopt;
   if (!hit) return {};
   const uint32_t body = m_now->body[*hit];
-  const Body* found = body < m_now->bodyIds->size() ? m_document.body((*m_now->bodyIds)[body]) : nullptr;
-  return found && !found->locked ? found->id : std::string();
+  return body < m_now->bodyIds->size() ? (*m_now->bodyIds)[body] : std::string();
 }
 
-void Viewport::setDropTarget(const std::string& body) {
-  if (body == m_dropTarget) return;
-  m_dropTarget = body;
+void Viewport::aimDrop(const QPointF& position) {
+  const std::string matter = matterAt(position);
+  const QString why = whyNoMaterial(m_document, matter);
+  const size_t takers = takersOf(m_document, m_selection, matter).size();
+  const std::string target = why.isEmpty() ? matter : std::string();
+  const QString note = takers > 1 ? QStringLiteral("All %1 bodies that are selected become of it.").arg(takers) : why;
+  if (target == m_dropTarget && note == m_dropNote) return;
+  m_dropTarget = target;
+  m_dropNote = note;
+  requestPaint();
+}
+
+void Viewport::endDrop() {
+  m_dropTarget.clear();
+  m_dropNote.clear();
   requestPaint();
 }
 
@@ -36,16 +47,16 @@ void Viewport::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void Viewport::dragMoveEvent(QDragMoveEvent* event) {
-  setDropTarget(bodyForMaterial(event->position()));
+  aimDrop(event->position());
   event->setAccepted(!m_dropTarget.empty());
 }
 
-void Viewport::dragLeaveEvent(QDragLeaveEvent* /*event*/) { setDropTarget({}); }
+void Viewport::dragLeaveEvent(QDragLeaveEvent* /*event*/) { endDrop(); }
 
 void Viewport::dropEvent(QDropEvent* event) {
-  const std::string body = bodyForMaterial(event->position());
-  setDropTarget({});
-  event->setAccepted(giveMaterial(m_document, body, *event->mimeData()));
+  const std::vector<std::string> takers = takersOf(m_document, m_selection, matterAt(event->position()));
+  endDrop();
+  event->setAccepted(giveMaterial(m_document, takers, *event->mimeData()));
 }
 
 }  // namespace ps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the renderer is told of the picture: colours, the line around the selected body, the ghost of another run.
 #include "ui/document/document.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -56,13 +57,15 @@ Look Viewport::shownLook() const {
   return look;
 }
 
-/// Around the selected bodies, or the one that a material is about to be dropped on; two logical pixels wide.
+/// Around the selected bodies, or those that take a material that is about to be dropped; two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
   if (!m_now || !m_now->bodyIds) return std::nullopt;
   BodyOutline outline;
+  const std::vector<std::string> takers = takersOf(m_document, m_selection, m_dropTarget);
+  const auto takes = [&](const std::string& id) { return std::find(takers.begin(), takers.end(), id) != takers.end(); };
   for (uint32_t k = 0; k < m_now->bodyIds->size(); ++k) {
     const std::string& id = (*m_now->bodyIds)[k];
-    if (m_dropTarget.empty() ? m_selection.has(OutlineKind::Body, id) : id == m_dropTarget) outline.bodies.push_back(k);
+    if (m_dropTarget.empty() ? m_selection.has(OutlineKind::Body, id) : takes(id)) outline.bodies.push_back(k);
   }
   if (outline.bodies.empty()) return std::nullopt;
   outline.colour = channels(Theme::current()[Token::Accent]);

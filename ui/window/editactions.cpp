@@ -59,18 +59,19 @@ void EditActions::openItemMenu(const QPoint& global) const {
   const auto add = [&](const char* name) { menu->addAction(m_actions.find(QString::fromLatin1(name))); };
   const bool body = !m_selection.body().empty(), placed = body || m_selection.port();
   const OutlineKind kind = m_selection.kind();
-  if (placed || kind == OutlineKind::Probe || kind == OutlineKind::Wall) {
-    if (kind != OutlineKind::Wall) add("edit.rename");
+  if (placed || kind == OutlineKind::Probe || kind == OutlineKind::Wall || kind == OutlineKind::Pin) {
+    if (kind != OutlineKind::Wall && kind != OutlineKind::Pin) add("edit.rename");
     if (body) {
       add("edit.visible");
       add("edit.locked");
       add("edit.isolate");
+      add("edit.pin");
     }
     if (placed) add("view.frame");
     menu->addSeparator();
     for (const char* name : {"edit.cut", "edit.copy", "edit.paste", "edit.duplicate", "edit.delete"}) add(name);
     menu->addSeparator();
-    if (kind != OutlineKind::Probe) {
+    if (kind != OutlineKind::Probe && kind != OutlineKind::Pin) {
       add("edit.group");
       add("edit.ungroup");
       menu->addSeparator();

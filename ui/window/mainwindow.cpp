@@ -53,6 +53,7 @@
 #include <QtGui/QKeyEvent>
 #include <QtGui/QResizeEvent>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QDialog>
 #include <QtWidgets/QDockWidget>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
@@ -102,6 +103,7 @@ MainWindow::MainWindow(const Options& options)
 /// What follows the session goes before it.
 MainWindow::~MainWindow() {
   qApp->removeEventFilter(this);
+  qDeleteAll(findChildren<QDialog*>(QString(), Qt::FindDirectChildrenOnly));  // they take what was typed when they go
   m_welcome->endPictures();
   m_session->disconnect(this);
   m_session->document().disconnect(this);

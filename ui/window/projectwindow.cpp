@@ -3,6 +3,7 @@
 
 #include "ui/document/document.h"
 #include "ui/session/session.h"
+#include "ui/theme/numbers.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
@@ -18,6 +19,9 @@ namespace {
 
 const QString kName = QStringLiteral("psProject");
 constexpr int kEdge = 16, kGap = 6;
+constexpr api::ParameterDeclaration kDuration{
+    "duration", "Duration", "", "s", api::ParameterKind::Number, api::Scale::Linear, 60, 0, 600, 0, 1e9, "", 1, 0, "",
+    "",         "",         "", ""};
 
 class ProjectProperties : public QDialog {
  public:
@@ -31,9 +35,10 @@ class ProjectProperties : public QDialog {
   void showAbout();
   void take();
   Document& m_document;
-  QLineEdit *m_title, *m_toTry;
+  void takeDuration();
+  QLineEdit *m_title, *m_toTry, *m_duration;
   QPlainTextEdit* m_description;
-  QLabel* m_file;
+  QLabel *m_problem, *m_file;
 };
 
 ProjectProperties::ProjectProperties(MainWindow& window)
@@ -41,7 +46,9 @@ ProjectProperties::ProjectProperties(MainWindow& window)
       m_document(window.session().document()),
       m_title(new QLineEdit),
       m_toTry(new QLineEdit),
+      m_duration(new QLineEdit),
       m_description(new QPlainTextEdit),
+      m_problem(new QLabel),
       m_file(new QLabel) {
   setObjectName(kName);
   setWindowTitle(QStringLiteral("Project properties"));
@@ -63,13 +70,22 @@ ProjectProperties::ProjectProperties(MainWindow& window)
   m_description->setPlaceholderText(QStringLiteral("What the scene shows"));
   add(QStringLiteral("To try"), m_toTry);
   m_toTry->setPlaceholderText(QStringLiteral("A sentence: what to change first"));
+  add(QStringLiteral("Duration"), m_duration);
+  m_duration->setToolTip(
+      QStringLiteral("How long a run is planned to be: the time line's length, and where the run of a copy for others "
+                     "ends. It goes on beyond that while it plays."));
+  m_problem->setProperty("role", "error");
+  m_problem->setWordWrap(true);
+  m_problem->hide();
+  column->addWidget(m_problem);
   m_file->setProperty("role", "muted");
   m_file->setWordWrap(true);
   column->addWidget(m_file);
   for (QLineEdit* line : {m_title, m_toTry}) connect(line, &QLineEdit::editingFinished, this, &ProjectProperties::take);
+  connect(m_duration, &QLineEdit::editingFinished, this, &ProjectProperties::takeDuration);
   connect(&m_document, &Document::changed, this, &ProjectProperties::showAbout);
   showAbout();
-  resize(460, 340);
+  resize(460, 390);
 }
 
 /// What is being typed stays; what an undo brings back is shown.
@@ -81,6 +97,7 @@ void ProjectProperties::showAbout() {
   };
   show(*m_title, about.title);
   show(*m_toTry, about.toTry);
+  show(*m_duration, (formatNumber(about.duration) + QStringLiteral(" s")).toStdString());
   const QString text = QString::fromStdString(about.description);
   const bool typing = m_description->hasFocus() && m_description->document()->isModified();
   if (m_description->toPlainText() != text && !typing) m_description->setPlainText(text);
@@ -109,6 +126,25 @@ void ProjectProperties::take() {
   m_document.setAbout(about, QStringLiteral("what to try"));
 }
 
+/// A number that is none, or out of range, is told of, and the one before stays in force.
+void ProjectProperties::takeDuration() {
+  if (!m_duration->isModified()) return;
+  ProjectAbout about = m_document.about();
+  const Typed typed = parseTyped(m_duration->text(), kDuration, about.duration);
+  const QString range =
+      QString::fromStdString(rangeProblem(typed.value, kDuration.hardMinimum, kDuration.hardMaximum, kDuration.unit));
+  const QString problem = !typed.problem.isEmpty() ? typed.problem
+                          : range.isEmpty()        ? QString()
+                                                   : QStringLiteral("Duration %1.").arg(range);
+  m_problem->setText(problem);
+  m_problem->setVisible(!problem.isEmpty());
+  if (!problem.isEmpty()) return;
+  m_duration->setModified(false);
+  about.duration = typed.value;
+  m_document.setAbout(about, QStringLiteral("duration"));
+  showAbout();
+}
+
 bool ProjectProperties::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusOut && watched == m_description) take();
   return QDialog::eventFilter(watched, event);
@@ -116,6 +152,7 @@ bool ProjectProperties::eventFilter(QObject* watched, QEvent* event) {
 
 void ProjectProperties::done(int result) {
   take();
+  takeDuration();
   QDialog::done(result);
 }
 

@@ -7,9 +7,11 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/freename.h"
+#include "ui/document/pinaddress.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/render/framing.h"
 #include "ui/session/excerpt.h"
+#include "ui/session/pinexcerpt.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/tools/placing.h"
@@ -69,6 +71,13 @@ void nameApart(Project& things, const Project& scene) {
   each(things.probes, scene.probes);
 }
 
+/// "" or the body that something is, or is a part of.
+std::string bodyBehind(const SelectedItem& item) {
+  if (item.kind == OutlineKind::Body) return item.id;
+  const auto pin = item.kind == OutlineKind::Pin ? PinAddress::parse(item.id) : std::nullopt;
+  return pin ? pin->body : std::string();
+}
+
 void place(Project& things, const Placement& as) {
   things.bodies = as.bodies;
   things.emitters = as.emitters;
@@ -78,6 +87,15 @@ void place(Project& things, const Placement& as) {
 }
 
 }  // namespace
+
+ThingActions::ThingActions(Session& session, Selection& selection, const MaterialsPanel& materials,
+                           const Actions& actions, Notices& notices)
+    : m_session(session),
+      m_selection(selection),
+      m_materials(materials),
+      m_actions(actions),
+      m_notices(notices),
+      m_pins(session.document(), selection, notices) {}
 
 void ThingActions::makeMenu(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("edit.cut"), QStringLiteral("Cut"), {keys("Ctrl+X")}, [this] {
@@ -95,6 +113,9 @@ void ThingActions::makeMenu(QMenu* menu) {
                 [this] { ungroup(); });
   m_actions.add(menu, QStringLiteral("edit.isolate"), QStringLiteral("Show alone, or all again"), {},
                 [this] { isolate(); });
+  QAction* pin =
+      m_actions.add(menu, QStringLiteral("edit.pin"), QStringLiteral("Add pin"), {}, [this] { m_pins.add(); });
+  pin->setToolTip(QStringLiteral("A box that holds what stands in it from the next reset on."));
 }
 
 void ThingActions::makeArrangeMenu(QMenu* menu) {
@@ -141,19 +162,25 @@ MatterBoxes ThingActions::matter() const {
   return boxes;
 }
 
-/// Of what is selected; of the chosen material while its panel has the focus.
+/// Their panel has the focus: the chosen one is meant, not what is selected.
+bool ThingActions::ofMaterials() const {
+  return m_materials.isAncestorOf(QApplication::focusWidget()) || &m_materials == QApplication::focusWidget();
+}
+
 Project ThingActions::excerpt() const {
   const Project& project = m_session.document().project();
-  if (m_materials.isAncestorOf(QApplication::focusWidget()) || &m_materials == QApplication::focusWidget())
-    return excerptOf(project, m_selection.material());
-  return excerptOf(project, m_selection.items());
+  return ofMaterials() ? excerptOf(project, m_selection.material()) : excerptOf(project, m_selection.items());
 }
 
 bool ThingActions::copy() {
+  if (m_pins.alone() && !ofMaterials()) {
+    QGuiApplication::clipboard()->setText(QString::fromStdString(m_pins.copied()));
+    return true;
+  }
   const Project things = excerpt();
   if (isEmpty(things)) {
     m_notices.refuse(QStringLiteral("Nothing was copied."),
-                     QStringLiteral("Select a body, tap, drain, wall, probe or material first."));
+                     QStringLiteral("Select a body, tap, drain, wall, pin, probe or material first."));
     return false;
   }
   QGuiApplication::clipboard()->setText(QString::fromStdString(textOf(things)));
@@ -164,7 +191,7 @@ void ThingActions::paste() {
   const QString refusal = QStringLiteral("Nothing was pasted.");
   const std::string text = QGuiApplication::clipboard()->text().toStdString();
   const PluginRegistry* plugins = m_session.plugins();
-  if (!plugins) return;
+  if (!plugins || m_pins.paste(text)) return;
   if (text.find('{') == std::string::npos) {
     m_notices.refuse(refusal, QStringLiteral("The clipboard holds no part of a project."));
     return;
@@ -185,6 +212,7 @@ void ThingActions::paste() {
 }
 
 void ThingActions::duplicate() {
+  if (m_pins.alone()) return m_pins.duplicate();
   Project things = excerptOf(m_session.document().project(), m_selection.items());
   if (isEmpty(things)) return;
   insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."), true);
@@ -212,21 +240,31 @@ void ThingActions::insert(Project things, const QString& title, const QString& r
   if (!come.empty()) m_selection.selectAll(itemsOf(come));
 }
 
-/// Locked bodies stay, and are told of.
+/// Locked bodies stay, with their pins, and are told of.
 void ThingActions::remove(const char* title) {
   Document& document = m_session.document();
   std::vector<SelectedItem> items = m_selection.items();
   QString problem;
   std::erase_if(items, [&](const SelectedItem& item) {
-    const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr;
+    const Body* body = document.body(bodyBehind(item));
     if (body && body->locked) problem = QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*body));
     return body && body->locked;
   });
   m_notices.refuse(items.empty() ? QStringLiteral("Nothing was deleted.") : QStringLiteral("Not all was deleted."),
                    problem);
   const Project things = excerptOf(document.project(), items);
-  if (isEmpty(things)) return;
-  document.undoStack().beginMacro(QString::fromLatin1(title).arg(whatOf(things)));
+  Placement held;
+  held.pins = withoutPins(document.project(), items);
+  if (isEmpty(things) && held.pins.empty()) return;
+  const QString what = isEmpty(things)     ? m_pins.name()
+                       : held.pins.empty() ? whatOf(things)
+                                           : QStringLiteral("%1 things").arg(items.size());
+  const QString words = QString::fromLatin1(title).arg(what);
+  document.undoStack().beginMacro(words);
+  if (!held.pins.empty()) {
+    m_pins.selectTheirBodies();  // another pin takes the number of one that goes
+    document.place(std::move(held), words);
+  }
   for (const SelectedItem& item : items) {
     if (item.kind == OutlineKind::Body) document.removeBody(item.id);
     if (item.kind == OutlineKind::Emitter) document.removePort({false, item.id});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/tools/arrange.h"
+#include "ui/window/pinactions.h"
 
 #include <QtCore/QString>
 
@@ -21,12 +22,12 @@ class Session;
 class ThingActions {
  public:
   ThingActions(Session& session, Selection& selection, const MaterialsPanel& materials, const Actions& actions,
-               Notices& notices)
-      : m_session(session), m_selection(selection), m_materials(materials), m_actions(actions), m_notices(notices) {}
+               Notices& notices);
   void makeMenu(QMenu* menu);
   void makeArrangeMenu(QMenu* menu);
 
  private:
+  bool ofMaterials() const;
   Project excerpt() const;
   bool copy();
   void paste();
@@ -44,6 +45,7 @@ class ThingActions {
   const MaterialsPanel& m_materials;
   const Actions& m_actions;
   Notices& m_notices;
+  PinActions m_pins;
 };
 
 }  // namespace ps
