@@ -22,6 +22,7 @@ int importCommand(CommandArguments arguments);
 int soakCommand(CommandArguments arguments);
 int shareCommand(CommandArguments arguments);
 int redrawCommand(CommandArguments arguments);
+int mixCommand(CommandArguments arguments);
 
 std::string simulateHelp();
 std::string renderHelp();
@@ -36,6 +37,7 @@ std::string importHelp();
 std::string soakHelp();
 std::string shareHelp();
 std::string redrawHelp();
+std::string mixHelp();
 
 inline constexpr int kFine = 0, kFailed = 1, kBadInput = 2, kNoReturn = 3;
 

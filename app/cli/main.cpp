@@ -27,6 +27,7 @@ constexpr Command kCommands[] = {
     {"cases", "runs experiments and compares them with what theory expects", casesCommand, casesHelp},
     {"fit", "finds values of parameters with which a quantity goes as wanted", fitCommand, fitHelp},
     {"import", "makes a project of a mesh", importCommand, importHelp},
+    {"mix", "makes a material of two others, and says by which rules", mixCommand, mixHelp},
     {"redraw", "draws sketched bodies again from their strokes", redrawCommand, redrawHelp},
     {"share", "writes a copy for others with what its run comes to, or checks one", shareCommand, shareHelp},
     {"soak", "runs projects with every slider at both ends of its range", soakCommand, soakHelp},

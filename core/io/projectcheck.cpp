@@ -2,6 +2,7 @@
 #include "core/io/projectcheck.h"
 
 #include "core/base/nearest.h"
+#include "core/io/mixing.h"
 #include "core/io/projectfields.h"
 #include "core/io/trackcheck.h"
 #include "core/io/wallcheck.h"
@@ -118,13 +119,14 @@ class ProjectChecker : public FieldVisitor {
       return tell(pointer + "/properties" + (propertyIndex(key) >= 0 ? "/" + key : ""), problem);
     }
     checkLaws(material, pointer);
-    checkRules(source.properties, propertyCatalogue(), pointer + "/properties",
-               [&](std::string_view key) -> std::optional<Value> {
-                 const auto found = material.properties.find(std::string(key));
-                 if (found != material.properties.end()) return found->second;
-                 const api::ParameterDeclaration* declaration = findDeclaration(propertyCatalogue(), key);
-                 return declaration ? std::optional(valueOf({}, *declaration)) : std::nullopt;
-               });
+    // A mixture states all that its parts do: nobody has set what does nothing as the scene is.
+    const ParameterSet none, &set = isMixture(source) ? none : source.properties;
+    checkRules(set, propertyCatalogue(), pointer + "/properties", [&](std::string_view key) -> std::optional<Value> {
+      const auto found = material.properties.find(std::string(key));
+      if (found != material.properties.end()) return found->second;
+      const api::ParameterDeclaration* declaration = findDeclaration(propertyCatalogue(), key);
+      return declaration ? std::optional(valueOf({}, *declaration)) : std::nullopt;
+    });
   }
 
   void object(const VoxelShape& shape, const std::string& pointer) override {

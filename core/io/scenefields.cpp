@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/io/fieldkinds.h"
+#include "core/io/mixturefields.h"
 #include "core/io/projectfields.h"
 #include "core/matter/material.h"
 #include "core/simulation/particlefield.h"
@@ -39,7 +40,8 @@ const FieldTable<SceneMaterial>& materialFields() {
                field("adheres_to", &SceneMaterial::adheresTo,
                      Optional{List{Text{}, "id of a material, installed or of the scene"}},
                      "materials that it holds on to when one of the two freezes, in place of those that the installed "
-                     "one names")},
+                     "one names"),
+               mixtureRow()},
       .unknown = &SceneMaterial::unknown};
   return table;
 }

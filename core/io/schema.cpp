@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
 #include "core/io/fieldkinds.h"
+#include "core/io/mixturefields.h"
 #include "core/io/projectfields.h"
 #include "core/parameters/wording.h"
 
@@ -64,6 +65,7 @@ json buildProjectSchema() {
   schema["$defs"] = {{"id", nameSchema(". -", "unique among its kind; others refer to it")},
                      {"plugin", nameSchema(".-", "id of a plugin")},
                      {"material", fields::materialFields().schema()},
+                     {fields::kMixturePart, fields::mixturePartFields().schema()},
                      {"body", fields::bodyFields().schema()}};
   return schema;
 }

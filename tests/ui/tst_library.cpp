@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The library of materials: search, phases at a glance, two side by side, presets that are kept, read again and passed
 // on.
+#include "core/io/mixing.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/io/textfile.h"
@@ -9,6 +10,9 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/library/librarypage.h"
 #include "ui/library/materialcard.h"
+#include "ui/library/mixdialog.h"
+#include "ui/library/mixpreview.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/worker.h"
@@ -358,6 +362,50 @@ class TestLibrary : public SampleWindowTest {
     QCOMPARE(valueOf(entry(QStringLiteral("Soft ice"))->values, "youngs_modulus", 263), 3e6);
   }
 
+  /// Two chosen cards become a material of the scene, whose share can be changed, each in one step; it is kept as a
+  /// preset with what it is made of. What makes no mixture is said.
+  void twoAreMixed() {
+    page()->choose(entryOf("tin")->label);
+    page()->choose(entryOf("lead")->label, true);
+    const size_t before = document().project().materials.size();
+    MixDialog* dialog = opened(QStringLiteral("Mix…"));
+    QVERIFY(dialog && dialog->chooseParts(entryOf("tin")->label, entryOf("lead")->label));
+    QVERIFY(dialog->share()->enterNumber(0.37));
+    QCOMPARE(dialog->problem(), QString());
+    const auto rows = dialog->table()->findItems(QStringLiteral("Density, solid"), Qt::MatchExactly);
+    QVERIFY(rows.size() == 1 && rows.front()->text(4).startsWith(QStringLiteral("volumes add up")));
+    QVERIFY(!dialog->preview()->curve(MixPreview::Mixed).empty());
+    QTest::qWait(50);
+    dialog->grab().save(QStringLiteral("mix_dialog.png"));
+    press(*dialog, QStringLiteral("Add to the scene"));
+    QCOMPARE(document().project().materials.size(), before + 1);
+    const std::string id = selection().material();
+    const Address density{Owner::Material, id, "density_solid"};
+    const double first = std::get<Response>(document().value(density)).at(290);
+    QVERIFY(std::abs(first - 1 / (0.63 / 7287 + 0.37 / 11340)) < 1e-6 * first);
+    MixDialog* again = opened(QStringLiteral("Change the mixture…"));
+    QVERIFY(again && again->share()->enterNumber(0.6));
+    press(*again, QStringLiteral("Change"));
+    QVERIFY(std::get<Response>(document().value(density)).at(290) > first);
+    QCOMPARE(mixtureOf(document().project().materials.back(), *session().plugins())->share, 0.6);
+    name()->setText(QStringLiteral("Solder"));
+    button(QStringLiteral("Save as preset"))->click();
+    QTRY_VERIFY_WITH_TIMEOUT(entry(QStringLiteral("Solder")), kLong);
+    QVERIFY(entry(QStringLiteral("Solder"))->about.startsWith(QStringLiteral("A mixture of 40")));
+    QVERIFY(isMixture(entry(QStringLiteral("Solder"))->material));
+    document().undoStack().undo();
+    QCOMPARE(std::get<Response>(document().value(density)).at(290), first);
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), before);
+    library().removePreset(*entry(QStringLiteral("Solder")));
+    QTRY_VERIFY_WITH_TIMEOUT(!entry(QStringLiteral("Solder")), kLong);
+    MixDialog* never = opened(QStringLiteral("Mix…"));
+    QVERIFY(never && never->chooseParts(entryOf("iron")->label, QStringLiteral("Water")));
+    QVERIFY2(never->problem().contains(QStringLiteral("boils before")), qPrintable(never->problem()));
+    QVERIFY(never->preview()->curve(MixPreview::Mixed).empty());
+    press(*never, QStringLiteral("Cancel"));
+  }
+
   /// Said, and nothing else is lost.
   void aBrokenFileIsSaid() {
     QSignalSpy said(&library(), &MaterialLibrary::said);
@@ -372,6 +420,18 @@ class TestLibrary : public SampleWindowTest {
   }
 
  private:
+  /// What a button of the page opens; nullptr: nothing.
+  MixDialog* opened(const QString& text) {
+    button(text)->click();
+    const auto all = m_window->findChildren<MixDialog*>();
+    return all.isEmpty() ? nullptr : all.back();
+  }
+  static void press(MixDialog& dialog, const QString& text) {
+    for (QPushButton* each : dialog.findChildren<QPushButton*>()) {
+      if (each->text() == text) return each->click();
+    }
+    QFAIL(qPrintable(text));
+  }
   MaterialLibrary& library() { return m_window->library().library(); }
   LibraryPage* page() { return m_window->library().page(); }
   Selection& selection() { return m_window->selection(); }

@@ -63,6 +63,37 @@ class TestThings : public SampleWindowTest {
     QVERIFY(row(key)->has(RowState::Mixed));
   }
 
+  void anEditOfManyComparesEachOnce_data() {
+    QTest::addColumn<int>("bodies");
+    QTest::newRow("10") << 10;
+    QTest::newRow("100") << 100;
+  }
+  /// Each body's change asks the row again: a value or two for each, and all once at the end, for an edit and for undo.
+  void anEditOfManyComparesEachOnce() {
+    QFETCH(int, bodies);
+    std::vector<std::string> ids;
+    Body small = project().bodies.front();
+    for (int k = 0; k < bodies; ++k) {
+      small.shape = BoxShape{{0.04 * (k % 10) - 0.2, 0.3 + 0.04 * (k / 10), 0}, {0.02, 0.02, 0.02}};
+      ids.push_back(document().addBody(small));
+    }
+    selectBodies(ids);
+    const Inspector& inspector = m_window->inspector();
+    const QString key = QStringLiteral("body/%1/temperature").arg(QString::fromStdString(ids.back()));
+    QVERIFY(row(key));
+    const auto most = static_cast<size_t>(4 * bodies);
+    size_t before = inspector.comparedValues();
+    QVERIFY(row(key)->enter(QStringLiteral("250 K")));
+    QVERIFY(!row(key)->has(RowState::Mixed));
+    qInfo("%d bodies, an edit compares %zu values", bodies, inspector.comparedValues() - before);
+    QVERIFY(inspector.comparedValues() - before <= most);
+    before = inspector.comparedValues();
+    document().undoStack().undo();
+    QVERIFY(!row(key)->has(RowState::Mixed));
+    qInfo("undo %zu", inspector.comparedValues() - before);
+    QVERIFY(inspector.comparedValues() - before <= most);
+  }
+
   void copiesStandBesideAndAreSelected() {
     const std::vector<std::string> ids = threeBalls();
     selectBodies({ids[0], ids[1]});

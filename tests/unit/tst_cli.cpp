@@ -68,7 +68,8 @@ void TestCli::exitCodesAndOneLine_data() {
   row("help", {"--help"}, 0, "");
   row("simulate help", {"simulate", "--help"}, 0, "");
   row("no command", {}, 2,
-      "which command? simulate, render, export, bench, validate, cases, fit, import, redraw, share, soak, plugins, "
+      "which command? simulate, render, export, bench, validate, cases, fit, import, mix, redraw, share, soak, "
+      "plugins, "
       "schema;");
   row("unknown command", {"simmulate"}, 2, "unknown command 'simmulate'");
   row("unknown option", {"simulate", kSample, "--fast"}, 2, "unknown option --fast");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/curves/curvetarget.h"
 
+#include "core/io/mixing.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/snapshot.h"
@@ -287,7 +288,7 @@ void CurveTarget::compare(const OtherMaterial& other, bool on) {
 /// What has come into the scene is compared as it is there.
 void CurveTarget::followInstalled() {
   for (const SceneMaterial& own : document().project().materials) {
-    if (m_compared.erase({own.base, true}) > 0) m_compared.insert({own.id});
+    if (!isMixture(own) && m_compared.erase({own.base, true}) > 0) m_compared.insert({own.id});
   }
 }
 
@@ -306,7 +307,8 @@ std::vector<OtherMaterial> CurveTarget::installed() const {
   std::vector<OtherMaterial> all;
   for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
     const std::vector<SceneMaterial>& own = document().project().materials;
-    const bool there = std::any_of(own.begin(), own.end(), [&](const SceneMaterial& m) { return m.base == base; });
+    const bool there =
+        std::any_of(own.begin(), own.end(), [&](const SceneMaterial& m) { return m.base == base && !isMixture(m); });
     if (!there && !m_compared.contains({base, true})) all.push_back({base, true});
   }
   return all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/library/librarypage.h"
 
+#include "core/io/mixing.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
@@ -87,7 +88,8 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_add(new QPushButton(QStringLiteral("Add to the scene"))),
       m_export(new QPushButton(QStringLiteral("Export…"))),
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
-      m_save(new QPushButton(QStringLiteral("Save as preset"))) {
+      m_save(new QPushButton(QStringLiteral("Save as preset"))),
+      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);
@@ -165,6 +167,9 @@ QWidget* LibraryPage::makeRight() {
   m_add->setProperty("primary", true);
   for (QPushButton* button : {m_add, m_export, m_remove}) act->addWidget(button);
   act->addStretch(1);
+  auto* mix = new QPushButton(QStringLiteral("Mix…"));
+  mix->setToolTip(QStringLiteral("Makes an alloy or mixture of two materials, by stated rules."));
+  act->addWidget(mix);
   column->addLayout(act);
   auto* keep = new QHBoxLayout;
   m_name->setPlaceholderText(QStringLiteral("Name of the preset"));
@@ -172,6 +177,7 @@ QWidget* LibraryPage::makeRight() {
   keep->addWidget(m_of);
   keep->addWidget(m_name, 1);
   keep->addWidget(m_save);
+  keep->addWidget(m_mixture);
   column->addLayout(keep);
   connect(import, &QPushButton::clicked, this, &LibraryPage::importWanted);
   connect(back, &QPushButton::clicked, this, &LibraryPage::closeRequested);
@@ -182,6 +188,11 @@ QWidget* LibraryPage::makeRight() {
   connect(m_remove, &QPushButton::clicked, this, [this] {
     if (const auto some = chosen(); !some.empty()) m_library.removePreset(*some.front());
   });
+  connect(mix, &QPushButton::clicked, this, [this] {
+    const QStringList labels = compared();
+    Q_EMIT mixWanted(labels.value(0), labels.value(1));
+  });
+  connect(m_mixture, &QPushButton::clicked, this, [this] { Q_EMIT mixtureWanted(m_selection.material()); });
   const auto save = [this] {
     for (const SceneMaterial& material : m_session.document().project().materials)
       if (material.id == m_selection.material()) return m_library.savePreset(material, m_name->text());
@@ -319,6 +330,9 @@ void LibraryPage::showScene() {
                                  .arg(ownerLabel(m_session.document().project(), {Owner::Material, id, {}})));
   m_save->setEnabled(!id.empty());
   m_name->setEnabled(!id.empty());
+  const auto& materials = m_session.document().project().materials;
+  m_mixture->setVisible(std::any_of(materials.begin(), materials.end(),
+                                    [&](const SceneMaterial& m) { return m.id == id && isMixture(m); }));
 }
 
 void LibraryPage::addToScene() {

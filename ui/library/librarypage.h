@@ -37,6 +37,8 @@ class LibraryPage : public QWidget {
   void carrying();     ///< a card is dragged, onto a body perhaps, which has to be seen
   void broughtBack();  ///< and was let go where nothing takes it
   void importWanted();
+  void mixWanted(const QString& first, const QString& second);  ///< labels; "" for any
+  void mixtureWanted(const std::string& material);              ///< of the scene, whose share is to change
   void exportWanted(const ps::LibraryEntry& entry);
 
  protected:
@@ -61,7 +63,7 @@ class LibraryPage : public QWidget {
   QListWidget* m_cards;
   QTreeWidget* m_table;
   QLabel *m_title, *m_about, *m_of, *m_hint;
-  QPushButton *m_add, *m_export, *m_remove, *m_save;
+  QPushButton *m_add, *m_export, *m_remove, *m_save, *m_mixture;
   QString m_tag;
 };
 

@@ -22,10 +22,12 @@ double placeOf(double kelvin) {
   return std::clamp(std::log(std::max(kelvin, kColdest) / kColdest) / std::log(kHottest / kColdest), 0.0, 1.0);
 }
 
-void paintBands(QPainter& painter, const QRectF& bar, const LibraryEntry& entry) {
+}  // namespace
+
+void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands) {
   const Theme& theme = Theme::current();
   const ColourMap map = colourMap(QStringLiteral("phase"));
-  for (const PhaseBand& band : entry.bands) {
+  for (const PhaseBand& band : bands) {
     const double left = bar.left() + bar.width() * placeOf(band.from);
     const double right = bar.left() + bar.width() * placeOf(band.to);
     const QRectF part(left, bar.top(), right - left, bar.height());
@@ -41,8 +43,6 @@ void paintBands(QPainter& painter, const QRectF& bar, const LibraryEntry& entry)
   paintVerticalLine(painter, bar.left() + bar.width() * placeOf(kRoom), bar.top() - 3, bar.bottom() + 3,
                     theme[Token::Text]);
 }
-
-}  // namespace
 
 QString transitionsText(const LibraryEntry& entry) {
   QStringList parts;
@@ -84,7 +84,7 @@ void MaterialCard::paint(QPainter* painter, const QStyleOptionViewItem& option, 
   paintText(*painter, words, Qt::AlignLeft | Qt::AlignVCenter, entry.label, bold, theme[Token::Text]);
   paintText(*painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, transitionsText(entry),
             Theme::font(TextRole::Small), theme[Token::Text2]);
-  paintBands(*painter, QRectF(card.left() + 10, card.bottom() - 22, card.width() - 20, 13), entry);
+  paintBands(*painter, QRectF(card.left() + 10, card.bottom() - 22, card.width() - 20, 13), entry.bands);
   if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, card, 7);
   painter->restore();
 }

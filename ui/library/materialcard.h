@@ -22,6 +22,9 @@ class MaterialCard : public QStyledItemDelegate {
   const MaterialLibrary& m_library;
 };
 
+/// A bar of phases over temperature, of the one scale for all, with a line where rooms are.
+void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands);
+
 /// "melts at 0 °C, boils at 100 °C"
 QString transitionsText(const LibraryEntry& entry);
 

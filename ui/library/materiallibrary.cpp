@@ -2,6 +2,7 @@
 #include "ui/library/materiallibrary.h"
 
 #include "core/base/error.h"
+#include "core/io/mixing.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
@@ -38,25 +39,6 @@ Project holding(const SceneMaterial& material) {
   return project;
 }
 
-std::vector<PhaseBand> bandsOf(const Material& material) {
-  const PhaseDiagram diagram = phaseDiagramOf(material);
-  const double end = std::numeric_limits<double>::infinity();
-  const bool melts = diagram.meltingPoint0 > 0;
-  if (diagram.sublimes(kPressure)) {
-    const double at = diagram.sublimationPoint(kPressure);
-    return {{0, at, api::Phase::Solid}, {at, end, api::Phase::Gas}};
-  }
-  const double melting = melts ? diagram.meltingPoint(kPressure) : 0, boiling = diagram.boilingPoint(kPressure);
-  std::vector<PhaseBand> bands;
-  if (melts) bands.push_back({0, melting, api::Phase::Solid});
-  // What never melts is what it is made as; who states how thick a liquid it is means one.
-  const bool flows = melts || material.properties.contains("viscosity");
-  if (!melts && !std::isfinite(boiling)) return {{0, end, flows ? api::Phase::Liquid : api::Phase::Solid}};
-  bands.push_back({melting, boiling, api::Phase::Liquid});
-  if (std::isfinite(boiling)) bands.push_back({boiling, end, api::Phase::Gas});
-  return bands;
-}
-
 QStringList tagsOf(const LibraryEntry& entry) {
   QStringList tags;
   for (const PhaseBand& band : entry.bands) {
@@ -86,14 +68,35 @@ std::map<QString, QDateTime> installedFiles(const PluginRegistry& plugins) {
   return files;
 }
 
-QString aboutOf(const PluginRegistry& plugins, const std::string& base) {
+QString aboutOf(const PluginRegistry& plugins, const SceneMaterial& material) {
+  if (const auto mixture = mixtureOf(material, plugins))
+    return QStringLiteral("A mixture of %1.").arg(QString::fromStdString(mixtureText(*mixture)));
   for (const PluginInfo& plugin : plugins.plugins()) {
-    if (plugin.id == base) return QString::fromStdString(plugin.help);
+    if (plugin.id == material.base) return QString::fromStdString(plugin.help);
   }
   return {};
 }
 
 }  // namespace
+
+std::vector<PhaseBand> bandsOf(const Material& material) {
+  const PhaseDiagram diagram = phaseDiagramOf(material);
+  const double end = std::numeric_limits<double>::infinity();
+  const bool melts = diagram.meltingPoint0 > 0;
+  if (diagram.sublimes(kPressure)) {
+    const double at = diagram.sublimationPoint(kPressure);
+    return {{0, at, api::Phase::Solid}, {at, end, api::Phase::Gas}};
+  }
+  const double melting = melts ? diagram.meltingPoint(kPressure) : 0, boiling = diagram.boilingPoint(kPressure);
+  std::vector<PhaseBand> bands;
+  if (melts) bands.push_back({0, melting, api::Phase::Solid});
+  // What never melts is what it is made as; who states how thick a liquid it is means one.
+  const bool flows = melts || material.properties.contains("viscosity");
+  if (!melts && !std::isfinite(boiling)) return {{0, end, flows ? api::Phase::Liquid : api::Phase::Solid}};
+  bands.push_back({melting, boiling, api::Phase::Liquid});
+  if (std::isfinite(boiling)) bands.push_back({boiling, end, api::Phase::Gas});
+  return bands;
+}
 
 /// A file of presets as it was read, before its materials are looked into.
 struct MaterialLibrary::Preset {
@@ -227,7 +230,7 @@ LibraryEntry MaterialLibrary::entryOf(const SceneMaterial& material, const QStri
   LibraryEntry entry{material,
                      compileMaterial(project, material, plugins, evaluated),
                      QString::fromStdString(material.label),
-                     aboutOf(plugins, material.base),
+                     aboutOf(plugins, material),
                      file,
                      {},
                      colourOf(project, &plugins, material.id),
@@ -346,7 +349,7 @@ bool MaterialLibrary::isAlone(const LibraryEntry& entry) const {
 
 void MaterialLibrary::keep(SceneMaterial material, const QString& label, const QString& path) {
   material.label = label.toStdString();
-  material.id = material.base;
+  material.id = isMixture(material) ? "mixture" : material.base;
   write(material, path, QStringLiteral("“%1” is kept among your presets.").arg(label));
 }
 

@@ -31,6 +31,9 @@ struct PhaseBand {
   api::Phase phase = api::Phase::Solid;
 };
 
+/// Of what never melts the one phase that it is made as.
+std::vector<PhaseBand> bandsOf(const Material& material);
+
 /// A material that can be brought into a scene.
 struct LibraryEntry {
   SceneMaterial material;  ///< as it comes

@@ -39,6 +39,9 @@ class Inspector : public QObject {
   /// The panel that shows an address, after choosing its owner; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
+  /// How often the value of one body was compared with another's so far, for rows of several.
+  size_t comparedValues() const { return m_compared; }
+
   /// A key of the row under the pointer, or of the one that has the focus; false: there is none.
   bool toggleKey();
 
@@ -101,7 +104,9 @@ class Inspector : public QObject {
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
   std::string m_bodyId, m_materialId;
-  std::vector<std::string> m_others;     ///< bodies that are shown with that one
+  std::vector<std::string> m_others;                       ///< bodies that are shown with that one
+  mutable std::map<std::string, std::string> m_differing;  ///< one of them with another value, by the row's address
+  mutable size_t m_compared = 0;
   std::string m_probeId;                 ///< shown in the place of the body; "": none
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   QString m_grade;                       ///< of the material's sources, as the header says it

@@ -17,11 +17,16 @@ Address ofBody(Address address, const std::string& id) {
   return address;
 }
 
+bool isOfBodies(const Address& address) {
+  return address.owner == Owner::Body || address.owner == Owner::Shape || address.owner == Owner::Constraint;
+}
+
 }  // namespace
 
 void Inspector::setBodies(const std::vector<std::string>& ids) {
   m_probeId.clear();
   m_bodyId = ids.empty() ? std::string() : ids.back();
+  m_differing.clear();
   m_others.assign(ids.begin(), ids.empty() ? ids.end() : ids.end() - 1);
   rebuildBody();
 }
@@ -29,17 +34,25 @@ void Inspector::setBodies(const std::vector<std::string>& ids) {
 /// Of the row and of all other bodies that are shown with it; the row's own alone where it is of none of them.
 std::vector<Address> Inspector::addressesOf(const Address& address) const {
   std::vector<Address> all{address};
-  const bool ofBodies =
-      address.owner == Owner::Body || address.owner == Owner::Shape || address.owner == Owner::Constraint;
-  if (!ofBodies || address.id != m_bodyId) return all;
+  if (!isOfBodies(address) || address.id != m_bodyId) return all;
   for (const std::string& id : m_others) all.push_back(ofBody(address, id));
   return all;
 }
 
+/// An edit of all comes as one event of each, after which the row is asked again: who was found to differ is asked
+/// first, and the others from the last on, which an edit reaches last. Else n events would compare n values each.
 bool Inspector::isMixed(const Address& address) const {
-  const std::vector<Address> all = addressesOf(address);
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Address& one) { return !(m_document.value(one) == m_document.value(address)); });
+  if (m_others.empty() || !isOfBodies(address) || address.id != m_bodyId) return false;
+  const Value own = m_document.value(address);
+  const auto differs = [&](const std::string& id) {
+    ++m_compared;
+    return !(m_document.value(ofBody(address, id)) == own);
+  };
+  std::string& known = m_differing[address.text()];
+  if (!known.empty() && differs(known)) return true;
+  const auto found = std::find_if(m_others.rbegin(), m_others.rend(), differs);
+  known = found == m_others.rend() ? std::string() : *found;
+  return !known.empty();
 }
 
 void Inspector::shareRows(std::vector<RowModel>& rows) const {

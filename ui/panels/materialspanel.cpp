@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/materialspanel.h"
 
+#include "core/io/mixing.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
@@ -88,7 +89,7 @@ void MaterialsPanel::rebuild() {
   const PluginRegistry* plugins = m_document.plugins();
   std::set<std::string> bases;
   for (const SceneMaterial& material : project.materials) {
-    bases.insert(material.base);
+    if (!isMixture(material)) bases.insert(material.base);
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
                        colourOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
   }

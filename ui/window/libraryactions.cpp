@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/libraryactions.h"
 
+#include "ui/library/mixdialog.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/session.h"
 #include "ui/window/actions.h"
@@ -28,6 +29,13 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
   connect(m_page, &LibraryPage::carrying, this, [&centre, &scene] { centre.setCurrentWidget(&scene); });
   connect(m_page, &LibraryPage::broughtBack, this, [this] { m_centre.setCurrentWidget(m_page); });
   connect(m_page, &LibraryPage::importWanted, this, &LibraryActions::chooseImport);
+  connect(m_page, &LibraryPage::mixWanted, this,
+          [this, &session, &selection](const QString& one, const QString& other) {
+            (new MixDialog(m_library, session, selection, one, other, &m_actions.window()))->open();
+          });
+  connect(m_page, &LibraryPage::mixtureWanted, this, [this, &session, &selection](const std::string& material) {
+    (new MixDialog(m_library, session, selection, material, &m_actions.window()))->open();
+  });
   connect(m_page, &LibraryPage::exportWanted, this, &LibraryActions::chooseExport);
   connect(&m_library, &MaterialLibrary::said, this, [&notices](bool failed, const QString& text) {
     notices.message(failed ? MessageLevel::Warning : MessageLevel::Ok, QStringLiteral("Materials"), text);
