@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/touch.h"
 
+#include "core/base/parallel.h"
 #include "core/simulation/engine.h"
 #include "core/solver/solver.h"
 
@@ -57,16 +58,15 @@ bool canBe(const api::Touch& touch) {
 Reached reach(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
   const ParticleStore& store = engine.particles();
   const bool moves = touch.kind != api::TouchKind::Heat;
+  const auto distanceOf = [&](size_t i) { return offsetOf(store, i, touch.centre).norm(); };
   Reached reached;
-  for (size_t i = 0; i < store.size(); ++i) {
-    const double squared = offsetOf(store, i, touch.centre).squaredNorm();
-    if (squared >= touch.radius * touch.radius || (moves && store.velocity()[i].w == 0)) continue;
-    if (store.body()[i] < isSpared.size() && isSpared[store.body()[i]]) continue;
-    const double weight = weightOf(touch, std::sqrt(squared)) * store.mass()[i];
-    if (!(weight > 0)) continue;
-    reached.rows.push_back(static_cast<uint32_t>(i));
-    reached.weights.push_back(weight);
-    reached.total += weight;
+  findIndices(store.size(), reached.rows, [&](size_t i) {
+    if (store.body()[i] < isSpared.size() && isSpared[store.body()[i]]) return false;
+    return !(moves && store.velocity()[i].w == 0) && distanceOf(i) < touch.radius;
+  });
+  for (const uint32_t i : reached.rows) {
+    reached.weights.push_back(weightOf(touch, distanceOf(i)) * store.mass()[i]);
+    reached.total += reached.weights.back();
   }
   return reached;
 }

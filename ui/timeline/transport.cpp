@@ -246,7 +246,9 @@ QString Transport::durationText() const {
     return QStringLiteral("Recorded, up to %1").arg(clockText(newest ? newest->stats.time : 0));
   }
   const bool end = !m_playing && m_seconds > m_total - 0.02;
-  return QStringLiteral("/ ") + clockText(m_total).left(5) +
+  QString total = clockText(m_total);
+  if (total.endsWith(QStringLiteral(".00"))) total.chop(3);
+  return QStringLiteral("/ ") + total +
          (end ? QStringLiteral("  The end: Space goes on, Home begins anew") : QString());
 }
 
