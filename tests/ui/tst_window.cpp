@@ -331,7 +331,7 @@ class TestWindow : public QObject {
     QTest::newRow("wall") << "hot plate temperature"
                           << "Hot plate temperature";
     QTest::newRow("own things before what replaces the scene") << "plate"
-                                                               << "Hot plate heat";
+                                                               << "Hot plate shape";
     QTest::newRow("what replaces the scene by its name") << "new sc"
                                                          << "New scene";
     QTest::newRow("solver") << "substeps"

@@ -133,7 +133,7 @@ void CurvePanel::connectParts(Session& session) {
   connect(&m_target, &CurveTarget::pointChanged, this, &CurvePanel::showPoint);
   connect(&m_target, &CurveTarget::comparedChanged, this, &CurvePanel::showOverlays);
   connect(&m_target, &CurveTarget::refused, this,
-          [this](const QString& problem) { m_note->setText(problem.isEmpty() ? kHint : problem); });
+          [this](const QString& problem) { note(problem.isEmpty() ? kHint : problem); });
   const auto follow = [this] {
     if (m_view->isVisible()) m_view->showParticles();
   };
@@ -154,8 +154,13 @@ void CurvePanel::showTitle() {
   m_title->setText(m_target.title());
   m_title->setMinimumWidth(static_cast<int>(std::ceil(textWidth(m_title->text(), m_title->font()))) + 2);
   m_source->setText(m_target.subtitle());
-  m_source->setToolTip(m_target.source());
-  m_note->setText(kHint);
+  m_source->setToolTip(m_target.subtitle());
+  note(kHint);
+}
+
+void CurvePanel::note(const QString& text) {
+  m_note->setText(text);
+  m_note->setToolTip(text);
 }
 
 void CurvePanel::showPoint() {

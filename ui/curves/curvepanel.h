@@ -28,6 +28,7 @@ class CurvePanel : public QWidget {
   void layOut();
   void connectParts(Session& session);
   void showTitle();
+  void note(const QString& text);  ///< below the curve
   void showPoint();
   void showOverlays();
   void showBetween();

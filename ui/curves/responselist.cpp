@@ -33,6 +33,7 @@ namespace {
 
 constexpr int kRow = 40, kOther = 24;
 constexpr double kSparkWidth = 70, kSparkHeight = 24;
+constexpr int kLeastWidth = 180;  // of a response's name beside its curve
 constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1, kInstalled = Qt::UserRole + 2;
 
 const api::ParameterDeclaration& declarationOf(const QString& key) {
@@ -155,6 +156,7 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
       m_others(flatList(QStringLiteral("Compare with"))),
       m_tracks(flatList(QStringLiteral("Keys over time"))),
       m_add(new QToolButton) {
+  setMinimumWidth(kLeastWidth);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 4);
   column->setSpacing(0);
@@ -305,7 +307,9 @@ void ResponseList::refresh() {
     item->setData(kValue, absent.isEmpty() ? value : QStringLiteral("no %1 now").arg(absent));
     const QString nothing = QStringLiteral("\n%1 at %2, where none of the matter is %3 now")
                                 .arg(value, formatValue(temperatureDeclaration(), kelvin), absent);
-    item->setToolTip(QString::fromUtf8(declarationOf(key).help) + (absent.isEmpty() ? QString() : nothing));
+    item->setToolTip(QStringLiteral("%1: %2\n%3")
+                         .arg(item->text(), item->data(kValue).toString(), QString::fromUtf8(declarationOf(key).help)) +
+                     (absent.isEmpty() ? QString() : nothing));
   }
   m_list->viewport()->update();
 }

@@ -174,6 +174,7 @@ QWidget* LibraryPage::makeRight() {
   auto* keep = new QHBoxLayout;
   m_name->setPlaceholderText(QStringLiteral("Name of the preset"));
   m_name->setAccessibleName(m_name->placeholderText());
+  m_name->setToolTip(m_name->placeholderText());
   keep->addWidget(m_of);
   keep->addWidget(m_name, 1);
   keep->addWidget(m_save);
@@ -215,7 +216,7 @@ void LibraryPage::refresh() {
     const LibraryEntry& entry = m_library.entries()[i];
     auto* item = new QListWidgetItem(entry.label, m_cards);
     item->setData(kEntryRole, static_cast<int>(i));
-    item->setToolTip(entry.about);
+    item->setToolTip(QStringLiteral("%1: %2\n%3").arg(entry.label, transitionsText(entry), entry.about).trimmed());
     const QString key = entry.file + QLatin1Char('|') + QString::fromStdString(entry.material.id);
     item->setData(kKeyRole, key);
     item->setSelected(before.contains(key));

@@ -6,6 +6,7 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/rows/panelheader.h"
 #include "ui/session/selection.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
@@ -15,7 +16,6 @@
 #include <QtGui/QDrag>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
-#include <QtGui/QRadialGradient>
 #include <QtWidgets/QAccessibleWidget>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QMenu>
@@ -29,18 +29,22 @@
 namespace ps {
 namespace {
 
-constexpr int kTileWidth = 52, kTileHeight = 58, kMargin = 8, kBall = 28, kHint = 20, kHeading = 22;
+constexpr int kLeastTile = 64, kTileHeight = 68, kMargin = 8, kBall = 28, kLine = 14, kHint = 20, kHeading = 22;
 
-int columnsIn(int width) { return std::max(1, (width - kMargin) / kTileWidth); }
+int columnsIn(int width) { return std::max(1, (width - kMargin) / kLeastTile); }
 
-void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
-  QRadialGradient shade(rect.center() - QPointF(rect.width() * 0.18, rect.height() * 0.2), rect.width() * 0.75);
-  shade.setColorAt(0, colour.lighter(135));
-  shade.setColorAt(0.55, colour);
-  shade.setColorAt(1, colour.darker(190));
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(shade);
-  painter.drawEllipse(rect);
+/// One line where it fits, else two, as even as its words allow.
+QStringList linesOf(const QString& label, double width) {
+  const QFont font = Theme::font(TextRole::Small);
+  if (textWidth(label, font) <= width) return {label};
+  QStringList best{label};
+  double least = textWidth(label, font);
+  for (qsizetype at = label.indexOf(QLatin1Char(' ')); at > 0; at = label.indexOf(QLatin1Char(' '), at + 1)) {
+    const QStringList lines{label.left(at), label.mid(at + 1)};
+    const double widest = std::max(textWidth(lines[0], font), textWidth(lines[1], font));
+    if (widest < least) least = widest, best = lines;
+  }
+  return best;
 }
 
 class MaterialsAccessible final : public QAccessibleWidget {
@@ -134,7 +138,8 @@ QRect MaterialsPanel::tileRect(size_t index, int width) const {
   const auto place = static_cast<int>(own ? index : index - m_own);
   const int column = place % columnsIn(width), row = place / columnsIn(width);
   const int top = own ? kMargin : headingRect(width).bottom() + 1;
-  return {kMargin + column * kTileWidth, top + row * kTileHeight, kTileWidth - 4, kTileHeight - 4};
+  const int tileWidth = (width - kMargin) / columnsIn(width);
+  return {kMargin + column * tileWidth, top + row * kTileHeight, tileWidth - 4, kTileHeight - 4};
 }
 
 QRect MaterialsPanel::tileOf(const std::string& id) const {
@@ -170,11 +175,13 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   } else {
     paintBall(painter, ball, tile.colour);
   }
-  paintText(painter, QRectF(rect.left() + 1, rect.bottom() - 19, rect.width() - 2, 16), Qt::AlignCenter, tile.label,
-            Theme::font(TextRole::Small),
-            theme[current          ? Token::Text
-                  : tile.installed ? Token::Muted
-                                   : Token::Text2]);
+  const Token colour = current ? Token::Text : tile.installed ? Token::Muted : Token::Text2;
+  const QStringList lines = linesOf(tile.label, rect.width() - 2);
+  QRectF line(rect.left() + 1, ball.bottom() + (lines.size() > 1 ? 2 : kLine / 2), rect.width() - 2, kLine);
+  for (const QString& text : lines) {
+    paintText(painter, line, Qt::AlignCenter, text, Theme::font(TextRole::Small), theme[colour]);
+    line.translate(0, kLine);
+  }
 }
 
 void MaterialsPanel::paintEvent(QPaintEvent*) {

@@ -22,6 +22,9 @@ void PanelHeader::setTexts(const QString& name, const QString& subtitle, const Q
   m_detail = detail;
   setAccessibleName(name);
   setAccessibleDescription(subtitle);
+  QStringList lines{name, subtitle, detail};
+  lines.removeAll(QString());
+  setToolTip(lines.join(QLatin1Char('\n')));  // not all of it may find room
   updateGeometry();
   update();
 }

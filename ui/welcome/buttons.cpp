@@ -113,7 +113,8 @@ RecentRow::RecentRow(RecentProject project, QWidget* parent) : PageButton(parent
   setAccessibleName(m_project.title);
   setAccessibleDescription(m_project.path);
   const QString toTry = m_project.toTry.isEmpty() ? QString() : QStringLiteral("\nTry it: ") + m_project.toTry;
-  setToolTip(QDir::toNativeSeparators(m_project.path) + toTry);
+  m_where = placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
+  setToolTip(m_where + QLatin1Char('\n') + QDir::toNativeSeparators(m_project.path) + toTry);
 }
 
 void RecentRow::paintEvent(QPaintEvent*) {
@@ -138,9 +139,7 @@ void RecentRow::paintEvent(QPaintEvent*) {
   const QRectF words(picture.right() + 10, 7, width() - picture.right() - 16, 18);
   paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_project.title, Theme::font(TextRole::Medium),
             theme[Token::Text]);
-  const QString where =
-      placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
-  paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, where, Theme::font(TextRole::Small),
+  paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, m_where, Theme::font(TextRole::Small),
             theme[underMouse() ? Token::Text2 : Token::Muted]);
   if (!m_project.toTry.isEmpty())
     paintText(painter, words.translated(0, 36), Qt::AlignLeft | Qt::AlignVCenter,

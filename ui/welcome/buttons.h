@@ -54,6 +54,7 @@ class RecentRow : public PageButton {
 
  private:
   RecentProject m_project;
+  QString m_where;  ///< folder and day
 };
 
 /// An action of the window as an entry of the page's list: icon, name, key.

@@ -170,7 +170,7 @@ void WindowLayout::sizeDocks() {
     m_window.resizeDocks({m_docks[7]}, {wide ? 500 : 400}, Qt::Vertical);
     return;
   }
-  m_window.resizeDocks({m_docks[0], m_docks[2]}, {wide ? 236 : 204, wide ? 392 : 332}, Qt::Horizontal);
+  m_window.resizeDocks({m_docks[0], m_docks[2]}, {wide ? 236 : 204, wide ? 392 : 352}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[1]}, {wide ? 380 : 270, wide ? 252 : 140}, Qt::Vertical);
   m_window.resizeDocks({m_docks[3], m_docks[4]}, {wide ? 206 : 182, 40}, Qt::Vertical);
 }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every page of every dock, the library and the welcome page: dark and light, at 100 and 200 %. What is painted is read
+// back as text, so that nothing is cut without a word; pictures are kept beside the test's home.
+#include "tests/ui/samplewindow.h"
+#include "ui/theme/plaintext.h"
+#include "ui/window/actions.h"
+#include "ui/window/dock.h"
+#include "ui/window/paneltable.h"
+#include "ui/window/windowlayout.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QProcess>
+#include <QtGui/QAction>
+#include <QtGui/QHelpEvent>
+#include <QtGui/QPaintEngine>
+#include <QtGui/QTextDocumentFragment>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QToolTip>
+
+#include <algorithm>
+
+using namespace ps;
+
+namespace {
+
+constexpr QChar kCut(0x2026);
+constexpr int kWide = 1600;    // of a window that has room for every name
+constexpr int kSentence = 32;  // letters, of what may be cut in it all the same
+
+struct PaintedText {
+  QString text;
+  QPointF at;  ///< where it begins, in the widget
+};
+
+/// Takes the texts that are painted, and nothing else.
+class TextReader : public QPaintEngine {
+ public:
+  explicit TextReader(QList<PaintedText>& texts) : QPaintEngine(AllFeatures), m_texts(texts) {}
+  bool begin(QPaintDevice*) override { return true; }
+  bool end() override { return true; }
+  void updateState(const QPaintEngineState& now) override { m_transform = now.transform(); }
+  void drawPixmap(const QRectF&, const QPixmap&, const QRectF&) override {}
+  void drawPath(const QPainterPath&) override {}
+  void drawPolygon(const QPointF*, int, PolygonDrawMode) override {}
+  void drawTextItem(const QPointF& at, const QTextItem& item) override {
+    m_texts << PaintedText{item.text(), m_transform.map(at)};
+  }
+  Type type() const override { return User; }
+
+ private:
+  QList<PaintedText>& m_texts;
+  QTransform m_transform;
+};
+
+class TextDevice : public QPaintDevice {
+ public:
+  explicit TextDevice(const QSize& size) : m_size(size) {}
+  QPaintEngine* paintEngine() const override { return &m_reader; }
+  QList<PaintedText> texts;
+
+ protected:
+  int metric(PaintDeviceMetric metric) const override {
+    switch (metric) {
+      case PdmWidth:
+        return m_size.width();
+      case PdmHeight:
+        return m_size.height();
+      case PdmDepth:
+        return 32;
+      case PdmDevicePixelRatio:
+        return 1;
+      case PdmDevicePixelRatioScaled:
+        return static_cast<int>(devicePixelRatioFScale());
+      default:
+        return 96;
+    }
+  }
+
+ private:
+  QSize m_size;
+  mutable TextReader m_reader{texts};
+};
+
+QList<PaintedText> paintedBy(QWidget& widget) {
+  TextDevice device(widget.size());
+  widget.render(&device, {}, {}, {});
+  return device.texts;
+}
+
+/// It means that there is more to be asked, not that it is cut.
+bool isOwnText(const QWidget& widget, const QString& text) {
+  const auto* button = qobject_cast<const QAbstractButton*>(&widget);
+  return button && fromButtonText(button->text()) == text;
+}
+
+/// What stands in the tooltip after the pointer has rested there.
+QString tipAt(QWidget& widget, const QPoint& at) {
+  QHelpEvent help(QEvent::ToolTip, at, widget.mapToGlobal(at));
+  QApplication::sendEvent(&widget, &help);
+  return QTextDocumentFragment::fromHtml(QToolTip::text()).toPlainText();
+}
+
+/// Colours in a picture, as far as they tell that there is something in it.
+int coloursIn(const QImage& picture) {
+  QSet<QRgb> colours;
+  for (int y = 0; y < picture.height() && colours.size() < 100; y += 2) {
+    for (int x = 0; x < picture.width(); x += 2) colours << picture.pixel(x, y);
+  }
+  return static_cast<int>(colours.size());
+}
+
+}  // namespace
+
+class TestPanelPictures : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() {
+    QVERIFY(QDir().mkpath(QStringLiteral("pictures")));
+    m_window = sampleWindow({1600, 1000});
+    QVERIFY(m_window);
+    session().pause();
+    document().undoStack().clear();
+  }
+
+  void everyPage_data() {
+    QTest::addColumn<bool>("dark");
+    QTest::addColumn<QSize>("size");
+    QTest::newRow("dark") << true << QSize(1600, 1000);
+    QTest::newRow("light") << false << QSize(1600, 1000);
+    QTest::newRow("small") << true << QSize(1280, 800);
+  }
+  void everyPage() {
+    QFETCH(bool, dark);
+    QFETCH(QSize, size);
+    m_window->setDark(dark);
+    m_window->resize(size);
+    for (const PanelRow& row : panelTable()) {
+      const auto& docks = dockTable();
+      const auto place = std::find_if(docks.begin(), docks.end(),
+                                      [&](const DockRow& dock) { return QByteArray(dock.name) == row.dock; });
+      QVERIFY(place != docks.end());
+      m_window->layoutOfDocks().setWorkspace(place->scene ? Workspace::Scene : Workspace::Tune);
+      const QString title = QString::fromLatin1(row.title);
+      m_window->layoutOfDocks().showPage(title);
+      Dock* dock = m_window->layoutOfDocks().dock(QString::fromLatin1(row.dock));
+      QTRY_VERIFY_WITH_TIMEOUT(dock && dock->isVisible() && dock->currentPage() == title, kLong);
+      look(*dock, title);
+    }
+  }
+
+  void pagesInTheMiddle() {
+    for (const bool dark : {true, false}) {
+      m_window->setDark(dark);
+      for (const char* action : {"add.library", "help.welcome"}) {
+        m_window->action(QLatin1String(action))->trigger();
+        QTest::qWait(200);
+        look(*m_window->centralWidget(), QLatin1String(action));
+        QTest::keyClick(m_window.get(), Qt::Key_Escape);
+      }
+    }
+  }
+
+  void theSameAtTwiceTheScale() {
+    if (qEnvironmentVariableIsSet("QT_SCALE_FACTOR")) return;
+    QProcess again;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert(QStringLiteral("QT_SCALE_FACTOR"), QStringLiteral("2"));
+    again.setProcessEnvironment(environment);
+    again.setProcessChannelMode(QProcess::MergedChannels);
+    m_window->hide();
+    again.start(QCoreApplication::applicationFilePath(), QStringList());
+    QVERIFY(again.waitForFinished(10 * kLong));
+    QVERIFY2(again.exitStatus() == QProcess::NormalExit && again.exitCode() == 0, again.readAll().constData());
+  }
+
+ private:
+  /// Keeps the picture, and sees to it that it shows something and that what is cut can be read by its tip.
+  void look(QWidget& widget, const QString& title) {
+    QCoreApplication::processEvents();
+    const qreal scale = widget.devicePixelRatioF();
+    const QImage picture = widget.grab().toImage();
+    QCOMPARE(picture.size(), QSize(widget.size() * scale));
+    const QString name =
+        QStringLiteral("%1 %2 %3 %4.png")
+            .arg(title)
+            .arg(m_window->width())
+            .arg(100 * scale)
+            .arg(m_window->layoutOfDocks().isDark() ? QStringLiteral("dark") : QStringLiteral("light"));
+    QVERIFY(picture.save(QStringLiteral("pictures/") + name));
+    QVERIFY2(coloursIn(picture) > 5, qPrintable(name));
+    QStringList problems;
+    for (QWidget* part : widget.findChildren<QWidget*>()) {
+      if (!part->isVisibleTo(&widget) || part->visibleRegion().isEmpty()) continue;
+      for (const PaintedText& painted : paintedBy(*part)) {
+        const QString& text = painted.text;
+        if (!text.endsWith(kCut) || isOwnText(*part, text)) continue;
+        const QString tip = tipAt(*part, painted.at.toPoint());
+        if (!tip.contains(text.chopped(1).trimmed()))
+          problems << QStringLiteral("%1: of “%2” the tip has “%3”").arg(name, text, tip);
+        if (m_window->width() >= kWide && text.size() < kSentence)
+          problems << QStringLiteral("%1: “%2” is cut in a wide window").arg(name, text);
+      }
+    }
+    QVERIFY2(problems.isEmpty(), qPrintable(problems.join(QLatin1Char('\n'))));
+  }
+};
+
+QTEST_MAIN(TestPanelPictures)
+#include "tst_panelpictures.moc"
