@@ -3,9 +3,13 @@
 #include "core/math/wallface.h"
 #include "core/scene/project.h"
 
+#include <string>
+
 namespace ps {
 
 /// The face of a wall, as its place and its parameters shape, matter and radius say; its normal must not be zero.
 WallFace faceOf(const SceneWall& wall);
+/// What a wall's parameter `shape` calls a form.
+std::string shapeOf(WallForm form);
 
 }  // namespace ps

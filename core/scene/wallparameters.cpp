@@ -78,13 +78,17 @@ WallFace faceOf(const SceneWall& wall) {
   const api::ParameterList list = wallParameters();
   const Vector3 normal = wall.normal.normalized();
   // Brushes ask for each cell: most walls are planes that say nothing of it.
-  const std::string shape =
-      wall.parameters.values.contains("shape") ? choiceOf(wall.parameters, list, "shape") : "plane";
-  if (shape == "plane") return WallFace(Plane{normal, normal.dot(wall.point)});
+  const bool says = wall.parameters.values.contains("shape");
+  const std::string shape = says ? choiceOf(wall.parameters, list, "shape") : std::string();
+  if (!says || shape == shapeOf(WallForm::Plane)) return WallFace(Plane{normal, normal.dot(wall.point)});
   const double radius = numberOf(wall.parameters, list, "radius");
   const bool inside = choiceOf(wall.parameters, list, "matter") == "inside";
-  return shape == "sphere" ? WallFace::sphere(wall.point, radius, inside)
-                           : WallFace::cylinder(wall.point, normal, radius, inside);
+  return shape == shapeOf(WallForm::Sphere) ? WallFace::sphere(wall.point, radius, inside)
+                                            : WallFace::cylinder(wall.point, normal, radius, inside);
+}
+
+std::string shapeOf(WallForm form) {
+  return choicesOf(*findDeclaration(wallParameters(), "shape"))[static_cast<size_t>(form)];
 }
 
 bool hasTemperature(const SceneWall& wall) {

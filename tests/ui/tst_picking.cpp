@@ -112,7 +112,7 @@ class TestPicking : public QObject {
   /// Added, moved, made wider and turned: a step each, and back.
   void curvedWallsAreAddedAndPlaced() {
     Project things;
-    things.environment.walls = {roundWall("cylinder", m_document->project())};
+    things.environment.walls = {roundWall(WallForm::Cylinder, m_document->project())};
     const SelectedItem pipe{OutlineKind::Wall, m_document->insertThings(things, QStringLiteral("adding")).walls[0].id};
     const auto face = [&] { return faceOf(*m_document->wall(pipe.id)); };
     QVERIFY(face().isInside() && face().form() == WallForm::Cylinder);

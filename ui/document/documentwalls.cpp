@@ -61,15 +61,15 @@ SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& ma
   return wall;
 }
 
-SceneWall roundWall(const std::string& shape, const Project& project) {
+SceneWall roundWall(WallForm form, const Project& project) {
   const Room room = roomOf(project.environment);
   const Vector3 size = room.maximum - room.minimum;
-  const bool sphere = shape == "sphere";
+  const bool sphere = form == WallForm::Sphere;
   SceneWall wall;
-  wall.id = shape;
+  wall.id = shapeOf(form);
   wall.name = sphere ? "Sphere" : "Cylinder";
   wall.point = 0.5 * (room.minimum + room.maximum);
-  wall.parameters.values["shape"] = shape;
+  wall.parameters.values["shape"] = shapeOf(form);
   const double around = 0.5 * (sphere ? size.norm() : std::hypot(size.x(), size.z()));
   const double within = 0.5 * (sphere ? size.minCoeff() : std::min(size.x(), size.z()));
   wall.parameters.values["radius"] = project.bodies.empty() ? within : around;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/scene/project.h"
+#include "core/scene/scenewall.h"
 
 #include <string>
 #include <vector>
@@ -33,6 +33,6 @@ SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& ma
 
 /// A cylinder that stands upright, or a sphere ("cylinder", "sphere") in the middle of the room, with matter inside and
 /// without heat: as wide as the room has space for, or, where there are bodies, so wide that it pushes none of them.
-SceneWall roundWall(const std::string& shape, const Project& project);
+SceneWall roundWall(WallForm form, const Project& project);
 
 }  // namespace ps

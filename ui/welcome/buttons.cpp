@@ -87,7 +87,7 @@ void Card::paintEvent(QPaintEvent*) {
   painter.setClipPath(round);
   if (m_sample.picture.isNull()) {
     painter.fillRect(picture, theme[Token::Field]);
-    paintIcon(painter, QRectF(picture.center() - QPointF(12, 12), QSizeF(24, 24)), QStringLiteral("cube"),
+    paintIcon(painter, QRectF(picture.center() - QPointF(12, 12), QSizeF(24, 24)), QStringLiteral("body"),
               theme[Token::Muted]);
   } else {
     paintPicture(painter, picture, m_sample.picture, m_scaled);

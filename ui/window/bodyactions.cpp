@@ -37,12 +37,20 @@
 namespace ps {
 namespace {
 
+using Kind = SolidForm::Kind;
 struct SolidRow {
-  const char *kind, *name;
+  Kind kind;
+  const char* name;
 };
-constexpr SolidRow kSolids[] = {{"ellipsoid", "Ball"}, {"block", "Block"},     {"cylinder", "Cylinder"},
-                                {"cone", "Cone"},      {"capsule", "Capsule"}, {"torus", "Ring"},
-                                {"tube", "Tube"},      {"sheet", "Sheet"},     {"rope", "Rope"}};
+constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ball"}, {Kind::Block, "Block"},     {Kind::Cylinder, "Cylinder"},
+                                {Kind::Cone, "Cone"},      {Kind::Capsule, "Capsule"}, {Kind::Torus, "Ring"},
+                                {Kind::Tube, "Tube"},      {Kind::Sheet, "Sheet"},     {Kind::Rope, "Rope"}};
+
+/// As the parameter of solids calls it.
+std::string nameOf(Kind kind) {
+  return choicesOf(*findDeclaration(solidParameters(), "kind"))[static_cast<size_t>(kind)];
+}
+
 struct UnitRow {
   const char *key, *name;
 };
@@ -142,9 +150,9 @@ BodyActions::~BodyActions() { stopReading(); }
 void BodyActions::makeMenu(QMenu* menu) {
   for (const SolidRow& row : kSolids) {
     const QString name = QString::fromLatin1(row.name);
-    QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromLatin1(row.kind),
+    QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(nameOf(row.kind)),
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
-                                    [this, kind = std::string(row.kind), name] { addSolid(kind, name); });
+                                    [this, kind = row.kind, name] { addSolid(kind, name); });
     m_adding.push_back(action);
   }
   connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);
@@ -178,12 +186,12 @@ void BodyActions::showCounts() {
   }
 }
 
-void BodyActions::addSolid(const std::string& kind, const QString& name) {
+void BodyActions::addSolid(Kind kind, const QString& name) {
   Document& document = m_session.document();
   Body body = newSolid(kind, name);
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(name));
-  const bool sheet = kind == "sheet";
-  if (sheet || kind == "rope") {
+  const bool sheet = kind == Kind::Sheet;
+  if (sheet || kind == Kind::Rope) {
     if (const auto thin = thinStructure(*document.plugins(), sheet ? api::kHoldsSheets : api::kHoldsLines)) {
       body.constraints.push_back({thin->first, {}, {}});
       body.material = sceneMaterial(document, thin->second->material);
@@ -194,23 +202,23 @@ void BodyActions::addSolid(const std::string& kind, const QString& name) {
 }
 
 /// A fifth of the scene wide; sheets and ropes lie, and are longer.
-Body BodyActions::newSolid(const std::string& kind, const QString& name) const {
+Body BodyActions::newSolid(Kind kind, const QString& name) const {
   const Room room = roomOf(m_session.document().project().environment);
   const Vector3 wide = room.maximum - room.minimum;
   const double size = rounded(kOfScene * std::min(wide[0], wide[2]));
   Body body;
-  body.id = kind;
+  body.id = nameOf(kind);
   body.name = name.toStdString();
   SolidShape solid;
   auto& values = solid.parameters.values;
-  values["kind"] = kind;
+  values["kind"] = body.id;
   values["size_x"] = size;
-  values["size_y"] = kind == "torus" ? rounded(size / 4) : size;
+  values["size_y"] = kind == Kind::Torus ? rounded(size / 4) : size;
   values["size_z"] = size;
-  if (kind == "tube") values["wall"] = rounded(size / 5);
-  if (kind == "sheet" || kind == "rope") values["size_y"] = spacingOf(m_session.document());
-  if (kind == "sheet") values["size_x"] = values["size_z"] = 2 * size;
-  if (kind == "rope") {
+  if (kind == Kind::Tube) values["wall"] = rounded(size / 5);
+  if (kind == Kind::Sheet || kind == Kind::Rope) values["size_y"] = spacingOf(m_session.document());
+  if (kind == Kind::Sheet) values["size_x"] = values["size_z"] = 2 * size;
+  if (kind == Kind::Rope) {
     values.erase("size_x");
     values.erase("size_z");
     values["point_1_x"] = -size;

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/base/progress.h"
 #include "core/io/meshimport.h"
-#include "core/scene/project.h"
+#include "core/scene/solidform.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QObject>
@@ -41,8 +41,8 @@ class BodyActions : public QObject {
  private:
   void chooseMesh();
   void showCounts();
-  void addSolid(const std::string& kind, const QString& name);
-  Body newSolid(const std::string& kind, const QString& name) const;
+  void addSolid(SolidForm::Kind kind, const QString& name);
+  Body newSolid(SolidForm::Kind kind, const QString& name) const;
   std::string add(Body body, const std::string& without = {});
   void onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported, const QString& problem);
   double scaledToFit(Body& body, const ImportedMesh& imported) const;

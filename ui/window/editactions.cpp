@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/editactions.h"
 
+#include "core/scene/scenewall.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
@@ -43,10 +44,10 @@ void EditActions::makeWallMenu(QMenu* menu) {
                   [this, side] { addWalls({side.id}); });
   }
   menu->addSeparator();
-  for (const char* shape : {"cylinder", "sphere"}) {
-    m_actions.add(menu, QStringLiteral("sketch.wall.") + QString::fromLatin1(shape),
-                  QStringLiteral("Add wall: %1").arg(QString::fromLatin1(shape)), {},
-                  [this, shape] { addRoundWall(shape); });
+  for (const WallForm form : {WallForm::Cylinder, WallForm::Sphere}) {
+    const QString shape = QString::fromStdString(shapeOf(form));
+    m_actions.add(menu, QStringLiteral("sketch.wall.") + shape, QStringLiteral("Add wall: %1").arg(shape), {},
+                  [this, form] { addRoundWall(form); });
   }
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
@@ -94,9 +95,9 @@ void EditActions::addProbe() {
   m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
 }
 
-void EditActions::addRoundWall(const std::string& shape) {
+void EditActions::addRoundWall(WallForm form) {
   Project things;
-  things.environment.walls = {roundWall(shape, m_document.project())};
+  things.environment.walls = {roundWall(form, m_document.project())};
   const QString title = QStringLiteral("adding %1").arg(nameOf(things.environment.walls[0]));
   m_selection.select(OutlineKind::Wall, m_document.insertThings(std::move(things), title).walls.front().id);
 }

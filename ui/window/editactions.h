@@ -8,6 +8,8 @@ class QPoint;
 
 namespace ps {
 
+enum class WallForm;
+
 class Actions;
 class Document;
 class Inspector;
@@ -32,7 +34,7 @@ class EditActions {
 
  private:
   void addProbe();
-  void addRoundWall(const std::string& shape);           ///< see roundWall()
+  void addRoundWall(WallForm form);                      ///< see roundWall()
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
   Document& m_document;
   Selection& m_selection;
