@@ -139,7 +139,8 @@ class TestSavedState : public QObject {
     const uint64_t before = frameOf(session());
     action("simulation.state")->trigger();  // refused, and said so
     QCOMPARE(frameOf(session()), before);
-    QTRY_VERIFY(m_window->notice()->text().contains(QStringLiteral("That change could not be made")));
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("That change could not be made")),
+                             kLong);
   }
 
   /// After a return to the state nothing is known of what strokes before it took: undoing one fills the gap again, and
