@@ -214,7 +214,7 @@ void EngineThread::Impl::fail(EngineEvent event) {
 }
 
 template <class Action>
-std::optional<EngineEvent> EngineThread::Impl::edit(Action action) {
+std::optional<EngineEvent> EngineThread::Impl::edit(Action action, bool mends) {
   if (!engine) return std::nullopt;
   const auto start = Clock::now();
   const uint64_t tables = engine->bakedTables();
@@ -233,7 +233,7 @@ std::optional<EngineEvent> EngineThread::Impl::edit(Action action) {
   follow(engine->revision());  // before edits that wait behind a reset are refused
   // An edit that works mends a refusal and what made the scene pause; flags of running steps end by themselves.
   const EngineEvent last = standing();
-  if (!(last.flags & ~kPausing)) settle();
+  if (mends && !(last.flags & ~kPausing)) settle();
   return std::nullopt;
 }
 
@@ -245,12 +245,15 @@ void EngineThread::Impl::change(const Command& command) {
     return;
   }
   const bool makes = start || std::holds_alternative<ReturnToState>(command);
-  const auto refusal = edit([&] {
-    if (makes)
-      make([&] { engine->apply(command); });
-    else
-      engine->apply(command);
-  });
+  const bool mends = !std::holds_alternative<ForgetMatter>(command);  // what no undo step asks for any more is no edit
+  const auto refusal = edit(
+      [&] {
+        if (makes)
+          make([&] { engine->apply(command); });
+        else
+          engine->apply(command);
+      },
+      mends);
   if (refusal)
     fail(*refusal);
   else

@@ -71,9 +71,10 @@ struct EngineThread::Impl {
   void isBack(const std::string& id);
   void pace();
   bool frameIsDue(double ahead = 0);
-  /// Makes an edit. Returns what is to be reported of one that cannot be made: the scene then stays as it was.
+  /// Makes an edit. Returns what is to be reported of one that cannot be made: the scene then stays as it was. `mends`:
+  /// once it is made, what was refused before no longer stands.
   template <class Action>
-  std::optional<EngineEvent> edit(Action action);
+  std::optional<EngineEvent> edit(Action action, bool mends = true);
   void change(const Command& command);
   void editAll(const ParameterBatch& batch);
   void look(const Command& command);

@@ -96,7 +96,11 @@ void NoticeBar::refresh() {
     delete item;
   }
   setVisible(!m_notices.empty());
-  if (m_notices.empty()) return;
+  if (m_notices.empty()) {
+    m_title->clear();
+    m_text->clear();
+    return;
+  }
   const Notice& notice = m_notices.back();
   m_title->setText(notice.title);
   m_text->setText(notice.text);
