@@ -8,29 +8,12 @@
 #include "hwy/foreach_target.h"
 #include "core/particles/compressed-inl.h"
 #include "core/particles/float4lanes-inl.h"
+#include "core/solver/contact/wallheights-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace ps {
 namespace HWY_NAMESPACE {
-
-/// m over a wall.
-HWY_INLINE V heightOver(const WallSurface& wall, const Vectors4& place) {
-  const D d;
-  if (wall.isCurved()) {
-    const V ax = hn::Set(d, wall.axisX), ay = hn::Set(d, wall.axisY), az = hn::Set(d, wall.axisZ);
-    const V x = hn::Sub(place.x, hn::Set(d, wall.centreX)), y = hn::Sub(place.y, hn::Set(d, wall.centreY)),
-            z = hn::Sub(place.z, hn::Set(d, wall.centreZ));
-    const V along = hn::Add(hn::Add(hn::Mul(ax, x), hn::Mul(ay, y)), hn::Mul(az, z));
-    const V a = hn::Sub(x, hn::Mul(along, ax)), b = hn::Sub(y, hn::Mul(along, ay)), c = hn::Sub(z, hn::Mul(along, az));
-    const V out = hn::Sqrt(hn::Add(hn::Add(hn::Mul(a, a), hn::Mul(b, b)), hn::Mul(c, c)));
-    return hn::Mul(hn::Set(d, wall.side), hn::Sub(out, hn::Set(d, wall.radius)));
-  }
-  const WallPlane& p = wall.plane;
-  const V along = hn::Add(hn::Add(hn::Mul(hn::Set(d, p.x), place.x), hn::Mul(hn::Set(d, p.y), place.y)),
-                          hn::Mul(hn::Set(d, p.z), place.z));
-  return hn::Sub(along, hn::Set(d, p.offset));
-}
 
 void FindNearWalls(std::span<const WallSurface> walls, const WallSet& met, float reach,
                    std::span<const api::Float4> places, std::span<WallSet> near) {
@@ -43,7 +26,7 @@ void FindNearWalls(std::span<const WallSurface> walls, const WallSet& met, float
     const Vectors4 place = loadTransposed(places.data(), id);
     auto bits = hn::Zero(du);
     met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
-      const auto far = hn::RebindMask(du, hn::Gt(heightOver(walls[wall], place), hn::Set(d, reach)));
+      const auto far = hn::RebindMask(du, hn::Gt(overWall(walls[wall], place).height, hn::Set(d, reach)));
       bits = hn::Or(bits, hn::IfThenZeroElse(far, hn::Set(du, WallSet::bitOf(wall))));
     });
     hn::Store(bits, du, id);
@@ -66,7 +49,7 @@ size_t FindBelow(std::span<const WallSurface> walls, const WallSet& met, const a
     const Vectors4 place = loadTransposed(places, id);
     auto below = hn::FirstN(d, 0);
     met.forEach(walls.size(), [&](size_t wall) HWY_ATTR {
-      below = hn::Or(below, hn::Lt(heightOver(walls[wall], place), hn::Zero(d)));
+      below = hn::Or(below, hn::Lt(overWall(walls[wall], place).height, hn::Zero(d)));
     });
     const auto found = hn::RebindMask(du, hn::And(below, hn::FirstN(d, count)));
     if (hn::AllFalse(du, found)) continue;
