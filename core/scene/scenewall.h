@@ -10,6 +10,6 @@ namespace ps {
 /// The face of a wall, as its place and its parameters shape, matter and radius say; its normal must not be zero.
 WallFace faceOf(const SceneWall& wall);
 /// What a wall's parameter `shape` calls a form.
-std::string shapeOf(WallForm form);
+const std::string& shapeOf(WallForm form);
 
 }  // namespace ps

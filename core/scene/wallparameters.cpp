@@ -87,8 +87,9 @@ WallFace faceOf(const SceneWall& wall) {
                                             : WallFace::cylinder(wall.point, normal, radius, inside);
 }
 
-std::string shapeOf(WallForm form) {
-  return choicesOf(*findDeclaration(wallParameters(), "shape"))[static_cast<size_t>(form)];
+const std::string& shapeOf(WallForm form) {
+  static const std::vector<std::string> kShapes = choicesOf(*findDeclaration(wallParameters(), "shape"));
+  return kShapes[static_cast<size_t>(form)];
 }
 
 bool hasTemperature(const SceneWall& wall) {

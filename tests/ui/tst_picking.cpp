@@ -107,6 +107,9 @@ class TestPicking : public QObject {
     }
     QVERIFY(pipe.form() == WallForm::Cylinder && wallLines(project.environment, 2)[0].first.y() == 0);  // on the floor
     QVERIFY(picked(project, {}, {0.3, 0, 0.2}) == kFloor);
+    // Planes hide most of one that is around them all; once it is selected, it is shown.
+    project.environment.walls[3].parameters.values["radius"] = 2.0;
+    QVERIFY(wallLines(project.environment, 3, true).size() > wallLines(project.environment, 3).size());
   }
 
   /// Added, moved, made wider and turned: a step each, and back.

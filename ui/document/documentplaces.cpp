@@ -105,11 +105,11 @@ void Document::applyPlacement(const Placement& to) {
   for (const SceneWall& wall : to.walls) {
     SceneWall& here = *at(m_project.environment.walls, wall.id);
     const SceneWall before = std::exchange(here, wall);
-    if (before.parameters == wall.parameters) continue;
-    const api::ParameterDeclaration& declared = *findDeclaration(wallParameters(), "radius");
-    notify(ParameterChanged{{Owner::Wall, wall.id, declared.key},
-                            valueOf(wall.parameters, declared),
-                            valueOf(before.parameters, declared)});
+    const api::ParameterList list = wallParameters();
+    for (size_t k = 0; k < list.count; ++k) {
+      const Value was = valueOf(before.parameters, list[k]), is = valueOf(wall.parameters, list[k]);
+      if (!(was == is)) notify(ParameterChanged{{Owner::Wall, wall.id, list[k].key}, is, was});
+    }
   }
   if (!to.walls.empty()) notify(WallsChanged{true});
   for (const Probe& probe : to.probes) {

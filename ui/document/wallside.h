@@ -31,7 +31,7 @@ Room roomOf(const Environment& environment);
 /// A wall that lets no heat through, on that face of the box.
 SceneWall wallOn(const WallSide& side, const Vector3& minimum, const Vector3& maximum);
 
-/// A cylinder that stands upright, or a sphere ("cylinder", "sphere") in the middle of the room, with matter inside and
+/// A cylinder that stands upright, or a sphere, in the middle of the room, with matter inside and
 /// without heat: as wide as the room has space for, or, where there are bodies, so wide that it pushes none of them.
 SceneWall roundWall(WallForm form, const Project& project);
 

@@ -224,7 +224,7 @@ Face seenFace(const Environment& environment, size_t wall) {
   return face.corners.size() >= 3 ? face : Face{};
 }
 
-std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall) {
+std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole) {
   const WallFace face = faceOf(environment.walls[wall]);
   if (!face.isCurved()) return {};
   Furniture floor;
@@ -233,7 +233,7 @@ std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environme
   for (const Cut& cut : cutsOf(environment, wall)) {
     if (cut.wall || face.form() == WallForm::Cylinder) ends.push_back(cut.plane);
   }
-  if (face.form() == WallForm::Sphere) return sphereLines(face, ends);
+  if (face.form() == WallForm::Sphere) return sphereLines(face, whole ? std::vector<Plane>{} : ends);
   if (std::abs(face.axis().y()) > kLevel) ends.push_back({{0, -1, 0}, -topOf(environment, floor).height});
   return cylinderLines(face, ends);
 }

@@ -30,11 +30,11 @@ struct Face {
 /// The part of a wall that faces the scene: its plane within the bounds and the other planes. Empty where nothing is
 /// left, and of curved walls.
 Face wallFace(const Environment& environment, size_t wall);
-/// The lines by which a curved wall is seen, m: rings and straight lines of a cylinder from floor to lid, or where
-/// panes fade; three great circles of a sphere, as far as planes do not hide them. Nothing of a plane.
-std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall);
 /// What is shown of that: sides end at a lid, or fade out somewhat above the floor.
 Face seenFace(const Environment& environment, size_t wall);
+/// The lines by which a curved wall is seen, m: rings and straight lines of a cylinder from floor to lid, or where
+/// panes fade; three great circles of a sphere, as far as planes do not hide them, or `whole`. Nothing of a plane.
+std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole = false);
 /// How much of its normal a wall has upwards or downwards at least to be drawn as a plate: 45 degrees.
 inline constexpr double kLevel = 0.7;
 

@@ -65,8 +65,8 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
 
 }  // namespace
 
-Lines wallLines(const Environment& environment, size_t wall) {
-  if (faceOf(environment.walls[wall]).isCurved()) return render::roundLines(environment, wall);
+Lines wallLines(const Environment& environment, size_t wall, bool whole) {
+  if (faceOf(environment.walls[wall]).isCurved()) return render::roundLines(environment, wall, whole);
   const render::Face face = render::seenFace(environment, wall);
   Lines lines;
   for (size_t i = 0; i < face.corners.size(); ++i)

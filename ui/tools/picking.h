@@ -14,8 +14,8 @@ namespace ps {
 
 using Lines = std::vector<std::pair<Vector3, Vector3>>;
 
-/// The edges of a wall as it is seen, m; none where nothing of it is.
-Lines wallLines(const Environment& environment, size_t wall);
+/// The edges of a wall as it is seen, m; none where nothing of it is. `whole`: those of a sphere behind planes too.
+Lines wallLines(const Environment& environment, size_t wall, bool whole = false);
 Lines boxLines(const Region& box);
 
 /// Something that lies under a pointer.

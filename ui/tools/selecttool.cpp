@@ -131,7 +131,8 @@ std::vector<Wire> SelectTool::wires() const {
   const Environment& scene = project.environment;
   for (size_t k = 0; k < scene.walls.size(); ++k) {
     const SelectedItem item{OutlineKind::Wall, scene.walls[k].id};
-    if (selection.has(item.kind, item.id) || m_hovered == item) add(item, wallLines(scene, k), false);
+    const bool selected = selection.has(item.kind, item.id);
+    if (selected || m_hovered == item) add(item, wallLines(scene, k, selected), false);
   }
   for (const SelectedItem& pin : shownPins(project, selection.items()))
     add(pin, boxLines(*findPin(project, pin.id)), true);
