@@ -3,6 +3,7 @@
 // goes along while it runs.
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
+#include "tests/ui/gizmohands.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
@@ -320,26 +321,9 @@ class TestHandles : public SampleWindowTest {
     view()->setFocus();
     return id;
   }
-  Gizmo handles() {
-    Tool& tool = m_window->tools().tool();
-    tool.see(view()->snapshot().get());
-    return tool.picture().gizmo->gizmo.value();
-  }
-  QPoint pixelOf(const Vector3& p) {
-    const auto pixel = ps::project(view()->navigator().camera(), view()->width(), view()->height(), p);
-    return pixel ? QPoint(qRound((*pixel)[0]), qRound((*pixel)[1])) : QPoint(-1, -1);
-  }
-  /// In the middle of a handle, as the view shows it.
-  QPoint middleOf(const GizmoPart& part) {
-    const Gizmo gizmo = handles();
-    const Camera& camera = view()->navigator().camera();
-    const CameraFrame frame = frameOf(camera);
-    const double arm = kGizmoArm * pixelSize(camera, view()->height(), (gizmo.centre - frame.eye).dot(frame.forward));
-    const GizmoShape shape = shapeOf(gizmo, part, arm, frame.forward);
-    if (!shape.face.empty()) return pixelOf(0.5 * (shape.face[0] + shape.face[2]));
-    const auto& line = shape.lines[shape.lines.size() / 2];
-    return pixelOf(0.3 * line.first + 0.7 * line.second);
-  }
+  Gizmo handles() { return hands::handles(*m_window); }
+  QPoint pixelOf(const Vector3& p) { return hands::pixelOf(*view(), p); }
+  QPoint middleOf(const GizmoPart& part) { return hands::middleOf(*m_window, part); }
   void dragPart(const GizmoPart& part, const QPoint& way, Qt::KeyboardModifiers modifiers = {}, bool release = true) {
     drag(middleOf(part), way, release, modifiers);
     if (!release) QVERIFY(m_window->tools().tool().picture().gizmo->active == part);

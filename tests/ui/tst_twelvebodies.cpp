@@ -6,6 +6,7 @@
 #include "core/scene/group.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
+#include "tests/ui/gizmohands.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/panels/inspector.h"
@@ -404,29 +405,9 @@ class TestTwelveBodies : public SampleWindowTest {
     }
     return placesOf({}).size();
   }
-  Gizmo handles() {
-    Tool& tool = m_window->tools().tool();
-    tool.see(view()->snapshot().get());
-    return tool.picture().gizmo->gizmo.value();
-  }
-  QPoint pixelOf(const Vector3& p) {
-    const auto pixel = ps::project(view()->navigator().camera(), view()->width(), view()->height(), p);
-    return pixel ? QPoint(qRound((*pixel)[0]), qRound((*pixel)[1])) : QPoint(-1, -1);
-  }
-  /// In the middle of a handle, as the view shows it.
-  QPoint middleOf(const GizmoPart& part) {
-    const Gizmo gizmo = handles();
-    const Camera& camera = view()->navigator().camera();
-    const CameraFrame frame = frameOf(camera);
-    const double arm = kGizmoArm * pixelSize(camera, view()->height(), (gizmo.centre - frame.eye).dot(frame.forward));
-    const GizmoShape shape = shapeOf(gizmo, part, arm, frame.forward);
-    if (!shape.face.empty()) return pixelOf(0.5 * (shape.face[0] + shape.face[2]));
-    const auto& line = shape.lines[shape.lines.size() / 2];
-    return pixelOf(0.3 * line.first + 0.7 * line.second);
-  }
   /// A handle is taken, and just so far is typed.
   void drag(const GizmoPart& part, const QString& amount) {
-    const QPoint at = middleOf(part), way(20, 0);
+    const QPoint at = hands::middleOf(*m_window, part), way(20, 0);
     hands::press(*view(), at, way, {}, {});
     QVERIFY(m_window->tools().tool().picture().gizmo->active == part);
     QTest::keyClicks(view(), amount);
