@@ -6,6 +6,7 @@
 #include "core/base/progress.h"
 #include "core/base/shorttext.h"
 #include "core/experiments/run.h"
+#include "core/io/mixing.h"
 #include "core/io/projectio.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
@@ -41,26 +42,6 @@ bool hasOwnTrack(const Project& project, const std::string& material) {
   });
 }
 
-/// The standard material with all in which the other differs from it.
-SceneMaterial writtenOut(const Project& project, const PluginRegistry& plugins, size_t index, const Material& whole) {
-  const SceneMaterial& source = project.materials[index];
-  SceneMaterial out;
-  out.id = source.id;
-  out.label = whole.label;
-  out.base = plugins.standard(PluginKind::Material);
-  const api::ParameterList catalogue = propertyCatalogue();
-  Project standard;
-  standard.materials.push_back(out);
-  for (size_t k = 0; k < catalogue.count; ++k) {
-    const Address address{Owner::Material, source.id, catalogue[k].key};
-    const Value value = valueAt(project, &plugins, address);
-    if (!(value == valueAt(standard, &plugins, address))) out.properties.values[address.key] = value;
-  }
-  out.adheresTo = whole.adheresTo;
-  out.unknown = source.unknown;
-  return out;
-}
-
 /// Without materials that others need not have any more.
 void dropMaterials(std::vector<std::string>& ids, const PluginRegistry& plugins) {
   std::erase_if(ids, [&](const std::string& id) {
@@ -92,12 +73,15 @@ Engine made(const Project& project, PluginRegistry& plugins) {
 SharedCopy copyForSharing(Project project, const PluginRegistry& plugins) {
   SharedCopy copy;
   const std::vector<Material> whole = compileMaterials(project, plugins);
-  const Project source = project;
   for (size_t k = 0; k < project.materials.size(); ++k) {
     SceneMaterial& material = project.materials[k];
     if (comesAlong(plugins, material.base) || !plugins.material(material.base) || hasOwnTrack(project, material.id))
       continue;
-    material = writtenOut(source, plugins, k, whole[k]);
+    SceneMaterial out = writtenOut(whole[k], plugins);
+    out.id = material.id;
+    out.mixture = material.mixture;
+    out.unknown = material.unknown;
+    material = std::move(out);
     copy.written.push_back(material.id);
   }
   if (!copy.written.empty()) {

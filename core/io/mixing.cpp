@@ -33,12 +33,6 @@ const FieldTable<Mixture>& mixtureFields() {
   return table;
 }
 
-Field<SceneMaterial> mixtureRow() {
-  Field<SceneMaterial> row{kMixtureKey, mixtureFields().schema()};
-  row.read = [](SceneMaterial&, Json&, const PluginRegistry&) {};
-  return row;
-}
-
 }  // namespace fields
 
 namespace {
@@ -64,12 +58,6 @@ Value valueIn(const Material& material, const api::ParameterDeclaration& declara
 }
 
 std::string percent(double share) { return numberText(std::round(share * 1e4) / 1e2) + "\u202f%"; }
-
-void keep(SceneMaterial& material, const Mixture& mixture) {
-  nlohmann::json open = material.unknown ? *material.unknown : nlohmann::json::object();
-  open[fields::kMixtureKey] = fields::mixtureFields().write(mixture);
-  material.unknown = std::make_shared<const nlohmann::json>(std::move(open));
-}
 
 const Material& standardOf(const PluginRegistry& plugins, const std::string& id) {
   const Material* standard = plugins.material(id);
@@ -114,41 +102,33 @@ std::string mixtureText(const Mixture& mixture) {
          mixture.second.label + " by mass";
 }
 
-bool isMixture(const SceneMaterial& material) {
-  return material.unknown && material.unknown->contains(fields::kMixtureKey);
-}
-
-std::optional<Mixture> mixtureOf(const SceneMaterial& material, const PluginRegistry& plugins) {
-  if (!isMixture(material)) return std::nullopt;
-  nlohmann::json kept = material.unknown->at(fields::kMixtureKey);
-  std::optional<Mixture> mixture(std::in_place);
-  fields::mixtureFields().read(*mixture, kept, plugins);
-  return mixture;
+SceneMaterial writtenOut(const Material& whole, const PluginRegistry& plugins) {
+  SceneMaterial out;
+  out.base = plugins.standard(PluginKind::Material);
+  const Material& standard = standardOf(plugins, out.base);
+  const api::ParameterList catalogue = propertyCatalogue();
+  for (size_t k = 0; k < catalogue.count; ++k) {
+    const Value value = valueIn(whole, catalogue[k]);
+    if (!(value == valueIn(standard, catalogue[k]))) out.properties.values[catalogue[k].key] = value;
+  }
+  out.label = whole.label;
+  out.adheresTo = whole.adheresTo;
+  return out;
 }
 
 SceneMaterial mixedMaterial(const Mixture& mixture, const PluginRegistry& plugins) {
   if (const std::string why = whyNot(mixture); !why.empty()) throw InputError(why);
-  SceneMaterial out;
-  out.base = plugins.standard(PluginKind::Material);
-  const Material& standard = standardOf(plugins, out.base);
-  const Material made = materialOf(mixture);
-  const api::ParameterList catalogue = propertyCatalogue();
-  for (size_t k = 0; k < catalogue.count; ++k) {
-    const Value value = valueIn(made, catalogue[k]);
-    if (!(value == valueIn(standard, catalogue[k]))) out.properties.values[catalogue[k].key] = value;
-  }
-  out.label = made.label;
-  out.adheresTo = made.adheresTo;
-  keep(out, mixture);
+  SceneMaterial out = writtenOut(materialOf(mixture), plugins);
+  out.mixture = std::make_shared<const Mixture>(mixture);
   return out;
 }
 
 SceneMaterial withShare(const SceneMaterial& material, double share, const PluginRegistry& plugins) {
-  std::optional<Mixture> mixture = mixtureOf(material, plugins);
-  if (!mixture) throw InputError("'" + material.id + "' is no mixture");
-  const SceneMaterial before = mixedMaterial(*mixture, plugins);
-  mixture->share = share;
-  const SceneMaterial after = mixedMaterial(*mixture, plugins);
+  if (!material.mixture) throw InputError("'" + material.id + "' is no mixture");
+  Mixture mixture = *material.mixture;
+  const SceneMaterial before = mixedMaterial(mixture, plugins);
+  mixture.share = share;
+  const SceneMaterial after = mixedMaterial(mixture, plugins);
   SceneMaterial out = material;
   const auto& was = before.properties.values;
   const auto& becomes = after.properties.values;
@@ -164,7 +144,7 @@ SceneMaterial withShare(const SceneMaterial& material, double share, const Plugi
     if (const auto value = in(becomes, key)) out.properties.values[key] = *value;
   }
   if (material.label == before.label) out.label = after.label;
-  keep(out, *mixture);
+  out.mixture = after.mixture;
   return out;
 }
 

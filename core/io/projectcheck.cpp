@@ -2,7 +2,6 @@
 #include "core/io/projectcheck.h"
 
 #include "core/base/nearest.h"
-#include "core/io/mixing.h"
 #include "core/io/projectfields.h"
 #include "core/io/trackcheck.h"
 #include "core/io/wallcheck.h"
@@ -120,7 +119,7 @@ class ProjectChecker : public FieldVisitor {
     }
     checkLaws(material, pointer);
     // A mixture states all that its parts do: nobody has set what does nothing as the scene is.
-    const ParameterSet none, &set = isMixture(source) ? none : source.properties;
+    const ParameterSet none, &set = source.mixture ? none : source.properties;
     checkRules(set, propertyCatalogue(), pointer + "/properties", [&](std::string_view key) -> std::optional<Value> {
       const auto found = material.properties.find(std::string(key));
       if (found != material.properties.end()) return found->second;

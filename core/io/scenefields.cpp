@@ -41,7 +41,7 @@ const FieldTable<SceneMaterial>& materialFields() {
                      Optional{List{Text{}, "id of a material, installed or of the scene"}},
                      "materials that it holds on to when one of the two freezes, in place of those that the installed "
                      "one names"),
-               mixtureRow()},
+               field("mixture", &SceneMaterial::mixture, Shared{Object{mixtureFields()}}, "")},
       .unknown = &SceneMaterial::unknown};
   return table;
 }

@@ -19,7 +19,21 @@ namespace ps {
 /// Keys that this version does not know, kept for the next save. nullptr: none.
 using Unknown = std::shared_ptr<const nlohmann::json>;
 
-/// A material of the scene: an installed one by id (`base`), with changed properties.
+/// What a material was mixed from, by the rules of core/matter/mixture.h. The parts are whole, with every value that
+/// they had: the share can be changed where they are not installed, or have left the scene.
+struct Mixture {
+  struct Part {
+    std::string label;
+    ParameterSet properties{};             ///< keys of the property catalogue
+    std::vector<std::string> adheresTo{};  ///< see Material::adheresTo
+    Unknown unknown{};
+  };
+  double share = 0.5;  ///< of the second part, by mass: 0 to 1
+  Part first{}, second{};
+  Unknown unknown{};
+};
+
+/// A material of the scene: an installed one by id (`base`), with changed properties, or a mixture.
 struct SceneMaterial {
   std::string id;  ///< unique in the scene; bodies refer to it
   std::string label;
@@ -29,6 +43,9 @@ struct SceneMaterial {
   /// Ids of materials, installed or of the scene, that it holds on to when one of the two freezes, in place of those
   /// that the installed one names.
   std::optional<std::vector<std::string>> adheresTo;
+  /// What it was mixed from: `properties` are then what came of it, and it is not the installed one that it is written
+  /// beside. nullptr: it was not.
+  std::shared_ptr<const Mixture> mixture{};
   Unknown unknown;
 };
 

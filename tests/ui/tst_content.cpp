@@ -403,8 +403,8 @@ class TestContent : public QObject {
   void adhesionTellsMaterialsOfOneKindApart() {
     Project project = m_document->project();
     const std::string id = project.materials[0].id;
-    project.materials.push_back({"tin", "", "tin", {}, {}, {}, {}});
-    project.materials.push_back({"pewter", "", "tin", {}, {}, {}, {}});
+    project.materials.push_back({"tin", "", "tin", {}, {}, {}, {}, {}});
+    project.materials.push_back({"pewter", "", "tin", {}, {}, {}, {}, {}});
     project.materials[0].adheresTo = {"clay"};  // not of this scene
     m_document->open(project, {});
     const Address tin{Owner::Material, id, std::string(kAdheresKey) + "tin"},

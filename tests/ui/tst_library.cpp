@@ -8,6 +8,7 @@
 #include "core/plugin_host/registry.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/document/presets.h"
 #include "ui/library/librarypage.h"
 #include "ui/library/materialcard.h"
 #include "ui/library/mixdialog.h"
@@ -234,6 +235,21 @@ class TestLibrary : public SampleWindowTest {
   }
 
   /// The view comes in the page's place while a card is dragged, and the page comes back where nothing took it.
+  /// It is written beside one: what asks for that one must not get it.
+  void aMixtureIsNoInstalledOne() {
+    Project project;
+    SceneMaterial material;
+    material.id = "alloy";
+    material.base = "water";
+    material.mixture = std::make_shared<const Mixture>();
+    project.materials.push_back(material);
+    QVERIFY(!installedIn(project, "water"));
+    material.id = "water";
+    material.mixture.reset();
+    project.materials.push_back(material);
+    QCOMPARE(installedIn(project, "water")->id, std::string("water"));
+  }
+
   void thePageMakesRoomForADrag() {
     QVERIFY(page()->isVisible());
     Q_EMIT page()->carrying();
@@ -387,12 +403,12 @@ class TestLibrary : public SampleWindowTest {
     QVERIFY(again && again->share()->enterNumber(0.6));
     press(*again, QStringLiteral("Change"));
     QVERIFY(std::get<Response>(document().value(density)).at(290) > first);
-    QCOMPARE(mixtureOf(document().project().materials.back(), *session().plugins())->share, 0.6);
+    QCOMPARE(document().project().materials.back().mixture->share, 0.6);
     name()->setText(QStringLiteral("Solder"));
     button(QStringLiteral("Save as preset"))->click();
     QTRY_VERIFY_WITH_TIMEOUT(entry(QStringLiteral("Solder")), kLong);
     QVERIFY(entry(QStringLiteral("Solder"))->about.startsWith(QStringLiteral("A mixture of 40")));
-    QVERIFY(isMixture(entry(QStringLiteral("Solder"))->material));
+    QVERIFY(entry(QStringLiteral("Solder"))->material.mixture);
     document().undoStack().undo();
     QCOMPARE(std::get<Response>(document().value(density)).at(290), first);
     document().undoStack().undo();

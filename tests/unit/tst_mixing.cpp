@@ -298,20 +298,20 @@ class TestMixing : public QObject {
     const LoadedProject read = parseProject(writeProject(project), "solder.json", m_plugins);
     QVERIFY2(read.warnings.empty(), read.warnings.empty() ? "" : read.warnings.front().text.c_str());
     SceneMaterial back = read.project.materials.front();
-    const auto mixture = mixtureOf(back, m_plugins);
+    const auto mixture = back.mixture;
     QVERIFY(mixture && mixture->share == 0.37);
     QCOMPARE(mixtureText(*mixture), std::string("63\u202f% Tin and 37\u202f% Lead by mass"));
     QVERIFY(back.properties == solder.properties);
     back.properties.values["restitution"] = 0.77;  // by hand
     const SceneMaterial changed = withShare(back, 0.6, m_plugins);
     QVERIFY(changed.properties.values.at("restitution") == Value(0.77));
-    QVERIFY(changed.label.starts_with("40\u202f%") && mixtureOf(changed, m_plugins)->share == 0.6);
+    QVERIFY(changed.label.starts_with("40\u202f%") && changed.mixture->share == 0.6);
     QVERIFY(changed.properties.values.at("density_solid") != back.properties.values.at("density_solid"));
     const SceneMaterial again = withShare(changed, 0.37, m_plugins);
     QVERIFY(again.properties == back.properties && again.label == back.label);
     SceneMaterial plain;
     plain.id = plain.base = "water";
-    QVERIFY(!mixtureOf(plain, m_plugins));
+    QVERIFY(!plain.mixture);
     QVERIFY_EXCEPTION_THROWN((void)withShare(plain, 0.5, m_plugins), InputError);
     QVERIFY_EXCEPTION_THROWN((void)withShare(back, 2, m_plugins), InputError);
   }
@@ -323,7 +323,7 @@ class TestMixing : public QObject {
     QVERIFY2(ran.code == 0 && ran.out.contains("density_solid") && ran.out.contains("volumes add up"), ran.err);
     const Project project = loadProject(path.toStdString(), m_plugins).project;
     QCOMPARE(project.materials.front().label, std::string("Solder"));
-    QCOMPARE(mixtureOf(project.materials.front(), m_plugins)->share, 0.37);
+    QCOMPARE(project.materials.front().mixture->share, 0.37);
     QCOMPARE(cli({"mix", path, "gallium", "--quiet"}).code, 0);
     QCOMPARE(cli({"mix", path + "#solder", "gallium", "--quiet"}).code, 0);
     for (const QStringList& wrong : {QStringList{"mix", "tin"},

@@ -374,7 +374,7 @@ void TstSimulation::takenMatterComesBackAsItWas() {
 
 void TstSimulation::aMissingMaterialStandsStill() {
   Project project = scenes::iceOnPlate(5, 293.15);
-  project.materials.push_back({"odd", "Odd", "not-installed", {}, {}, {}, {}});
+  project.materials.push_back({"odd", "Odd", "not-installed", {}, {}, {}, {}, {}});
   Body body = scenes::block("odd", 3, 0.03, {0, 0.8, 0}, 293.15);
   body.material = "odd";
   project.bodies.push_back(body);

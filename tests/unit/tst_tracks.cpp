@@ -191,7 +191,7 @@ class TestTracks : public QObject {
     QVERIFY(curve(engine.project()) == curve(project));
     // Of an installed curve too, of which the project says nothing.
     project = scenes::iceOnPlate(4, 370);
-    project.materials.push_back({"co2", "", "co2", {}, {}, {}, {}});
+    project.materials.push_back({"co2", "", "co2", {}, {}, {}, {}, {}});
     project.tracks = {track("material/co2/density_liquid[1]", {{0, 1000}})};
     Engine installed(project, m_plugins);
     const auto& now = installed.project().materials[1].properties.values;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/curves/curvetarget.h"
 
-#include "core/io/mixing.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/snapshot.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/presets.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/rowmodels.h"
 #include "ui/session/selection.h"
@@ -31,7 +31,7 @@ constexpr size_t kTableSamples = 4096;
 Project sceneOf(const std::string& base, const PluginRegistry* plugins) {
   const Material* material = plugins ? plugins->material(base) : nullptr;
   Project project;
-  project.materials.push_back({base, material ? material->label : base, base, {}, {}, {}, {}});
+  project.materials.push_back({base, material ? material->label : base, base, {}, {}, {}, {}, {}});
   return project;
 }
 
@@ -288,7 +288,7 @@ void CurveTarget::compare(const OtherMaterial& other, bool on) {
 /// What has come into the scene is compared as it is there.
 void CurveTarget::followInstalled() {
   for (const SceneMaterial& own : document().project().materials) {
-    if (!isMixture(own) && m_compared.erase({own.base, true}) > 0) m_compared.insert({own.id});
+    if (!own.mixture && m_compared.erase({own.base, true}) > 0) m_compared.insert({own.id});
   }
 }
 
@@ -306,9 +306,7 @@ std::vector<OtherMaterial> CurveTarget::installed() const {
   const PluginRegistry* plugins = document().plugins();
   std::vector<OtherMaterial> all;
   for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
-    const std::vector<SceneMaterial>& own = document().project().materials;
-    const bool there =
-        std::any_of(own.begin(), own.end(), [&](const SceneMaterial& m) { return m.base == base && !isMixture(m); });
+    const bool there = installedIn(document().project(), base) != nullptr;
     if (!there && !m_compared.contains({base, true})) all.push_back({base, true});
   }
   return all;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What comes into a document's scene and leaves it: bodies with their matter, materials.
-#include "core/io/mixing.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/presets.h"
 
 #include <algorithm>
 #include <set>
@@ -138,9 +138,7 @@ void Document::setAdhesion(const std::string& id, const std::string& other, bool
 
 std::string Document::addMaterial(const std::string& base) {
   std::vector<SceneMaterial>& materials = m_project.materials;
-  const auto present = std::find_if(materials.begin(), materials.end(),
-                                    [&](const SceneMaterial& m) { return m.base == base && !isMixture(m); });
-  if (present != materials.end()) return present->id;
+  if (const SceneMaterial* present = installedIn(m_project, base)) return present->id;
   const auto taken = [&](const std::string& id) {
     return std::any_of(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
   };

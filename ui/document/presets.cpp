@@ -8,6 +8,12 @@
 
 namespace ps {
 
+const SceneMaterial* installedIn(const Project& project, const std::string& base) {
+  const auto found = std::find_if(project.materials.begin(), project.materials.end(),
+                                  [&](const SceneMaterial& m) { return m.base == base && !m.mixture; });
+  return found == project.materials.end() ? nullptr : &*found;
+}
+
 std::string addPreset(Document& document, SceneMaterial preset) {
   const std::vector<SceneMaterial>& before = document.project().materials;
   const auto taken = [&](const std::string& id) {

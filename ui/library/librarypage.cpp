@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/library/librarypage.h"
 
-#include "core/io/mixing.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
@@ -332,8 +331,8 @@ void LibraryPage::showScene() {
   m_save->setEnabled(!id.empty());
   m_name->setEnabled(!id.empty());
   const auto& materials = m_session.document().project().materials;
-  m_mixture->setVisible(std::any_of(materials.begin(), materials.end(),
-                                    [&](const SceneMaterial& m) { return m.id == id && isMixture(m); }));
+  m_mixture->setVisible(
+      std::any_of(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id && m.mixture; }));
 }
 
 void LibraryPage::addToScene() {

@@ -69,8 +69,8 @@ std::map<QString, QDateTime> installedFiles(const PluginRegistry& plugins) {
 }
 
 QString aboutOf(const PluginRegistry& plugins, const SceneMaterial& material) {
-  if (const auto mixture = mixtureOf(material, plugins))
-    return QStringLiteral("A mixture of %1.").arg(QString::fromStdString(mixtureText(*mixture)));
+  if (material.mixture)
+    return QStringLiteral("A mixture of %1.").arg(QString::fromStdString(mixtureText(*material.mixture)));
   for (const PluginInfo& plugin : plugins.plugins()) {
     if (plugin.id == material.base) return QString::fromStdString(plugin.help);
   }
@@ -349,7 +349,7 @@ bool MaterialLibrary::isAlone(const LibraryEntry& entry) const {
 
 void MaterialLibrary::keep(SceneMaterial material, const QString& label, const QString& path) {
   material.label = label.toStdString();
-  material.id = isMixture(material) ? "mixture" : material.base;
+  material.id = material.mixture ? "mixture" : material.base;
   write(material, path, QStringLiteral("“%1” is kept among your presets.").arg(label));
 }
 

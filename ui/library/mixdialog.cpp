@@ -34,8 +34,7 @@ constexpr int kGap = 8, kEdge = 16, kLabelWidth = 110;
 constexpr QSize kSize{760, 640};
 constexpr const char* kLimits =
     "The rules know the parts alone, not how they act on each other: no eutectics (solder melts some 60 K lower than "
-    "they "
-    "say), no compounds, nothing that separates.";
+    "they say), no compounds, nothing that separates.";
 
 constexpr api::ParameterDeclaration kShare{
     "share",
@@ -108,9 +107,9 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
   m_changed = material;
   for (const SceneMaterial& own : session.document().project().materials) {
     if (own.id != material) continue;
-    const auto mixture = mixtureOf(own, *session.plugins());
-    if (!mixture) continue;
-    for (const auto& [box, part] : {std::pair(m_first, mixture->first), std::pair(m_second, mixture->second)}) {
+    if (!own.mixture) continue;
+    const Mixture& mixture = *own.mixture;
+    for (const auto& [box, part] : {std::pair(m_first, mixture.first), std::pair(m_second, mixture.second)}) {
       m_sources.push_back({QString::fromStdString(part.label), part});
       box->addItem(m_sources.back().label);
       box->setEnabled(false);
@@ -118,7 +117,7 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
     }
     addRow(QStringLiteral("First"), m_first);
     addRow(QStringLiteral("Second"), m_second);
-    addShare(mixture->share);
+    addShare(mixture.share);
     addResult();
     addButtons();
     refresh();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/materialspanel.h"
 
-#include "core/io/mixing.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
@@ -93,7 +92,7 @@ void MaterialsPanel::rebuild() {
   const PluginRegistry* plugins = m_document.plugins();
   std::set<std::string> bases;
   for (const SceneMaterial& material : project.materials) {
-    if (!isMixture(material)) bases.insert(material.base);
+    if (!material.mixture) bases.insert(material.base);
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
                        colourOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
   }
@@ -102,7 +101,7 @@ void MaterialsPanel::rebuild() {
     const Material* material = plugins ? plugins->material(base) : nullptr;
     if (!material || bases.count(base)) continue;
     Project with;  // a scene of it alone says how it looks
-    with.materials.push_back({base, {}, base, {}, {}, {}, {}});
+    with.materials.push_back({base, {}, base, {}, {}, {}, {}, {}});
     const std::string& label = material->label;
     m_tiles.push_back(
         {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});

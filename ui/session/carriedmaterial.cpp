@@ -65,13 +65,15 @@ bool giveMaterial(Document& document, std::vector<std::string> bodies, const QMi
   std::erase_if(bodies, [&](const std::string& each) { return !whyNoMaterial(document, each).isEmpty(); });
   if (bodies.empty()) return false;
   const auto& materials = document.project().materials;
-  const auto known = [&](const auto& isIt) {
-    const auto found = std::find_if(materials.begin(), materials.end(), isIt);
-    return found == materials.end() ? std::string() : found->id;
-  };
   const std::string id = textOf(data, kMaterialMime), base = textOf(data, kInstalledMime);
-  std::string material = !id.empty() ? known([&](const SceneMaterial& m) { return m.id == id; })
-                                     : known([&](const SceneMaterial& m) { return m.base == base; });
+  std::string material;
+  if (!id.empty()) {
+    const bool there =
+        std::any_of(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == id; });
+    if (there) material = id;
+  } else if (const SceneMaterial* present = installedIn(document.project(), base)) {
+    material = present->id;
+  }
   const bool installed = !base.empty() && document.plugins() && document.plugins()->material(base);
   const auto preset = id.empty() && base.empty() ? presetOf(document, data) : std::nullopt;
   if (material.empty() && (!id.empty() || !(installed || preset))) return false;

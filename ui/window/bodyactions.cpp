@@ -95,11 +95,7 @@ std::optional<std::pair<std::string, const api::ThinMatter*>> thinStructure(cons
 
 /// The scene's material of an installed one, which it gets where it has none; "" where that is not installed.
 std::string sceneMaterial(Document& document, const std::string& base) {
-  if (!document.plugins()->material(base)) return {};
-  for (const SceneMaterial& material : document.project().materials) {
-    if (material.base == base) return material.id;
-  }
-  return document.addMaterial(base);
+  return document.plugins()->material(base) ? document.addMaterial(base) : std::string();
 }
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
