@@ -12,6 +12,7 @@
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
 #include "ui/tools/gizmo.h"
+#include "ui/tools/picking.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 
@@ -19,6 +20,7 @@
 #include <QtGui/QMouseEvent>
 #include <QtWidgets/QTreeView>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace ps;
@@ -281,6 +283,39 @@ class TestHandles : public SampleWindowTest {
     document().undoStack().undo();
     QCOMPARE(pivotOf(ice()), first);
     QCOMPARE(pivotOf(*document().body(id)), second);
+  }
+
+  /// In the view, along its edges, and no longer than it is selected.
+  void aSelectedWallIsOutlined() {
+    const Lines edges = wallLines(document().project().environment, 0);
+    const auto outlined = [&] {
+      view()->repaint();
+      const QImage shown = view()->grabFramebuffer();
+      const QColor accent = Theme::current()[Token::Accent];
+      const auto isAccent = [&](const QPoint& at) {
+        for (int y = -2; y <= 2; ++y) {
+          for (int x = -2; x <= 2; ++x) {
+            const QColor seen = shown.pixelColor(std::clamp(at.x() + x, 0, shown.width() - 1),
+                                                 std::clamp(at.y() + y, 0, shown.height() - 1));
+            if (std::abs(seen.red() - accent.red()) + std::abs(seen.green() - accent.green()) +
+                    std::abs(seen.blue() - accent.blue()) <
+                60)
+              return true;
+          }
+        }
+        return false;
+      };
+      return std::count_if(edges.begin(), edges.end(),
+                           [&](const auto& edge) { return isAccent(pixelOf(0.5 * (edge.first + edge.second))); });
+    };
+    QCOMPARE(edges.size(), size_t{4});
+    m_window->tools().activate("select");
+    m_window->selection().clear();
+    const auto without = outlined();
+    m_window->selection().select(OutlineKind::Wall, document().project().environment.walls[0].id);
+    QTRY_VERIFY_WITH_TIMEOUT(outlined() >= without + 3, kLong);
+    m_window->selection().clear();
+    QTRY_COMPARE_WITH_TIMEOUT(outlined(), without, kLong);
   }
 
  private:

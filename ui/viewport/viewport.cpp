@@ -21,6 +21,7 @@
 #include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/portpainter.h"
 #include "ui/viewport/viewportaccess.h"
+#include "ui/viewport/wirepainter.h"
 
 #include <QtGui/QAccessible>
 #include <QtGui/QHelpEvent>
@@ -208,6 +209,7 @@ void Viewport::paintGL() {
       paintPortsOver(painter);
       ToolPicture picture = m_tools.tool().picture();
       if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
+      paintWires(painter, picture.wires, m_navigator.camera(), size());
       if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
       if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
       if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size());
