@@ -27,6 +27,7 @@ constexpr OptionSpec kOptions[] = {
     {"--material", "ID", "what it is made of; without it the standard one"},
     {"--structure", "ID", "the constraint plugin that holds it together where it is solid"},
     {"--fill", "lattice|relaxed", "how particles lie in it; relaxed packs them against its surface"},
+    {"--wall", "", "the mesh is a wall: its surface alone, held in place, which lets no heat through"},
     {"--report", "FILE.json", "writes triangles, closed, mesh_volume, particles, particle_volume"},
 };
 constexpr int kMostTriangles = 10'000'000;  ///< that are read
@@ -92,7 +93,8 @@ nlohmann::json reportOf(const ImportedMesh& imported, double spacing, const Soli
 std::string importHelp() {
   return "phasesketch-cli import MESH --out PROJECT.json [options]\n\nMakes a project of a mesh (OBJ, STL, PLY, glTF, "
          "FBX, 3MF and what else assimp reads), filled with particles and standing\non a floor. Open meshes are filled "
-         "by their winding number. The file is read in a process of its own, which can do no\nharm.\n\n" +
+         "by their winding number, or stand for their surface alone (--wall). The file is read in a process of its "
+         "own, which can do no\nharm.\n\n" +
          optionHelp(kOptions);
 }
 
@@ -109,7 +111,7 @@ int importCommand(CommandArguments list) {
   const size_t most = static_cast<size_t>(arguments.integer("--reduce", 4, kMostTriangles).value_or(kKeptTriangles));
   const ImportedMesh imported = importMesh(path, unit, kReading, most);
   const double spacing = spacingFor(arguments, imported);
-  Body body = bodyOf(imported);
+  Body body = arguments.has("--wall") ? wallOf(imported) : bodyOf(imported);
   body.material = material.id;
   if (arguments.has("--structure")) {
     const std::string structure = arguments.text("--structure");
@@ -132,8 +134,12 @@ int importCommand(CommandArguments list) {
     writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, matter)));
   if (const std::string& origin = imported.mesh->origin; origin.find(": ") != std::string::npos)
     std::printf("%s\n", origin.c_str());
-  std::printf("%zu triangles, %s, %.4g m³ filled with %zu particles\n", imported.facts.triangles,
-              imported.facts.closed() ? "closed" : "open", imported.facts.volume, matter.places.size());
+  const char* closed = imported.facts.closed() ? "closed" : "open";
+  if (arguments.has("--wall"))
+    std::printf("%zu triangles, %s, a wall of %zu particles\n", imported.facts.triangles, closed, matter.places.size());
+  else
+    std::printf("%zu triangles, %s, %.4g m³ filled with %zu particles\n", imported.facts.triangles, closed,
+                imported.facts.volume, matter.places.size());
   return kFine;
 }
 

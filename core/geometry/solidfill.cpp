@@ -5,8 +5,10 @@
 #include "core/base/progress.h"
 #include "core/geometry/meshrepair.h"
 #include "core/geometry/meshwinding.h"
+#include "core/geometry/solidfacets.h"
 #include "core/geometry/solidpacking.h"
 #include "core/geometry/solidsurface.h"
+#include "core/math/meshnearest.h"
 #include "core/scene/solidform.h"
 
 #include <algorithm>
@@ -20,7 +22,8 @@ namespace {
 
 /// Cells up to which all ways to lay the lattice are tried; of meshes fewer, whose cells cost more.
 constexpr double kSmall = 100'000, kSmallMesh = 4000;
-constexpr double kInside = 0.5;  ///< of a winding number
+constexpr double kInside = 0.5;    ///< of a winding number
+constexpr double kLayer = 1.0001;  ///< of a layer's thickness: cells on both its faces lie in it
 /// How far lattices stretch, per axis: second neighbours stay out of the reach of bonds, and those across a face stay
 /// in it (1.7 spacings).
 constexpr double kLeastStretch = 0.9, kMostStretch = 1.12;
@@ -133,8 +136,13 @@ SolidShape withoutPose(SolidShape shape) {
   return shape;
 }
 
-SolidInside::SolidInside(const SolidShape& shape) : m_form(std::make_unique<const SolidForm>(shape)) {
-  if (m_form->kind() != SolidForm::Kind::Mesh || !shape.mesh) return;
+SolidInside::SolidInside(const SolidShape& shape, double layer)
+    : m_form(std::make_unique<const SolidForm>(shape)), m_halfLayer(kLayer * layer / 2) {
+  if (m_form->kind() != SolidForm::Kind::Mesh || !shape.mesh || shape.mesh->triangles.empty()) return;
+  if (m_form->isHollow() && layer > 0) {
+    m_skin = std::make_unique<const MeshNearest>(facetsOf(*shape.mesh, m_form->size()));
+    return;
+  }
   m_winding = windingOf(shape.mesh);
   const MeshBounds bounds = boundsOf(*shape.mesh);
   m_meshMiddle = (bounds.minimum + bounds.maximum) / 2;
@@ -145,6 +153,7 @@ SolidInside::SolidInside(const SolidShape& shape) : m_form(std::make_unique<cons
 SolidInside::~SolidInside() = default;
 
 bool SolidInside::holds(const Vector3& own) const {
+  if (m_skin) return m_skin->within(m_halfLayer, own).has_value();
   if (!m_winding) return m_form->holds(own);
   if ((own.cwiseAbs().array() > 0.5 * m_form->size().array()).any()) return false;
   return m_winding->at(m_meshMiddle + own.cwiseProduct(m_toMesh)) > kInside;
@@ -152,10 +161,15 @@ bool SolidInside::holds(const Vector3& own) const {
 
 namespace {
 
+/// m, along its own axes, how wide the box is in which its particles lie: half a layer of a surface lies outside.
+Vector3 reachOf(const SolidForm& form, double spacing) {
+  return form.isHollow() ? Vector3(form.size() + Vector3::Constant(spacing)) : form.size();
+}
+
 /// As fillSolid(), without looking whether it is known.
 SolidCells newFill(const SolidShape& shape, double spacing) {
-  const SolidInside solid(shape);
-  const Vector3& size = solid.form().size();
+  const SolidInside solid(shape, spacing);
+  const Vector3 size = reachOf(solid.form(), spacing);
   const SolidForm::Kind kind = solid.form().kind();
   if (kind == SolidForm::Kind::Block || kind == SolidForm::Kind::Sheet)
     return filledBlock(size, spacing, kind == SolidForm::Kind::Sheet);
@@ -179,8 +193,8 @@ SolidCells newFill(const SolidShape& shape, double spacing) {
     best = std::move(one);
   }
   best = orMiddle(std::move(best), {});
-  // Of an open mesh nobody knows the volume.
-  if (shape.mesh && !factsOf(*shape.mesh).closed()) return best;
+  // Of an open mesh nobody knows the volume; steps of a single layer do not tell its area.
+  if (solid.form().isHollow() || (shape.mesh && !factsOf(*shape.mesh).closed())) return best;
   best.stretch = Vector3::Constant(within(std::cbrt(wanted / static_cast<double>(best.cells.size()))));
   return best;
 }
@@ -252,7 +266,7 @@ std::vector<Vector3> packedPlaces(const SolidShape& shape, double spacing, const
 /// A block's lattice lies even as it is, and so do sheets and ropes.
 bool isPacked(const SolidShape& shape) {
   const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
-  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isThin();
+  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isOneLayer();
 }
 
 SolidMatter solidMatter(const SolidShape& shape, double spacing) {
@@ -275,7 +289,7 @@ std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing)
 }
 
 SolidCells cellsInScene(const SolidShape& shape, double spacing) {
-  const SolidInside solid(shape);
+  const SolidInside solid(shape, spacing);
   const SolidForm& form = solid.form();
   if (!form.isTurned()) {
     SolidCells own = fillSolid(shape, spacing);
@@ -284,7 +298,7 @@ SolidCells cellsInScene(const SolidShape& shape, double spacing) {
     return own;
   }
   std::array<int, 3> count;
-  const Vector3 extent = form.extent();
+  const Vector3 extent = form.axes().cwiseAbs() * reachOf(form, spacing);
   for (size_t a = 0; a < 3; ++a) count[a] = layersOf(extent[a], spacing, false);
   return orMiddle(filledBy(form.middle(), spacing, count, [&](const Vector3& p) { return solid.holds(form.toOwn(p)); }),
                   form.middle());

@@ -8,13 +8,15 @@
 
 namespace ps {
 
+class MeshNearest;
 class MeshWinding;
 class SolidForm;
 
-/// Tells which places lie in a solid of any kind.
+/// Tells which places lie in a solid of any kind; of a hollow mesh, those within its surface, `layer` m thick, or where
+/// that is 0 what it encloses.
 class SolidInside {
  public:
-  explicit SolidInside(const SolidShape& shape);
+  explicit SolidInside(const SolidShape& shape, double layer = 0);
   ~SolidInside();
   const SolidForm& form() const { return *m_form; }
   /// Of a place along the solid's own axes, m from its middle. May be called from any thread.
@@ -23,6 +25,8 @@ class SolidInside {
  private:
   std::unique_ptr<const SolidForm> m_form;
   std::shared_ptr<const MeshWinding> m_winding;  ///< of a mesh
+  std::unique_ptr<const MeshNearest> m_skin;     ///< of a hollow mesh
+  double m_halfLayer;                            ///< m, of that
   Vector3 m_toMesh, m_meshMiddle;                ///< scale and shift from the solid's own axes to those of its mesh
 };
 

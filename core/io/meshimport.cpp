@@ -207,4 +207,12 @@ Body bodyOf(const ImportedMesh& imported) {
   return body;
 }
 
+Body wallOf(const ImportedMesh& imported) {
+  Body wall = bodyOf(imported);
+  std::get<SolidShape>(wall.shape).parameters.values["inside"] = std::string("hollow");
+  wall.parameters.values["fixed"] = true;
+  wall.parameters.values["heat"] = std::string("adiabatic");
+  return wall;
+}
+
 }  // namespace ps

@@ -37,5 +37,7 @@ ImportedMesh importMesh(const std::string& path, std::optional<double> metresPer
 
 /// A body of the mesh, standing at the origin of the scene: all but its material.
 Body bodyOf(const ImportedMesh& imported);
+/// As a wall of its shape: its surface alone, held in place, which lets no heat through.
+Body wallOf(const ImportedMesh& imported);
 
 }  // namespace ps

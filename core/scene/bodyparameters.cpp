@@ -41,6 +41,21 @@ constexpr api::ParameterDeclaration kBody[] = {
              "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
              "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
              "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""})),
+    actingWhen(
+        "fixed = on & scene/thermal_model != none",
+        choice({"heat", "Heat", "", ""}, "conducts|fixed_temperature|adiabatic", 0,
+               {"Heat",
+                "Whether a body that is held in place warms and cools as its material does, keeps a temperature "
+                "whatever touches it, or lets no heat through: then it takes none from the air either, and radiates as "
+                "much as it receives. Like a wall of any shape.",
+                "a pan: conducts; a mould that is cooled, a hot plate: fixed temperature; a foam box: adiabatic", ""})),
+    actingWhen("fixed = on & heat = fixed_temperature",
+               number({"held_temperature", "Temperature held", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
+                      {"Heat",
+                       "What a body of fixed temperature has, from the start on. It gives and takes as much heat as "
+                       "that takes; what conducts well has it up to its surface.",
+                       "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
+                      kCelsius)),
     leastMeans("found",
                number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
                       {"Heat",

@@ -23,7 +23,7 @@ double particleCount(const Body& body, double spacing) {
     // Its whole box is searched for cells that lie in it: thin matter in a large box counts for some of that.
     const SolidForm form(*solid);
     const double ends = form.kind() == SolidForm::Kind::Rope ? 1 : 0;  // a rope has a particle at both
-    if (form.isThin()) return ends + std::max(1.0, std::round(form.volume(spacing) / std::pow(spacing, 3)));
+    if (form.isOneLayer()) return ends + std::max(1.0, std::round(form.volume(spacing) / std::pow(spacing, 3)));
     const double cell = std::pow(spacing, 3), searched = form.size().prod() / kSearchedPerParticle;
     count = std::max(1.0, std::round(std::max(form.volume(), searched) / cell));
   } else {

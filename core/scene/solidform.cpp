@@ -59,6 +59,7 @@ SolidForm::SolidForm(const SolidShape& shape) : m_mesh(shape.mesh) {
   m_kind = kindOf(choiceOf(shape.parameters, list, "kind"));
   m_size = three("size");
   m_middle = three("position");
+  m_isHollow = m_kind == Kind::Mesh && choiceOf(shape.parameters, list, "inside") == "hollow";
   m_wall = number("wall");
   if (m_kind == Kind::Rope) {
     const auto count = static_cast<int>(number("points"));
@@ -199,6 +200,8 @@ double SolidForm::volume(double layer) const {
   if (!m_mesh) return 0;
   const MeshBounds bounds = boundsOf(*m_mesh);
   const Vector3 extent = bounds.maximum - bounds.minimum;
+  if (m_isHollow)
+    return layer * areaOf(*m_mesh, (extent.array() > 0).select(m_size.array() / extent.array(), 1.0).matrix());
   return extent.minCoeff() > 0 ? std::abs(signedVolume(*m_mesh)) * m_size.cwiseQuotient(extent).prod() : 0;
 }
 
@@ -224,6 +227,16 @@ std::string problemOf(const SceneMesh& mesh) {
     }
   }
   return {};
+}
+
+double areaOf(const SceneMesh& mesh, const Vector3& scale) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3 a = pointOf(mesh, t[0]);
+    const Vector3 ab = scale.cwiseProduct(pointOf(mesh, t[1]) - a), ac = scale.cwiseProduct(pointOf(mesh, t[2]) - a);
+    sum += ab.cross(ac).norm();
+  }
+  return sum / 2;
 }
 
 double signedVolume(const SceneMesh& mesh) {

@@ -28,10 +28,14 @@ class SolidForm {
   bool holds(const Vector3& own) const;
   /// m, along its own axes, of what fills it evenly; of a mesh with holes as far as its triangles enclose something.
   Vector3 centroid() const;
-  /// m3. Of a mesh: what its triangles enclose, at this size; of a sheet or a rope that is `layer` m thick.
+  /// m3. Of a mesh: what its triangles enclose, at this size; of a sheet, a rope or the surface of a hollow mesh that
+  /// is `layer` m thick.
   double volume(double layer = 0) const;
-  /// Sheets and ropes are one particle thick.
+  /// Sheets and ropes.
   bool isThin() const { return m_kind == Kind::Sheet || m_kind == Kind::Rope; }
+  /// A mesh that is its surface alone.
+  bool isHollow() const { return m_isHollow; }
+  bool isOneLayer() const { return isThin() || isHollow(); }  ///< one particle thick
   /// Of a rope, m along its own axes, two at least.
   const std::vector<Vector3>& points() const { return m_points; }
   /// Whether a particle of a sheet or rope is held where it starts, by its parameter `held`.
@@ -44,7 +48,7 @@ class SolidForm {
   std::vector<Vector3> m_points;
   double m_thickness = 0;  ///< m, of a rope, for brushes
   int m_heldEnds = 0;
-  bool m_isTurned = false;
+  bool m_isTurned = false, m_isHollow = false;
   Matrix3 m_axes;
   std::shared_ptr<const SceneMesh> m_mesh;
 };
@@ -59,5 +63,7 @@ std::string problemOf(const SceneMesh& mesh);
 /// m3 that its triangles enclose, by the divergence theorem; below 0 where they are seen from inside. Of an open mesh
 /// it depends on where the holes are.
 double signedVolume(const SceneMesh& mesh);
+/// m2 of all triangles, with each axis at `scale` times its length.
+double areaOf(const SceneMesh& mesh, const Vector3& scale);
 
 }  // namespace ps

@@ -56,6 +56,13 @@ constexpr api::ParameterDeclaration kSolid[] = {
     actingWhen("kind = tube",
                size({"wall", "Thickness of the wall", "", "m"},
                     "Of a tube, measured inwards; as much as it is wide makes it a cylinder.", "a pipe 0.005", kWall)),
+    actingWhen("kind = mesh",
+               atReset(choice(
+                   {"inside", "Inside", "", ""}, "filled|hollow", 0,
+                   {"Shape",
+                    "Whether a mesh is filled with particles, or stands for its surface alone, one particle thick: "
+                    "then there is room in it for other matter, and one with holes is a bowl or a ground.",
+                    "filled for a statue, hollow for a tank, a terrain, or the room in which something flows", ""}))),
     actingWhen(
         "kind != block & kind != sheet & kind != rope",
         atReset(choice({"fill", "Particles", "", ""}, "lattice|relaxed", 0,

@@ -6,6 +6,7 @@
 #include "core/geometry/solidfill.h"
 #include "core/math/vector.h"
 #include "core/matter/material.h"
+#include "core/matter/stablephase.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
 #include "core/scene/scenewall.h"
@@ -33,9 +34,7 @@ api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, dou
   if (asked == "solid") return api::Phase::Solid;
   if (asked == "liquid") return api::Phase::Liquid;
   if (asked == "gas") return api::Phase::Gas;
-  if (caloric.sublimes) return temperature < caloric.meltingPoint ? api::Phase::Solid : api::Phase::Gas;
-  if (caloric.melts && temperature < caloric.meltingPoint) return api::Phase::Solid;
-  return temperature < caloric.boilingPoint ? api::Phase::Liquid : api::Phase::Gas;
+  return stablePhase(caloric, temperature);
 }
 
 /// Everything but positions, material, temperature and the index of the body, which the engine gives.
@@ -43,6 +42,18 @@ Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body&
   Spawn spawn;
   spawn.fixed = toggleOf(body.parameters, bodyParameters(), "fixed") || isPlaceholder(project, body, plugins);
   return spawn;
+}
+
+/// What it is given, and what it does where it is held in place.
+BodyHeat heatOf(const Body& body) {
+  const api::ParameterList list = bodyParameters();
+  BodyHeat heat;
+  heat.watts = numberOf(body.parameters, list, "heating_power");
+  if (!toggleOf(body.parameters, list, "fixed")) return heat;
+  const std::string kind = choiceOf(body.parameters, list, "heat");
+  if (kind == "fixed_temperature") heat.held = numberOf(body.parameters, list, "held_temperature");
+  heat.insulated = kind == "adiabatic";
+  return heat;
 }
 
 void setMatter(Spawn& spawn, std::span<const BakedMaterial> materials, uint32_t material, double temperature,
@@ -54,7 +65,8 @@ void setMatter(Spawn& spawn, std::span<const BakedMaterial> materials, uint32_t 
 
 void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMaterial> materials,
                const std::string& material, double temperature, const Body& body) {
-  setMatter(spawn, materials, materialIndex(project, material, shownName(body)), temperature,
+  const double held = heatOf(body).held;
+  setMatter(spawn, materials, materialIndex(project, material, shownName(body)), held > 0 ? held : temperature,
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
 
@@ -330,13 +342,13 @@ BodyMotion compileMotion(const Body& body, double spacing) {
   return motion;
 }
 
-std::vector<double> compileHeating(const Project& project, const std::vector<std::string>& bodyIds) {
-  std::vector<double> watts(bodyIds.size(), 0.0);
+std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds) {
+  std::vector<BodyHeat> heat(bodyIds.size());
   for (const Body& body : project.bodies) {
     const auto index = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), body.id) - bodyIds.begin());
-    if (index < watts.size()) watts[index] = numberOf(body.parameters, bodyParameters(), "heating_power");
+    if (index < heat.size()) heat[index] = heatOf(body);
   }
-  return watts;
+  return heat;
 }
 
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,

@@ -46,8 +46,8 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
                                std::span<const BakedMaterial> materials, const Body& body);
 /// How a fixed body moves; none of others.
 BodyMotion compileMotion(const Body& body, double spacing);
-/// W of each body by the index that its particles carry; bodies that have left the project have none.
-std::vector<double> compileHeating(const Project& project, const std::vector<std::string>& bodyIds);
+/// Heat that each body is given, by the index that its particles carry; bodies that have left the project get none.
+std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds);
 /// One batch of a sketched body's cells, filled with particles of `spacing` m.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);

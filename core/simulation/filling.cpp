@@ -62,7 +62,7 @@ Filling fillingOf(const Body& body, double spacing) {
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
     const SolidForm form(*solid);
     const double asked = form.volume(spacing);
-    if (form.isThin()) return {asked, asked};
+    if (form.isOneLayer()) return {asked, asked};
     if (asked > kSurelyFilled * cell) return {asked, asked};
     const SolidCells filled = fillSolid(*solid, spacing);
     return {asked, static_cast<double>(filled.cells.size()) * filled.stretch.prod() * cell};

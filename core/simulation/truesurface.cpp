@@ -69,7 +69,7 @@ std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, do
     std::vector<MeshNearest::Triangle> facets = facetsOf(*solid, kFacetError * spacing);
     if (facets.empty()) return std::nullopt;
     known.shape.surface = std::make_shared<const MeshNearest>(std::move(facets));
-    known.shape.closed = !solid->mesh || factsOf(*solid->mesh).closed();
+    known.shape.closed = !form.isHollow() && (!solid->mesh || factsOf(*solid->mesh).closed());
     known.shape.stamp = stampOf(upright);
     known.spacing = spacing;
     known.upright = std::move(upright);

@@ -135,7 +135,7 @@ std::optional<Wrench> Solver::forceOnBody(uint32_t body) const { return m->force
 
 void Solver::setHeatSources(std::vector<HeatSource> sources) { m->heat.setSources(std::move(sources), m->store); }
 
-void Solver::setHeating(std::span<const double> watts) { m->heat.bodyHeating().set(watts); }
+void Solver::setHeating(std::span<const BodyHeat> bodies) { m->heat.bodyHeating().set(bodies); }
 
 void Solver::Impl::configure() {
   if (configured) return;

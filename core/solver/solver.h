@@ -5,6 +5,7 @@
 #include "core/particles/particlestore.h"
 #include "core/particles/reactions.h"
 #include "core/solver/anyconstraint.h"
+#include "core/solver/bodyheat.h"
 #include "core/solver/fixedshape.h"
 #include "core/solver/heatsource.h"
 #include "core/solver/matter.h"
@@ -72,8 +73,8 @@ class Solver {
 
   /// Plugins that warm or cool matter, whatever the model; those that threw stay put aside.
   void setHeatSources(std::vector<HeatSource> sources);
-  /// W of thermal time that come up inside each body, by index; bodies beyond the list have none. See BodyHeating.
-  void setHeating(std::span<const double> watts);
+  /// What heat each body is given, by index; bodies beyond the list get none. See BodyHeating.
+  void setHeating(std::span<const BodyHeat> bodies);
 
   /// Returns the ids of the new particles. Mass is rest density of the state at birth times Spawn::volume.
   std::vector<uint32_t> spawn(const Spawn& spawn);

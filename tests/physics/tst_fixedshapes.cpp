@@ -101,6 +101,17 @@ ps::SceneMesh bowl(bool closed) {
   return turned(outline, closed);
 }
 
+/// Closed all round: nothing but its surface keeps what is in it.
+ps::SceneMesh ball() {
+  std::vector<std::pair<double, double>> outline;
+  constexpr int kSteps = 48;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double angle = kPi * k / kSteps;
+    outline.emplace_back(std::max(1e-9, kRadius * std::sin(angle)), -kRadius * std::cos(angle));
+  }
+  return turned(outline, false);
+}
+
 /// A pot with a flat bottom, closed all round.
 ps::SceneMesh cup() {
   const double outer = kRadius + kThin, high = 0.16;
@@ -126,13 +137,14 @@ class TestFixedShapes : public QObject {
     QTest::newRow("a cup") << "cup";
     QTest::newRow("a bowl") << "bowl";
     QTest::newRow("a bowl of one side") << "sheet";
+    QTest::newRow("a hollow ball") << "ball";
   }
   void vesselsHoldWater() {
     QFETCH(QString, vessel);
     ps::Engine engine(filled(vessel), m_plugins);
     const double mass = massOf(engine);
     run(engine, 2.5);
-    const bool round = vessel == "bowl" || vessel == "sheet";
+    const bool round = isRound(vessel);
     const ps::ParticleStore& store = engine.solver().particles();
     size_t count = 0;
     ps::Vector3 centre;
@@ -259,9 +271,10 @@ class TestFixedShapes : public QObject {
 
  private:
   ps::Project load(const json& scene) { return ps::parseProject(scene.dump(), "scene", m_plugins).project; }
+  static bool isRound(const QString& vessel) { return vessel == "bowl" || vessel == "sheet" || vessel == "ball"; }
   /// A vessel whose inner side has kRadius, standing on y = 0; a bowl's middle is at the origin.
   ps::Project filled(const QString& vessel) {
-    const bool round = vessel == "bowl" || vessel == "sheet";
+    const bool round = isRound(vessel);
     json solid = solidOf("tube", {2 * (kRadius + kThin), 0.2, 2 * (kRadius + kThin)}, {0, 0.1, 0});
     solid["wall"] = kThin;
     const json water = round ? solidOf("ellipsoid", {0.13, 0.08, 0.13}, {0, -0.02, 0})
@@ -272,7 +285,9 @@ class TestFixedShapes : public QObject {
     scene["probes"] = json::array({{{"id", "force"}, {"quantity", "force_y"}, {"body", "vessel"}}});
     ps::Project project = load(scene);
     if (vessel == "tube") return project;
-    auto mesh = std::make_shared<const ps::SceneMesh>(vessel == "cup" ? cup() : bowl(vessel == "bowl"));
+    auto mesh = std::make_shared<const ps::SceneMesh>(vessel == "cup"    ? cup()
+                                                      : vessel == "ball" ? ball()
+                                                                         : bowl(vessel == "bowl"));
     const ps::MeshBounds bounds = ps::boundsOf(*mesh);
     const ps::Vector3 size = bounds.maximum - bounds.minimum, middle = (bounds.maximum + bounds.minimum) / 2;
     auto& shape = std::get<ps::SolidShape>(project.bodies[0].shape);
@@ -281,6 +296,7 @@ class TestFixedShapes : public QObject {
       shape.parameters.values[std::string("position_") + "xyz"[a]] = middle[a];
     }
     shape.parameters.values["kind"] = std::string("mesh");
+    if (vessel == "ball") shape.parameters.values["inside"] = std::string("hollow");
     shape.parameters.values.erase("wall");
     shape.meshId = mesh->id;
     shape.mesh = mesh;

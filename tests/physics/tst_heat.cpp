@@ -26,6 +26,19 @@ ps::Wall hotWall(ps::api::Double3 normal, double offset, double temperature) {
   return wall;
 }
 
+/// A slab of 20 layers, body 0, between four layers each of bodies 1 and 2, which are fixed.
+void addBetween(Scene& scene, const std::array<uint32_t, 2>& materials) {
+  scene.addBox({0, 0, 0}, {20, 24, 24}, 0);
+  const size_t slab = scene.store.size();
+  scene.addBox({-4, 0, 0}, {4, 24, 24}, materials[0]);
+  const size_t left = scene.store.size();
+  scene.addBox({20, 0, 0}, {4, 24, 24}, materials[1]);
+  for (size_t i = slab; i < scene.store.size(); ++i) {
+    scene.store.body()[i] = i < left ? 1 : 2;
+    scene.store.motion()[i] = ps::api::Motion::Static;
+  }
+}
+
 struct Errors {
   double rms = 0, largest = 0;
 };
@@ -152,6 +165,101 @@ class TestHeat : public QObject {
       }
     }
     QVERIFY2(std::abs(first / count - 2.5) < 0.5, qPrintable(QString::number(first / count)));
+  }
+
+  /// A slab of 20 particles between fixed bodies of the same matter held at 0 and 100 °C: their temperature holds at
+  /// the middle of their outermost particles, 21 spacings apart, so that 952.4 W/m2 flow at k = 1. 4 % as for walls;
+  /// sweeps of 45 stable steps, where each pair comes near to its balance, carry some quarter less. What the baths give
+  /// and take is all that comes in.
+  void heldBodiesAreBaths_data() {
+    QTest::addColumn<bool>("sweeping");
+    QTest::newRow("explicit") << false;
+    QTest::newRow("sweeps") << true;
+  }
+  void heldBodiesAreBaths() {
+    QFETCH(bool, sweeping);
+    Scene scene;
+    scene.addMaterial(heattest::materialOf({}));
+    addBetween(scene, {0, 0});
+    scene.heat.bodyHeating().set(std::vector<ps::BodyHeat>{{}, {.held = 273.15}, {.held = 373.15}});
+    scene.start(
+        [&](size_t i) { return 273.15 + 100 * (double{scene.store.position()[i].x} / scene.spacing + 0.5) / 21; });
+    scene.heat.advance(scene.store, scene.neighbours, 1e-9);  // the baths take their temperatures
+    const double limit = scene.heat.gershgorinLimit(), before = scene.heat.energy(scene.store);
+    const ps::HeatLedger start = scene.heat.ledger();
+    const double frame = (sweeping ? 90 : 30) * scene.thermal.cfl * limit;
+    const int frames = static_cast<int>(std::ceil(100 / frame));
+    for (int k = 0; k < frames; ++k) scene.heat.advance(scene.store, scene.neighbours, frame);
+    QCOMPARE(scene.heat.usedSweeps(), sweeping);
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      const double held = scene.store.body()[i] == 1 ? 273.15 : 373.15;
+      if (scene.store.body()[i] > 0) QVERIFY(std::abs(scene.store.temperature()[i] - held) < 1e-9);
+    }
+    const ps::HeatLedger& end = scene.heat.ledger();
+    const double flux = (end.exchanged - start.exchanged) / (2 * frames * frame * 0.12 * 0.12);
+    qInfo("%.1f W/m2, should be 952.4", flux);
+    QVERIFY2(flux / 952.4 > (sweeping ? 0.7 : 0.96) && flux / 952.4 < 1.04, qPrintable(QString::number(flux)));
+    const double given = end.heaters - start.heaters;
+    QVERIFY(std::abs(scene.heat.energy(scene.store) - before - given) < 1e-12 * scene.mass() * 1e5);
+  }
+
+  /// A bath that gets another temperature is there at once, in the phase that is stable there, and its heat is booked.
+  /// Matter of its body that moves is none of it.
+  void bathsFollowTheirSetting() {
+    Scene scene;
+    scene.addMaterial(heattest::materialOf(heattest::water()));
+    addBetween(scene, {0, 0});
+    const size_t loose = scene.store.size() - 1;
+    scene.store.motion()[loose] = ps::api::Motion::Solid;
+    scene.heat.bodyHeating().set(std::vector<ps::BodyHeat>{{}, {.held = 263.15}, {.held = 263.15}});
+    scene.start([](size_t) { return 263.15; });
+    scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+    QCOMPARE(scene.heat.ledger().exchanged, 0.0);
+    const double before = scene.heat.energy(scene.store);
+    scene.heat.bodyHeating().set(std::vector<ps::BodyHeat>{{}, {.held = 263.15}, {.held = 300}});
+    scene.heat.advance(scene.store, scene.neighbours, 1.0 / 60);
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      if (scene.store.body()[i] != 2 || i == loose) continue;
+      QVERIFY(std::abs(scene.store.temperature()[i] - 300) < 1e-9);
+      QCOMPARE(scene.store.liquidFraction()[i], 1.0f);
+    }
+    QVERIFY(scene.store.temperature()[loose] < 264);
+    const double change = scene.heat.energy(scene.store) - before;
+    QVERIFY(change > 300e3 * scene.mass() * 4 / 28 * 0.9);  // that much ice has melted
+    QVERIFY(std::abs(change - scene.heat.ledger().heaters) < 1e-12 * scene.mass() * 1e6);
+  }
+
+  /// Nothing gets through fixed matter that is insulated, of its own material or another one, and air gives it nothing.
+  void insulatedBodiesConductNothing_data() {
+    QTest::addColumn<bool>("sameMaterial");
+    QTest::addColumn<double>("frame");
+    for (const bool same : {true, false}) {
+      QTest::addRow("%s, explicit", same ? "one material" : "two materials") << same << 1.0;
+      QTest::addRow("%s, sweeps", same ? "one material" : "two materials") << same << 200.0;
+    }
+  }
+  void insulatedBodiesConductNothing() {
+    QFETCH(bool, sameMaterial);
+    QFETCH(double, frame);
+    Scene scene;
+    scene.thermal.airConvection = 20;
+    scene.addMaterial(heattest::materialOf({}));
+    scene.addMaterial(heattest::materialOf({.conductivitySolid = 3}));
+    const uint32_t other = sameMaterial ? 0 : 1;
+    addBetween(scene, {other, other});
+    scene.heat.bodyHeating().set(std::vector<ps::BodyHeat>{{}, {.insulated = true}, {.insulated = true}});
+    const double kelvin[] = {350, 280, 400};
+    scene.start([&](size_t i) { return kelvin[scene.store.body()[i]]; });
+    const double before = scene.heat.energy(scene.store);
+    for (int k = 0; k < 5; ++k) scene.heat.advance(scene.store, scene.neighbours, frame);
+    QCOMPARE(scene.heat.usedSweeps(), frame > 100);
+    for (size_t i = 0; i < scene.store.size(); ++i) {
+      const uint32_t body = scene.store.body()[i];
+      if (body > 0) QVERIFY(std::abs(scene.store.temperature()[i] - kelvin[body]) < 1e-9);
+    }
+    const ps::HeatLedger& books = scene.heat.ledger();
+    QVERIFY(books.air < 0);  // what is bare of the slab cools
+    QVERIFY(std::abs(scene.heat.energy(scene.store) - before - books.air) < 1e-12 * scene.mass() * 1e6);
   }
 
   void aPlateAboveBoilingHeatsWhatTouchesIt_data() {
@@ -417,8 +525,13 @@ class TestHeat : public QObject {
       scene.thermal.surroundingsTemperature += 1;
     });
     row("heated body", [](Scene& scene) {
-      const double watts[] = {1.0};
-      scene.heat.bodyHeating().set(watts);
+      const ps::BodyHeat warmed[] = {{.watts = 1}};
+      scene.heat.bodyHeating().set(warmed);
+    });
+    row("bath", [](Scene& scene) {
+      const ps::BodyHeat bath[] = {{.held = 294.15}};
+      scene.store.motion()[7] = ps::api::Motion::Static;
+      scene.heat.bodyHeating().set(bath);
     });
     row("one particle", [](Scene& scene) {
       const double warmer = 294.15;

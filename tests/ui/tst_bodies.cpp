@@ -3,6 +3,7 @@
 #include "core/geometry/solidfill.h"
 #include "core/io/projectio.h"
 #include "core/scene/solidform.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -106,6 +107,36 @@ class TestBodies : public SampleWindowTest {
     while (document().undoStack().canUndo()) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("In cm")));  // nobody asks for what is gone
+  }
+
+  /// A fixed body of the mesh's surface, whose temperature may be held: the row of that acts on the running scene.
+  void aMeshMakesAWall() {
+    const std::string before = writeProject(document().project());
+    hands::answerDialog(QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj"));
+    m_window->action(QStringLiteral("sketch.wall.mesh"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{2}, kLong);
+    const std::string id = document().project().bodies.back().id;
+    const auto& solid = std::get<SolidShape>(document().body(id)->shape);
+    QVERIFY(SolidForm(solid).isHollow());
+    QCOMPARE(document().body(id)->material, std::string("iron"));  // what melts last
+    QVERIFY(std::abs(particleCount(*document().body(id), 0.02) / static_cast<double>(particlesOf(id)) - 1) < 0.2);
+    const auto kelvin = [&](double wanted) {
+      const SnapshotPtr now = session().newest();
+      const auto& ids = *now->bodyIds;
+      const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+      size_t count = 0;
+      for (size_t i = 0; i < now->body.size(); ++i)
+        count += now->body[i] == index && std::abs(double{now->temperature[i]} - wanted) < 0.01 ? 1 : 0;
+      return count;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(kelvin(293.15) > particlesOf(id) / 2, kLong);
+    session().play();
+    QCOMPARE(document().setParameter({Owner::Body, id, "heat"}, Value(std::string("fixed_temperature"))), QString());
+    QCOMPARE(document().setParameter({Owner::Body, id, "held_temperature"}, 400.0), QString());
+    QTRY_VERIFY_WITH_TIMEOUT(kelvin(400) > particlesOf(id) / 2, kLong);
+    picture(QStringLiteral("mesh-wall.png"));
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
   }
 
   void aBrokenMeshIsTold() {

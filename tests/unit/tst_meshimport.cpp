@@ -64,6 +64,20 @@ class TstMeshImport : public QObject {
     QVERIFY2(simulated.code == 0, simulated.err);
   }
 
+  void theCommandMakesAWallOfAMesh() {
+    const QString project = m_folder.filePath("wall.json");
+    const Ran ran = cli({"import", kRabbit, "--out", project, "--spacing", "0.02", "--wall"});
+    QVERIFY2(ran.code == 0 && ran.out.contains("a wall of "), ran.err);
+    QFile file(project);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QJsonObject wall = QJsonDocument::fromJson(file.readAll()).object()["bodies"][0].toObject();
+    QVERIFY(wall["fixed"].toBool());
+    QCOMPARE(wall["heat"].toString(), QStringLiteral("adiabatic"));
+    QCOMPARE(wall["shape"]["solid"]["inside"].toString(), QStringLiteral("hollow"));
+    const Ran simulated = cli({"simulate", project, "--frames", "2"});
+    QVERIFY2(simulated.code == 0, simulated.err);
+  }
+
   void theCommandReducesAMesh() {
     const QString project = m_folder.filePath("few.json"), report = m_folder.filePath("few-report.json");
     const auto told = [&](const QStringList& more) {

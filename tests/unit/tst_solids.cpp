@@ -66,6 +66,13 @@ SolidShape meshSolid(SceneMesh mesh, const Vector3& size) {
   return solid;
 }
 
+/// m, in the scene.
+std::vector<api::Double3> cellPlaces(const SolidCells& filled, double spacing) {
+  std::vector<api::Double3> places;
+  for (const auto& [x, y, z] : filled.cells) places.push_back(double3Of(filled.first + spacing * Vector3(x, y, z)));
+  return places;
+}
+
 double filled(const SolidShape& solid, double spacing) {
   const SolidMatter matter = solidMatter(solid, spacing);
   return static_cast<double>(matter.places.size()) * matter.volume;
@@ -206,6 +213,48 @@ class TstSolids : public QObject {
       creases += std::abs(rise - 1) < 1e-3 ? 0 : 1;  // where two sides are as near
     }
     QVERIFY2(creases <= 2, qPrintable(QString::number(creases)));
+  }
+
+  /// A hollow mesh is its surface, one particle thick: about as many particles as cells of its area, each within half a
+  /// spacing of it, and no gap that a particle goes through. Open meshes are so too.
+  void hollowMeshesAreTheirSurface_data() {
+    QTest::addColumn<bool>("open");
+    QTest::addColumn<double>("turn");
+    QTest::newRow("ball") << false << 0.0;
+    QTest::newRow("half a ball") << true << 0.0;
+    QTest::newRow("half a ball, turned") << true << 35.0;
+  }
+  void hollowMeshesAreTheirSurface() {
+    QFETCH(bool, open);
+    QFETCH(double, turn);
+    constexpr double kSpacing = 0.01, kRadius = 0.1;
+    SolidShape solid = meshSolid(ballMesh(48, open), {0.2, 0.2, 0.2});
+    solid.parameters.values["inside"] = std::string("hollow");
+    solid.parameters.values["rotation_z"] = turn;
+    QVERIFY(!isPacked(solid));
+    const SolidForm form(solid);
+    const double area = (open ? 2 : 4) * kPi * kRadius * kRadius;
+    QVERIFY(std::abs(form.volume(kSpacing) / (area * kSpacing) - 1) < 0.005);  // facets are within the ball
+    const Vector3 centre = form.middle();
+    const SolidMatter matter = solidMatter(solid, kSpacing);
+    for (const auto& places : {matter.places, cellPlaces(cellsInScene(solid, kSpacing), kSpacing)}) {
+      QVERIFY(std::abs(static_cast<double>(places.size()) * kSpacing * kSpacing / area - 1) < 0.15);
+      for (const api::Double3& place : places) {
+        const double out = (vectorOf(place) - centre).norm();
+        QVERIFY2(std::abs(out - kRadius) < 0.52 * kSpacing, qPrintable(QString::number(out)));
+      }
+      for (int k = 0; k < 2000; ++k) {  // places on the surface, evenly
+        const double h = (k + 0.5) / 2000, y = open ? -h : 1 - 2 * h, a = 2.399963 * k, r = std::sqrt(1 - y * y);
+        if (open && h < 0.1) continue;  // the rim
+        const Vector3 at = centre + form.axes() * (kRadius * Vector3(r * std::cos(a), y, r * std::sin(a)));
+        double nearest = 1;
+        for (const api::Double3& place : places) nearest = std::min(nearest, (vectorOf(place) - at).norm());
+        QVERIFY2(nearest < kSpacing, qPrintable(QString::number(nearest)));
+      }
+    }
+    // What brushes and counts go by, without a layer, is what it encloses.
+    QVERIFY(SolidInside(solid).holds({0, -0.01, 0}));
+    QVERIFY(!SolidInside(solid, kSpacing).holds({0, 0.02, 0}));
   }
 
   /// A packed solid has the lattice's matter, all of it inside, nobody too near to another, and it hugs the surface: of

@@ -98,6 +98,18 @@ std::string sceneMaterial(Document& document, const std::string& base) {
   return document.plugins()->material(base) ? document.addMaterial(base) : std::string();
 }
 
+/// Id of the installed material that melts last: of it a wall stays one at any temperature that scenes have.
+std::string wallMaterial(const PluginRegistry& plugins) {
+  std::string last;
+  double highest = 0;
+  for (const std::string& id : plugins.ids(PluginKind::Material)) {
+    const Material* material = plugins.material(id);
+    const double melting = material ? phaseDiagramOf(*material).meltingPoint0 : 0;
+    if (melting > highest) highest = melting, last = id;
+  }
+  return last;
+}
+
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
 
 /// What was done to a mesh when it was read, after a space; "" for nothing.
@@ -154,10 +166,18 @@ void BodyActions::makeMenu(QMenu* menu) {
   connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);
   menu->addSeparator();
   m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
-                                   {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(); }));
+                                   {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(MeshUse::Matter); }));
   menu->setToolTipsVisible(true);
   showCounts();
   for (QAction* action : m_adding) action->setEnabled(m_session.isReady());
+}
+
+void BodyActions::addToWallMenu(QMenu* menu) {
+  QAction* action = m_actions.add(menu, QStringLiteral("sketch.wall.mesh"), QStringLiteral("Add wall: from a mesh…"),
+                                  {}, [this] { chooseMesh(MeshUse::Wall); });
+  action->setToolTip(QStringLiteral("A body of the mesh's surface that is held in place: a tank, a ground, a mould."));
+  action->setEnabled(m_session.isReady());
+  m_adding.push_back(action);
 }
 
 bool BodyActions::isMesh(const QString& path) {
@@ -167,11 +187,12 @@ bool BodyActions::isMesh(const QString& path) {
   return meshes.mid(open, close - open).split(QLatin1Char(' ')).contains(ending);
 }
 
-void BodyActions::chooseMesh() {
-  const QString path =
-      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Import a mesh"),
-                                   QFileInfo(m_session.document().path()).path(), QString::fromLatin1(kMeshes));
-  if (!path.isEmpty()) importMesh(path);
+void BodyActions::chooseMesh(MeshUse use) {
+  const QString path = QFileDialog::getOpenFileName(
+      &m_actions.window(),
+      use == MeshUse::Wall ? QStringLiteral("A wall from a mesh") : QStringLiteral("Import a mesh"),
+      QFileInfo(m_session.document().path()).path(), QString::fromLatin1(kMeshes));
+  if (!path.isEmpty()) importMesh(path, use);
 }
 
 /// How many particles each would be, before it is chosen.
@@ -262,8 +283,9 @@ std::string BodyActions::add(Body body, const std::string& without) {
       valueAt(document.project(), document.plugins(), {Owner::Material, body.material, "melting_temperature"});
   const auto* melting = std::get_if<double>(&melts);
   const std::string structure = frozenStructure(*document.plugins());
-  if (body.constraints.empty() && melting && numberOf(body.parameters, bodyParameters(), "temperature") < *melting &&
-      !structure.empty())
+  const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
+  if (body.constraints.empty() && !fixed && melting &&
+      numberOf(body.parameters, bodyParameters(), "temperature") < *melting && !structure.empty())
     body.constraints.push_back({structure, {}, {}});
   const std::string id = document.addBody(std::move(body));
   document.undoStack().endMacro();
@@ -272,13 +294,13 @@ std::string BodyActions::add(Body body, const std::string& without) {
   return id;
 }
 
-void BodyActions::importMesh(const QString& path) {
+void BodyActions::importMesh(const QString& path, MeshUse use) {
   stopReading();
   m_reading = std::make_shared<Progress>();
   QTimer::singleShot(kPatience, this, [this, path, reading = m_reading] {
     if (reading == m_reading) showReading(path);
   });
-  m_worker.run([this, path, reading = m_reading] {
+  m_worker.run([this, path, use, reading = m_reading] {
     const ProgressScope scope(reading.get());
     auto imported = std::make_shared<ImportedMesh>();
     QString problem;
@@ -289,8 +311,8 @@ void BodyActions::importMesh(const QString& path) {
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, path, reading, imported, problem] {
-      if (reading == m_reading) onImported(path, imported, problem);
+    QMetaObject::invokeMethod(this, [this, path, use, reading, imported, problem] {
+      if (reading == m_reading) onImported(path, use, imported, problem);
     });
   });
 }
@@ -306,7 +328,7 @@ void BodyActions::stopReading() {
   m_reading.reset();
 }
 
-void BodyActions::onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported,
+void BodyActions::onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
                              const QString& problem) {
   m_reading.reset();
   m_notices.bar().close(QString::fromLatin1(kTopic));
@@ -316,17 +338,23 @@ void BodyActions::onImported(const QString& path, const std::shared_ptr<Imported
     m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Error,
                          QStringLiteral("“%1” was not imported.").arg(name),
                          QString(problem).remove(path + QStringLiteral(": ")) + QLatin1Char('.'),
-                         {{QStringLiteral("Import another…"), [this] { chooseMesh(); }}});
+                         {{QStringLiteral("Import another…"), [this, use] { chooseMesh(use); }}});
     return;
   }
-  Body body = bodyOf(*imported);
+  Document& document = m_session.document();
+  const bool wall = use == MeshUse::Wall;
+  Body body = wall ? wallOf(*imported) : bodyOf(*imported);
   const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
+  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
+  if (wall) body.material = sceneMaterial(document, wallMaterial(*document.plugins()));
   const std::string id = add(std::move(body));
+  document.undoStack().endMacro();
   m_session.log().add(MessageLevel::Ok, name,
                       QStringLiteral("Imported %1. %2 triangles, %3.")
                           .arg(QString::fromStdString(imported->mesh->origin))
                           .arg(imported->facts.triangles)
                           .arg(imported->facts.closed() ? QStringLiteral("closed")
+                               : wall                   ? QStringLiteral("open")
                                                         : QStringLiteral("open; filled where it encloses most")));
   if (imported->unitIsOfFile)
     showImported(id);

@@ -30,8 +30,13 @@ class BodyActions : public QObject {
               QObject* parent = nullptr);
   ~BodyActions() override;
   void makeMenu(QMenu* menu);
+  /// What a mesh comes in as: matter that fills it, or a wall of its shape, which is a fixed body of its surface alone
+  /// that lets no heat through.
+  enum class MeshUse : uint8_t { Matter, Wall };
+  /// The entry that brings walls.
+  void addToWallMenu(QMenu* menu);
   /// Reads a mesh in the background and adds it; what goes wrong is told over the view.
-  void importMesh(const QString& path);
+  void importMesh(const QString& path, MeshUse use = MeshUse::Matter);
   /// By its ending, one of those that meshes have.
   static bool isMesh(const QString& path);
 
@@ -39,12 +44,13 @@ class BodyActions : public QObject {
   void rowWanted(const ps::Address& address);  ///< of what has come
 
  private:
-  void chooseMesh();
+  void chooseMesh(MeshUse use);
   void showCounts();
   void addSolid(SolidForm::Kind kind, const QString& name);
   Body newSolid(SolidForm::Kind kind, const QString& name) const;
   std::string add(Body body, const std::string& without = {});
-  void onImported(const QString& path, const std::shared_ptr<ImportedMesh>& imported, const QString& problem);
+  void onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
+                  const QString& problem);
   double scaledToFit(Body& body, const ImportedMesh& imported) const;
   void showImported(const std::string& id);
   void askUnit(const std::string& id, double metresPerUnit);

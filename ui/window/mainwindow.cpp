@@ -219,7 +219,9 @@ void MainWindow::makeMenus() {
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
-  m_edit->makeWallMenu(sketch->addMenu(QStringLiteral("Add wall")));
+  QMenu* walls = sketch->addMenu(QStringLiteral("Add wall"));
+  m_edit->makeWallMenu(walls);
+  m_bodies->addToWallMenu(walls);
   makeHelpMenu(bar->addMenu(QStringLiteral("Help")));
   m_actions.add(nullptr, QStringLiteral("view.workspace"), QStringLiteral("Next workspace"),
                 {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {

@@ -4,6 +4,8 @@
 #include "core/base/callee.h"
 #include "core/base/parallel.h"
 #include "core/base/room.h"
+#include "core/matter/stablephase.h"
+#include "core/solver/heat/phasestage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,9 +75,14 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
   m_now.resize(n);
   m_next.resize(n);
   m_boilingPartners.resize(n);
+  m_insulated.clear();
+  if (m_bodyHeating.insulates()) {
+    m_insulated.resize(n);
+    for (size_t i = 0; i < n; ++i) m_insulated[i] = m_bodyHeating.isInsulated(store, i) ? 1 : 0;
+  }
   m_pairs.build(store, neighbours.view(), m_materials,
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
-                 m_settings.momentCorrection, m_settings.contactConductance});
+                 m_settings.momentCorrection, m_settings.contactConductance, m_insulated});
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(airTemperature());
   const auto body = [&](size_t first, size_t last) {
@@ -110,6 +117,7 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   if (!isUpToDate()) bringUpToDate(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
+  if (m_bodyHeating.holds()) hold(store);
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   if (isBalanced(store, view, lists, time)) return passTime(store, view, time);
@@ -120,6 +128,38 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   if (time > 0 && !m_pairLaw) time -= takeSweeps(store, view, time);
   if (time > 1e-9 * dt * m_settings.timeScale) m_delivered = m_settings.timeScale - time / dt;
   closeBooks();
+}
+
+/// Brings what is held to its temperature, in the phase that is stable there.
+void HeatStage::hold(ParticleStore& store) {
+  const auto strays = [&](size_t i) {
+    const double held = m_bodyHeating.heldAt(store, i);
+    return held > 0 && !(std::abs(store.temperature()[i] - held) < kSameTemperature);
+  };
+  size_t first = 0;
+  while (first < store.size() && !strays(first)) ++first;
+  if (first == store.size()) return;
+  const double before = energy(store);
+  m_newTemperature.resize(store.size());
+  m_newPhase.resize(store.size());
+  const api::ThermalContext where = context();
+  const auto body = [&](size_t begin, size_t end) {
+    const CalleeScope callee(m_modelName.c_str());
+    for (size_t i = begin, last = begin; i < end; i = last + 1) {
+      for (last = i; last < end && strays(last); ++last) {
+        m_newTemperature[last] = m_bodyHeating.heldAt(store, last);
+        m_newPhase[last] = stablePhase(m_materials[store.material()[last]].caloric(), m_newTemperature[last]);
+        setShares(store, last, m_newPhase[last]);
+      }
+      if (last == i) continue;
+      m_model->initialise(where, store.view(), i, last, m_newTemperature.data(), m_newPhase.data());
+      deriveRange(store, i, last);
+    }
+  };
+  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  const double given = energy(store) - before;
+  m_ledger.heaters += given;
+  m_ledger.exchanged += std::abs(given);
 }
 
 /// Whether nothing warms or cools anything else, nor itself; vapour is never left alone, for the sake of nucleation.
@@ -217,7 +257,7 @@ double HeatStage::fastestRate(const ParticleStore& store, const HeatInstant& now
   double fastest = 0;
   for (size_t i = first; i < last; ++i) {
     const double mass = store.mass()[i];
-    if (!(mass > 0)) continue;
+    if (!(mass > 0) || isHeld(store, i)) continue;
     const BakedMaterial& material = m_materials[store.material()[i]];
     const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
     const double ownPhase = fastestPhase(material, store.temperature()[i], s, l, g);
@@ -356,6 +396,10 @@ void HeatStage::addFrameHeat(const ParticleStore& store, double step, bool first
     partial.exchanged += std::abs(source);
     if (flux != 0) book(partial, HeatSurroundings::Kind::Wall, flux);
     m_joules[i] += source + flux + (firstStep ? m_frameJoules[i] : 0);
+    if (!isHeld(store, i)) continue;
+    partial.heaters -= m_joules[i];
+    partial.exchanged += std::abs(m_joules[i]);
+    m_joules[i] = 0;
   }
 }
 

@@ -46,6 +46,10 @@ class StateWriter;
 /// A finite lump of air (airHeatCapacity) keeps one temperature, which follows what it gives and takes; its energy and
 /// the particles' are constant together.
 ///
+/// Fixed matter that is held at a temperature (BodyHeat) is a bath: what it gives and takes is booked as heaters', and
+/// it has none of its own inertia. Heat enters it from half a spacing before its outermost particles, through its own
+/// material: what conducts well has its temperature on its surface.
+///
 /// What sources and walls of given flux take leaves each particle at 1 K at least.
 ///
 /// A model that throws is put aside for good: from then on no heat flows, and takeFault() tells what it said.
@@ -162,6 +166,10 @@ class HeatStage {
   void noteCurves();
   void restoreCurves(const StateReader& reader);
   void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
+  void hold(ParticleStore& store);
+  bool isHeld(const ParticleStore& store, size_t i) const {
+    return m_bodyHeating.holds() && m_bodyHeating.heldAt(store, i) > 0;
+  }
   bool isBalanced(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists, double time);
   void passTime(ParticleStore& store, const api::ParticleView& view, double time);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
@@ -234,6 +242,7 @@ class HeatStage {
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
   double m_pairRate = 0;              ///< and of all
+  std::vector<uint8_t> m_insulated;   ///< by particle; none where no body is
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
   std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation

@@ -48,6 +48,7 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   const auto second = [&](size_t a, size_t b) {
     conduct(a, b);
     if (m_options.contactConductance > 0) resist(store, a, b);
+    if (!m_options.insulated.empty()) insulate(a, b);
   };
   parallelFor(n, grain::kNeighbours, std::cref(second));
 }
@@ -162,6 +163,21 @@ void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
         const float sum = conductivity[i] + conductivity[j];
         if (body[i] != body[j] && std::max(solid[i], solid[j]) > 0.5f && sum > 0)
           conductance[k] /= 1.0f + 2.0f * (conductivity[i] * conductivity[j]) / (sum * film);
+        total += double{conductance[k]};
+      }
+      return total;
+    };
+    sameTotal[i] = sumOver(begin[i], same[i]);
+    otherTotal[i] = sumOver(other[i], end[i]);
+  }
+}
+
+void HeatPairs::insulate(size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    const auto sumOver = [&](uint32_t from, uint32_t to) {
+      double total = 0;
+      for (uint32_t k = from; k < to; ++k) {
+        if (isInsulated(i) || isInsulated(partner[k])) conductance[k] = 0;
         total += double{conductance[k]};
       }
       return total;

@@ -27,10 +27,12 @@ class HeatPairs {
     bool momentCorrection = true;
     /// W/(m2 K) between particles of different bodies of which at least one is solid, in series; 0: perfect contact.
     double contactConductance = 0;
+    std::span<const uint8_t> insulated{};  ///< by particle, 1: it conducts nothing; none: all conduct
   };
   /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current.
   void build(const ParticleStore& store, const api::NeighbourView& lists, std::span<const BakedMaterial> materials,
              const Options& options);
+  bool isInsulated(size_t i) const { return !m_options.insulated.empty() && m_options.insulated[i] != 0; }
 
   // Partners of particle i: [begin[i], same[i]) of its own material, [other[i], end[i]) of others.
   std::vector<uint32_t> begin, same, other, end;
@@ -53,6 +55,7 @@ class HeatPairs {
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
   void conduct(size_t first, size_t last);
   void resist(const ParticleStore& store, size_t first, size_t last);
+  void insulate(size_t first, size_t last);
   float condensedAround(const ParticleStore& store, size_t i) const;
 
   Options m_options;

@@ -40,6 +40,8 @@ HeatBody HeatStage::heatBody(const ParticleStore& store, size_t i) const {
   const double s = store.solidFraction()[i], l = store.liquidFraction()[i], g = store.gasFraction()[i];
   double capacity = s * c.heatCapacitySolid + l * c.heatCapacityLiquid + g * c.heatCapacityGas;
   HeatBody body;
+  body.temperature = t;
+  if (isHeld(store, i)) return body;  // of endless capacity
   if (c.melts && !c.sublimes && c.liquidus > c.solidus) {
     if (s > 0 && l > 0) capacity += meltingHeatOf(c) / (c.liquidus - c.solidus);
   } else if (c.melts && !c.sublimes && t == c.meltingPoint) {
@@ -50,7 +52,6 @@ HeatBody HeatStage::heatBody(const ParticleStore& store, size_t i) const {
     body.latentUp += (1 - g) * latentContent(store, i);
     body.latentDown += g * latentContent(store, i);
   }
-  body.temperature = t;
   body.inverseCapacity = mass > 0 && capacity > 0 ? 1 / (mass * capacity) : 0;
   return body;
 }

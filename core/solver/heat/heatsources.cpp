@@ -11,15 +11,21 @@
 
 namespace ps {
 
+void BodyHeating::set(std::span<const BodyHeat> bodies) {
+  m_bodies.assign(bodies.begin(), bodies.end());
+  m_holds = std::any_of(bodies.begin(), bodies.end(), [](const BodyHeat& body) { return body.held > 0; });
+  m_insulates = std::any_of(bodies.begin(), bodies.end(), [](const BodyHeat& body) { return body.insulated; });
+}
+
 void BodyHeating::measure(const ParticleStore& store) {
   m_perMass.clear();
-  if (std::all_of(m_watts.begin(), m_watts.end(), [](double watts) { return watts == 0; })) return;
-  m_perMass.assign(m_watts.size(), 0.0);
+  if (std::all_of(m_bodies.begin(), m_bodies.end(), [](const BodyHeat& body) { return body.watts == 0; })) return;
+  m_perMass.assign(m_bodies.size(), 0.0);
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.body()[i] < m_perMass.size()) m_perMass[store.body()[i]] += double{store.mass()[i]};
   }
-  for (size_t body = 0; body < m_watts.size(); ++body) {
-    m_perMass[body] = m_perMass[body] > 0 ? m_watts[body] / m_perMass[body] : 0;
+  for (size_t body = 0; body < m_bodies.size(); ++body) {
+    m_perMass[body] = m_perMass[body] > 0 ? m_bodies[body].watts / m_perMass[body] : 0;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/particlestore.h"
+#include "core/solver/bodyheat.h"
 #include "core/solver/heatsource.h"
 #include "core/solver/report.h"
 
@@ -13,19 +14,31 @@ namespace ps {
 
 /// Heat that comes up inside bodies, in W of thermal time: the power of each body, spread evenly over the mass of those
 /// of its particles that are there now, held ones and vapour among them. Matter of no body, as emitters pour it, has no
-/// power.
+/// power. Fixed particles may be a bath that keeps its temperature, or insulate; what was of them and moves does
+/// neither.
 class BodyHeating {
  public:
-  /// W by the index of the body that particles carry; those beyond the list have none.
-  void set(std::span<const double> watts) { m_watts.assign(watts.begin(), watts.end()); }
+  /// By the index of the body that particles carry; those beyond the list have none.
+  void set(std::span<const BodyHeat> bodies);
+  bool holds() const { return m_holds; }          ///< some body is held at a temperature
+  bool insulates() const { return m_insulates; }  ///< some body is insulated
+  /// K at which a particle is held; 0 for one that warms and cools.
+  double heldAt(const ParticleStore& store, size_t i) const { return isFixed(store, i) ? of(store, i).held : 0; }
+  bool isInsulated(const ParticleStore& store, size_t i) const { return isFixed(store, i) && of(store, i).insulated; }
   /// Makes ready for a frame: adds up the mass of heated bodies in the order of the store.
   void measure(const ParticleStore& store);
   /// Adds W to particles [first, last).
   void addTo(const ParticleStore& store, size_t first, size_t last, std::span<double> watts) const;
 
  private:
-  std::vector<double> m_watts;    ///< W by body
+  bool isFixed(const ParticleStore& store, size_t i) const {
+    return store.motion()[i] == api::Motion::Static && store.body()[i] < m_bodies.size();
+  }
+  const BodyHeat& of(const ParticleStore& store, size_t i) const { return m_bodies[store.body()[i]]; }
+
+  std::vector<BodyHeat> m_bodies;
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
+  bool m_holds = false, m_insulates = false;
 };
 
 /// Heat that plugins put into matter or take from it, in W of thermal time. One that throws, or answers with what is no

@@ -113,7 +113,7 @@ void HeatSurroundings::measureOne(const ParticleStore& store, const HeatPairs& p
   m_perConductivity[i] = 0;
   m_watts[i] = 0;
   m_touches[i] = 0;
-  if (m_wallsExchange) touchWalls(store, pairs, i);
+  if (m_wallsExchange && !pairs.isInsulated(i)) touchWalls(store, pairs, i);
   double air = 0;
   if (gas > 0) {
     const double open = std::max(0.0, 1 - 2 * double{pairs.immersion[i]});
@@ -121,6 +121,7 @@ void HeatSurroundings::measureOne(const ParticleStore& store, const HeatPairs& p
   }
   if (m_surfaces && m_convection > 0 && gas < 1)
     air += (1 - gas) * m_surface.area(i) * inSeries(m_convection, pairs.conductivity[i], dx);
+  if (pairs.isInsulated(i)) air = 0;
   m_airConductance[i] = static_cast<float>(air);
   m_touches[i] |= air > 0 || (m_settings.radiation && m_radiation.emits(i));
 }
