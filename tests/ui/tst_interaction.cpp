@@ -24,6 +24,8 @@
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
+#include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
 
 #include <algorithm>
 #include <cmath>
@@ -134,6 +136,29 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(row && panel->rect().contains(row->mapTo(panel, row->rect().bottomLeft())));
     QVERIFY(!panel->isAncestorOf(QApplication::focusWidget()));
     QVERIFY(m_window->inspector().bodyPanel()->rows().empty());  // no body is selected
+  }
+
+  /// A page that goes while one of its rows has the focus does not leave it to a field that takes letters.
+  void keysStayKeysWhenAPageGoes() {
+    Dock* dock = m_window->inspectorDock();
+    const auto row = [&] {
+      dock->showPage(QStringLiteral("Material"));
+      ParameterRow* first = m_window->inspector().materialPanel()->rows().front();
+      first->setFocus();
+      return first->hasFocus();
+    };
+    QVERIFY(row());
+    dock->showPage(QStringLiteral("Solver"));
+    QVERIFY(qobject_cast<QTabBar*>(m_window->focusWidget()));
+    QVERIFY(row());
+    const auto buttons = m_window->findChildren<QToolButton*>();
+    const auto eraser = std::find_if(buttons.begin(), buttons.end(), [](const QToolButton* button) {
+      return button->accessibleName().endsWith(QStringLiteral("(E)"));
+    });
+    QVERIFY(eraser != buttons.end());
+    QTest::mouseClick(*eraser, Qt::LeftButton);
+    QCOMPARE(dock->currentPage(), QStringLiteral("Brush"));
+    QVERIFY(view()->hasFocus());
   }
 
   /// The lid is far above the ice and belongs to the scene; so it does with F when nothing is selected.

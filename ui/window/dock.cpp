@@ -56,6 +56,8 @@ Dock::Dock(const QString& name, const QString& title, QWidget* parent)
   setWidget(m_pages);
   m_pages->setAutoFillBackground(true);
   connect(m_tabs, &QTabBar::currentChanged, this, [this](int index) {
+    // Else what is next takes the keys, which is the filter of the page that comes.
+    if (m_pages->isAncestorOf(window()->focusWidget())) m_tabs->setFocus(Qt::OtherFocusReason);
     m_pages->setCurrentIndex(index);
     Q_EMIT pageChanged(currentPage());
   });

@@ -114,8 +114,11 @@ QWidget* ViewportPane::makeBar() {
     m_buttons->addButton(button, m_buttons->buttons().size());
     row->addWidget(button);
   }
-  connect(m_buttons, &QButtonGroup::idClicked, this,
-          [this](int id) { m_tools.activate(toolTable()[static_cast<size_t>(id)].id); });
+  connect(m_buttons, &QButtonGroup::idClicked, this, [this](int id) {
+    // What a click takes in hand is for the view, and so are the keys that follow.
+    if (m_viewport && !m_buttons->button(id)->hasFocus()) m_viewport->setFocus(Qt::OtherFocusReason);
+    m_tools.activate(toolTable()[static_cast<size_t>(id)].id);
+  });
   makeBrushBar();
   row->addWidget(m_brushBar);
   row->addStretch(1);
