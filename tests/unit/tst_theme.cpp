@@ -13,6 +13,7 @@
 #include <QtGui/QPainter>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QVBoxLayout>
 
@@ -49,6 +50,7 @@ class TestTheme : public QObject {
   void badTokensAreNamed();
   void styleSheetHasNoPlaceholderLeft();
   void digitsAreAsWideAsOneAnother();
+  void boxesAreAsWideAsTheirWidestText();
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
@@ -169,6 +171,16 @@ void TestTheme::digitsAreAsWideAsOneAnother() {
     QVERIFY(std::abs(metrics.horizontalAdvance(QStringLiteral("8408.7")) - one) < 0.1);
   }
   QCOMPARE(QFontInfo(Theme::font(TextRole::Symbol)).family(), QStringLiteral("PhaseSketch Symbols"));
+}
+
+void TestTheme::boxesAreAsWideAsTheirWidestText() {
+  QComboBox box;
+  box.setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  box.addItems({QStringLiteral("Matter"), QStringLiteral("Temperature of matter")});
+  const int before = box.sizeHint().width();
+  box.setCurrentIndex(1);
+  box.addItem(QStringLiteral("Speed"));  // it measures anew
+  QCOMPARE(before, box.sizeHint().width());
 }
 
 void TestTheme::iconsTintAndStaySharp() {

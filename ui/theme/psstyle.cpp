@@ -192,9 +192,11 @@ QSize PsStyle::sizeFromContents(ContentsType type, const QStyleOption* option, c
   if (type == CT_ItemViewItem) result.setHeight(std::max(result.height(), 24));
   if (type == CT_ComboBox) {
     result.setHeight(26);
+    constexpr int kAround = 34;  // the text that is shown, and the widest
+    result.setWidth(std::max(result.width(), size.width() + kAround));
     if (const auto* box = qstyleoption_cast<const QStyleOptionComboBox*>(option)) {
-      result.setWidth(
-          std::max(result.width(), static_cast<int>(textWidth(box->currentText, Theme::font(TextRole::Normal))) + 34));
+      const int shown = static_cast<int>(textWidth(box->currentText, Theme::font(TextRole::Normal)));
+      result.setWidth(std::max(result.width(), shown + kAround));
     }
   }
   return result;
