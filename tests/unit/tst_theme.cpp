@@ -15,6 +15,7 @@
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QDialogButtonBox>
 #include <QtWidgets/QVBoxLayout>
 
 #include <cmath>
@@ -51,6 +52,7 @@ class TestTheme : public QObject {
   void styleSheetHasNoPlaceholderLeft();
   void digitsAreAsWideAsOneAnother();
   void boxesAreAsWideAsTheirWidestText();
+  void buttonsOfDialogsHaveWordsOnly();
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
@@ -181,6 +183,11 @@ void TestTheme::boxesAreAsWideAsTheirWidestText() {
   box.setCurrentIndex(1);
   box.addItem(QStringLiteral("Speed"));  // it measures anew
   QCOMPARE(before, box.sizeHint().width());
+}
+
+void TestTheme::buttonsOfDialogsHaveWordsOnly() {
+  const QDialogButtonBox box(QDialogButtonBox::Save | QDialogButtonBox::Cancel);
+  for (const QAbstractButton* button : box.buttons()) QVERIFY(button->icon().isNull());
 }
 
 void TestTheme::iconsTintAndStaySharp() {

@@ -106,6 +106,7 @@ int PsStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget
     case SH_Widget_Animate:
     case SH_Widget_Animation_Duration:
     case SH_ComboBox_Popup:
+    case SH_DialogButtonBox_ButtonsHaveIcons:
     case SH_ScrollView_FrameOnlyAroundContents:
       return 0;
     case SH_Slider_AbsoluteSetButtons:
