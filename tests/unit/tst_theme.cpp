@@ -7,6 +7,7 @@
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
 
+#include <QtCore/QDebug>
 #include <QtGui/QFontInfo>
 #include <QtGui/QFontMetricsF>
 #include <QtGui/QImage>
@@ -16,6 +17,8 @@
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QDialogButtonBox>
+#include <QtWidgets/QStyleOption>
+#include <QtWidgets/QTabBar>
 #include <QtWidgets/QVBoxLayout>
 
 #include <cmath>
@@ -53,6 +56,7 @@ class TestTheme : public QObject {
   void digitsAreAsWideAsOneAnother();
   void boxesAreAsWideAsTheirWidestText();
   void buttonsOfDialogsHaveWordsOnly();
+  void theRingOfATabStandsAroundItsText();
   void iconsTintAndStaySharp();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
@@ -188,6 +192,39 @@ void TestTheme::boxesAreAsWideAsTheirWidestText() {
 void TestTheme::buttonsOfDialogsHaveWordsOnly() {
   const QDialogButtonBox box(QDialogButtonBox::Save | QDialogButtonBox::Cancel);
   for (const QAbstractButton* button : box.buttons()) QVERIFY(button->icon().isNull());
+}
+
+void TestTheme::theRingOfATabStandsAroundItsText() {
+  struct Bar : QTabBar {
+    /// What is painted of the first tab, above the line below it.
+    QRect painted(QStyle::State more) {
+      QStyleOptionTab option;
+      initStyleOption(&option, 0);
+      option.state |= more;
+      QImage picture(size(), QImage::Format_ARGB32_Premultiplied);
+      picture.fill(Qt::transparent);
+      QPainter painter(&picture);
+      style()->drawControl(QStyle::CE_TabBarTab, &option, &painter, this);
+      painter.end();
+      QRect all;
+      for (int y = 0; y < height() - 3; ++y) {
+        for (int x = 0; x < width(); ++x) {
+          if (picture.pixelColor(x, y).alpha() > 128) all |= QRect(x, y, 1, 1);
+        }
+      }
+      return all;
+    }
+  };
+  Bar bar;
+  bar.addTab(QStringLiteral("Tune"));
+  bar.ensurePolished();
+  bar.setTabText(0, QStringLiteral("Tune"));  // it measures anew
+  bar.resize(bar.sizeHint());
+  const QRect text = bar.painted({});
+  QVERIFY(!text.isEmpty());
+  // The ring is 2 px wide and leaves at least one.
+  const QRect ring = bar.painted(QStyle::State_HasFocus | QStyle::State_KeyboardFocusChange);
+  QVERIFY2(ring.contains(text.adjusted(-3, -3, 3, 3)), qPrintable(QDebug::toString(ring) + QDebug::toString(text)));
 }
 
 void TestTheme::iconsTintAndStaySharp() {

@@ -10,6 +10,7 @@
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QStyleFactory>
 #include <QtWidgets/QStyleOption>
+#include <QtWidgets/QTabBar>
 
 #include <algorithm>
 
@@ -119,9 +120,11 @@ int PsStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget
 void PsStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                             const QWidget* widget) const {
   switch (element) {
-    case PE_FrameFocusRect:
-      paintFocusRing(*painter, option->rect, 4);
+    case PE_FrameFocusRect: {
+      const bool tab = qobject_cast<const QTabBar*>(widget);  // a tab ends with its text, which the ring stands around
+      paintFocusRing(*painter, tab ? option->rect.adjusted(-7, -3, 7, 3) : option->rect, 4);
       return;
+    }
     case PE_IndicatorCheckBox:
       drawCheckBox(*painter, *option);
       return;

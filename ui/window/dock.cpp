@@ -42,7 +42,7 @@ Dock::Dock(const QString& name, const QString& title, QWidget* parent)
   setObjectName(name);
   setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
   auto* row = new QHBoxLayout(m_header);
-  row->setContentsMargins(12, 0, 6, 0);
+  row->setContentsMargins(6, 0, 6, 0);  // and 6 of the first tab, for its ring
   row->setSpacing(2);
   m_tabs->setDrawBase(false);
   m_tabs->setExpanding(false);
