@@ -26,6 +26,7 @@
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
 #include <QtWidgets/QToolButton>
+#include <QtWidgets/QTreeView>
 
 #include <algorithm>
 #include <cmath>
@@ -303,6 +304,24 @@ class TestInteraction : public SampleWindowTest {
     QTest::mouseClick(view(), Qt::LeftButton, {}, right->rect.center().toPoint());
     QCOMPARE(view()->navigator().camera().azimuth, 90.0);
     QCOMPARE(view()->navigator().viewName(), QStringLiteral("Perspective"));
+  }
+
+  /// Of the row at hand, while the tree has the focus.
+  void theOutlinerShowsItsFocus() {
+    m_window->selection().select(OutlineKind::Body, "ice");
+    auto* tree = m_window->outliner()->findChild<QTreeView*>();
+    const QColor accent = Theme::current()[Token::Accent];
+    const auto ringed = [&] {
+      const QRect row = tree->visualRect(tree->currentIndex());
+      const QImage picture = tree->viewport()->grab().toImage();
+      return picture.pixelColor((QPointF(row.center().x(), row.top() + 1) * picture.devicePixelRatio()).toPoint()) ==
+             accent;
+    };
+    tree->setFocus(Qt::TabFocusReason);
+    QTRY_VERIFY(tree->hasFocus());
+    QVERIFY(ringed());
+    view()->setFocus();
+    QVERIFY(!ringed());
   }
 
   void eyeAndLockWithoutAMouse() {

@@ -89,6 +89,7 @@ class ResponseDelegate final : public QStyledItemDelegate {
                 theme[Token::Muted]);
     else
       paintSpark(*painter, box, response, declarationOf(key).scale == api::Scale::Logarithmic);
+    if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, row, 4);
   }
 
  private:

@@ -74,6 +74,7 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
   paintText(*painter, QRectF(text.left(), row.top(), right - text.left(), row.height()),
             Qt::AlignLeft | Qt::AlignVCenter, index.data(Qt::DisplayRole).toString(), Theme::font(TextRole::Normal),
             visible ? theme[Token::Text] : ink);
+  if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, row, 4);
   painter->restore();
 }
 
