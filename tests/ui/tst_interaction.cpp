@@ -324,6 +324,17 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(!ringed());
   }
 
+  /// "Solid" would be what it is made of.
+  void aBodyIsCalledByItsShape() {
+    m_window->action(QStringLiteral("add.cylinder"))->trigger();
+    const auto parts = m_window->inspector().bodyPanel()->findChildren<QWidget*>();
+    const auto header = std::find_if(parts.begin(), parts.end(), [](const QWidget* part) {
+      return part->accessibleName() == QStringLiteral("Cylinder");
+    });
+    QVERIFY(header != parts.end());
+    QCOMPARE((*header)->accessibleDescription(), QStringLiteral("Water · cylinder"));
+  }
+
   void eyeAndLockWithoutAMouse() {
     m_window->selection().select(OutlineKind::Body, "ice");
     m_window->action(QStringLiteral("edit.visible"))->trigger();

@@ -154,15 +154,19 @@ void Inspector::rebuildBody() {
     m_body->setModel({});
     return;
   }
-  constexpr const char* kShapes[] = {" · block", " · sketched", " · solid"};
+  constexpr const char* kShapes[] = {"block", "sketched"};
+  const auto* solid = std::get_if<SolidShape>(&body->shape);
+  const std::string shape =
+      solid ? choiceOf(solid->parameters, solidParameters(), "kind") : kShapes[body->shape.index()];
   QString matter = QString::fromStdString(body->material);
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  if (!showBodiesHeader()) m_body->setHeader(nameOf(*body), matter + QString::fromUtf8(kShapes[body->shape.index()]));
+  if (!showBodiesHeader())
+    m_body->setHeader(nameOf(*body), matter + QStringLiteral(" · ") + QString::fromStdString(shape));
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
-  if (const auto* solid = std::get_if<SolidShape>(&body->shape)) {
+  if (solid) {
     addRows(rows, {Owner::Shape, body->id, ""}, solidParameters());
     // A rope's many rows are of no use to others.
     if (SolidForm(*solid).kind() != SolidForm::Kind::Rope)
