@@ -162,6 +162,23 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(view()->hasFocus());
   }
 
+  /// A key turns the view under a pointer that rests.
+  void theBrushStandsUnderThePointerInAnotherView() {
+    m_window->tools().activate("brush");
+    const QPoint at = view()->rect().center() + QPoint(60, 10);
+    QCursor::setPos(view()->mapToGlobal(at));
+    QTest::mouseMove(view(), at);
+    const auto shown = [this] { return m_window->tools().tool().picture().cursor; };
+    QVERIFY(shown());
+    const Vector3 before = shown()->centre;
+    view()->show(StandardView::Top);
+    QVERIFY(shown() && shown()->centre != before);
+    const Vector3 after = shown()->centre;
+    m_window->tools().activate("select");
+    m_window->tools().activate("brush");  // which looks where the pointer is
+    QCOMPARE(shown()->centre, after);
+  }
+
   /// The lid is far above the ice and belongs to the scene; so it does with F when nothing is selected.
   void framingShowsTheTray_data() {
     QTest::addColumn<QString>("action");

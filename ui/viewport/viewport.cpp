@@ -340,8 +340,6 @@ void Viewport::show(StandardView view) {
   update();
 }
 
-void Viewport::storeView() { m_document.setView(m_navigator.view()); }
-
 /// Around all bodies, taps and drains that are selected.
 std::optional<Box> Viewport::boxOfSelection() const {
   std::optional<Box> all;

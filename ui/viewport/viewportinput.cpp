@@ -131,6 +131,13 @@ void Viewport::hover(const QPointF& position, Qt::KeyboardModifiers modifiers) {
   updatePointer(position);
 }
 
+/// What the pointer stands on is another place then.
+void Viewport::storeView() {
+  m_document.setView(m_navigator.view());
+  const QPoint at = mapFromGlobal(QCursor::pos());
+  if (m_drag == Drag::None && rect().contains(at)) hover(at, {});
+}
+
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   const Drag drag = m_drag;
   if (drag == Drag::None) return;
