@@ -215,6 +215,9 @@ class TestExportWindow : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > frame, kLong);
     QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
     picture(QStringLiteral("tst_exportwindow_working.png"));
+    // Who gives it up is answered at once, also where a picture is still being drawn.
+    noticeButton(*m_window, QStringLiteral("Cancel"))->click();
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("Giving up…")));
     end.set_value();
     QTRY_VERIFY_WITH_TIMEOUT(!session().work().isBusy(), kLong);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));

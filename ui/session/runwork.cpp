@@ -25,13 +25,18 @@ RunWork::RunWork(Session& session) : m_session(session) {
   connect(&m_clock, &QTimer::timeout, this, &RunWork::tell);
 }
 
-RunWork::~RunWork() { cancel(); }
+RunWork::~RunWork() {
+  if (m_progress) m_progress->cancel();
+}
 
 bool RunWork::cancel() {
   if (!m_progress || m_progress->cancelled()) return false;
   m_progress->cancel();
+  tell();
   return true;
 }
+
+bool RunWork::isCancelled() const { return m_progress && m_progress->cancelled(); }
 
 int RunWork::percent() const { return m_progress ? static_cast<int>(100 * m_progress->state().done) : -1; }
 

@@ -41,6 +41,7 @@ class RunWork : public QObject {
   int percent() const;    ///< -1 where nothing is done
   /// Gives up: files that are whole stay. False where there is nothing to give up.
   bool cancel();
+  bool isCancelled() const;  ///< it ends when what it is at is whole
 
  Q_SIGNALS:
   /// For a while already; `done` 0..1; `left` in s, -1 where it is too early to tell; often.

@@ -83,6 +83,7 @@ void ExportActions::open(const std::function<QDialog*()>& make) {
 void ExportActions::onWorking(const QString& stage, double done, double left) {
   QString text = QStringLiteral("%1 %").arg(formatFixed(100 * done, 0));
   if (left >= 0) text += QStringLiteral(", %1 left").arg(spanText(left));
+  if (m_session.work().isCancelled()) text = QStringLiteral("Giving up…");
   if (std::exchange(m_tells, true)) {
     m_notices.bar().setText(kTopic, text);
   } else {
