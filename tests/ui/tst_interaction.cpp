@@ -162,6 +162,27 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(view()->hasFocus());
   }
 
+  /// From what stands above its rows into them, and through them.
+  void tabGoesThroughAPanelInItsOrder() {
+    m_window->inspectorDock()->showPage(QStringLiteral("Material"));
+    ParameterPanel* panel = m_window->inspector().materialPanel();
+    auto* changed = panel->findChild<QPushButton*>(QStringLiteral("psChanged"));
+    changed->setFocus();
+    QTRY_VERIFY(changed->hasFocus());
+    std::vector<ParameterRow*> passed, all;
+    for (ParameterRow* row : panel->rows()) {
+      if (row->focusPolicy() != Qt::NoFocus) all.push_back(row);
+    }
+    QVERIFY(all.size() > 10 && all.size() < panel->rows().size());  // some rest, and are passed over
+    QWidget* at = changed;
+    while (panel->isAncestorOf(at)) {
+      if (auto* row = qobject_cast<ParameterRow*>(at)) passed.push_back(row);
+      QTest::keyClick(at, Qt::Key_Tab);
+      at = QApplication::focusWidget();
+    }
+    QVERIFY(passed == all);
+  }
+
   /// A key turns the view under a pointer that rests.
   void theBrushStandsUnderThePointerInAnotherView() {
     m_window->tools().activate("brush");

@@ -53,6 +53,17 @@ bool matches(const ParameterRow& row, const QString& filter) {
   return false;
 }
 
+/// In this order, and so for those too that take no focus until later: Qt puts none of these in line.
+void chainForTab(const std::vector<QWidget*>& parts) {
+  std::vector<Qt::FocusPolicy> policies;
+  for (QWidget* part : parts) {
+    policies.push_back(part->focusPolicy());
+    part->setFocusPolicy(Qt::StrongFocus);
+  }
+  for (size_t i = 1; i < parts.size(); ++i) QWidget::setTabOrder(parts[i - 1], parts[i]);
+  for (size_t i = 0; i < parts.size(); ++i) parts[i]->setFocusPolicy(policies[i]);
+}
+
 }  // namespace
 
 std::vector<RowModel> rowModels(api::ParameterList list, const ParameterSet& set, const ParameterSet& defaults,
@@ -204,6 +215,13 @@ void ParameterPanel::Private::build(std::vector<RowModel> models) {
     old->deleteLater();  // one of its rows may be what asked for this
   }
   scroll->setWidget(content);
+  // Rows come after the rest of the window, and Tab would come to them after all of it.
+  std::vector<QWidget*> parts{changed};
+  for (const Group& group : groups) {
+    parts.push_back(group.heading);
+    parts.insert(parts.end(), group.rows.begin(), group.rows.end());
+  }
+  chainForTab(parts);
 }
 
 Group& ParameterPanel::Private::group(const QString& title, QVBoxLayout* layout) {
