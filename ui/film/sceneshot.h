@@ -15,7 +15,19 @@ struct SceneShot {
   Camera camera;
 };
 
-/// Draws it without a display, on any thread. Throws Error where there is no OpenGL.
+/// Draws scenes without a display, on the thread that made it. Throws Error where there is no OpenGL.
+class ShotPainter {
+ public:
+  QImage draw(const SceneShot& shot, const QSize& size);
+  /// The matter alone, on nothing: one picture for any ground, through which clear matter shows it.
+  QImage cutOut(SceneShot shot, const QSize& size);
+
+ private:
+  HeadlessContext m_context;
+  Renderer m_renderer;
+};
+
+/// Draws one without a display, on any thread. Throws Error where there is no OpenGL.
 QImage drawShot(const SceneShot& shot, const QSize& size);
 
 }  // namespace ps
