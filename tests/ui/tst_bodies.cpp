@@ -139,6 +139,32 @@ class TestBodies : public SampleWindowTest {
     QCOMPARE(writeProject(document().project()), before);
   }
 
+  /// What an edit makes solid without anything that holds it is told, and held by a click.
+  void looseGrainsAreTold() {
+    const QString hold = QStringLiteral("Hold it together");
+    m_window->action(QStringLiteral("add.block"))->trigger();
+    const std::string id = document().project().bodies.back().id;
+    QVERIFY(document().body(id)->constraints.empty());
+    QVERIFY(!noticeButton(*m_window, hold));
+    const Address temperature{Owner::Body, id, "temperature"};
+    QCOMPARE(document().setParameter(temperature, 263.15), QString());
+    QVERIFY(noticeButton(*m_window, hold));
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("like sand")));
+    QTest::qWait(100);
+    picture(QStringLiteral("loose-grains.png"));
+    QCOMPARE(document().setParameter(temperature, 293.15), QString());
+    QTRY_VERIFY(!noticeButton(*m_window, hold));
+    QCOMPARE(document().setParameter(temperature, 253.15), QString());
+    noticeButton(*m_window, hold)->click();
+    QCOMPARE(document().body(id)->constraints.size(), size_t{1});
+    QTRY_VERIFY(!noticeButton(*m_window, hold));
+    // What is held in place is no sand.
+    document().undoStack().undo();
+    QVERIFY(noticeButton(*m_window, hold));
+    QCOMPARE(document().setParameter({Owner::Body, id, "fixed"}, true), QString());
+    QTRY_VERIFY(!noticeButton(*m_window, hold));
+  }
+
   void aBrokenMeshIsTold() {
     QTemporaryDir folder;
     QFile file(folder.filePath(QStringLiteral("broken.stl")));

@@ -13,6 +13,7 @@
 #include "ui/library/materialcard.h"
 #include "ui/library/mixdialog.h"
 #include "ui/library/mixpreview.h"
+#include "ui/library/swatches.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
@@ -36,6 +37,7 @@ using namespace ps;
 
 namespace {
 
+constexpr int kSwatch = 44;  // px, on a card
 const Address kStiffness{Owner::Material, "water", "youngs_modulus"};
 constexpr const char* kSoap = R"({"format": "phasesketch-material", "version": 1, "id": "soap", "label": "Soap",
   "licence": "CC0-1.0", "properties": {"density_solid": 1050, "melting_temperature": 330, "youngs_modulus": 1e6}})";
@@ -47,6 +49,7 @@ class TestLibrary : public SampleWindowTest {
  private Q_SLOTS:
   void initTestCase() {
     Theme::apply(*qApp, true);
+    QDir(QFileInfo(swatchPath({}, kSwatch)).path()).removeRecursively();
     MainWindow::Options options;
     options.project = options.sample = kSample;
     options.restore = false;
@@ -84,6 +87,16 @@ class TestLibrary : public SampleWindowTest {
     QCOMPARE(transitionsText(*entryOf("honey")), QStringLiteral("never freezes"));
     QVERIFY(entryOf("honey")->tags.contains(QStringLiteral("Liquids")));
     QVERIFY(entryOf("ethanol")->tags.contains(QStringLiteral("Liquids")));
+  }
+
+  /// What shows of them asks for its pictures.
+  void cardsShowTheMatter() {
+    const int side = qRound(kSwatch * page()->devicePixelRatioF());
+    const QString path = swatchPath(swatchOf(library().entries().front()), side);
+    QTRY_VERIFY_WITH_TIMEOUT(QFileInfo::exists(path), kLong);
+    QSignalSpy arrived(page()->findChild<Swatches*>(), &Swatches::arrived);
+    while (arrived.wait(1000)) continue;
+    pictureOf("library_swatches");
   }
 
   void searchAndTagsChoose() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a picture is made of, without OpenGL: camera, colours, instances, furniture.
+#include "core/scene/scenewall.h"
 #include "core/sketch/drawingplane.h"
 #include "tests/ui/renderscenes.h"
 #include "ui/render/framing.h"
@@ -11,6 +12,7 @@
 
 #include <QtTest/QtTest>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -42,6 +44,7 @@ class TestRenderParts : public QObject {
   void hidesOnlyWhatIsCovered();
   void leavesOutWhatIsBuried();
   void wallsAreClippedByEachOther();
+  void curvedWallsAreGlass();
   void glow_data();
   void glow();
 };
@@ -416,6 +419,34 @@ void TestRenderParts::wallsAreClippedByEachOther() {
   Environment crossed = scene.environment;
   crossed.walls.push_back(wall("gone", {0.45, 0, 0}, {-1, 0, 0}, 0));
   QVERIFY(render::wallFace(crossed, 6).corners.empty());
+}
+
+/// On their faces, and no farther than planes let them be seen.
+void TestRenderParts::curvedWallsAreGlass() {
+  Environment environment = tray().environment;
+  const size_t planes = render::buildFurniture(environment, true).clear.size();
+  for (const char* shape : {"cylinder", "sphere"}) {
+    SceneWall round = wall("round", {0, 0.1, 0}, {0, 1, 0}, 0);
+    round.parameters.values["shape"] = std::string(shape);
+    round.parameters.values["radius"] = 0.3;
+    Environment with = environment;
+    with.walls.push_back(round);
+    const WallFace face = faceOf(round);
+    const render::Furniture furniture = render::buildFurniture(with, true);
+    QVERIFY(furniture.clear.size() > planes + 100);
+    double lowest = 1, highest = 0;
+    for (size_t k = planes; k < furniture.clear.size(); ++k) {
+      const auto& [position, normal, material] = furniture.clear[k];
+      const Vector3 at(double{position[0]}, double{position[1]}, double{position[2]});
+      const Vector3 towards(double{normal[0]}, double{normal[1]}, double{normal[2]});
+      QVERIFY(std::abs(face.heightOf(at)) < 0.002);  // facets
+      QVERIFY((face.at(at).normal - towards).norm() < 0.01);
+      lowest = std::min(lowest, at.y());
+      highest = std::max(highest, at.y());
+    }
+    QVERIFY(std::abs(lowest) < 1e-6);  // on the floor
+    QVERIFY(std::abs(highest - (face.form() == WallForm::Sphere ? 0.4 : 0.8)) < 1e-6);
+  }
 }
 
 void TestRenderParts::glow_data() {

@@ -5,6 +5,7 @@
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
 #include "ui/library/materialcard.h"
+#include "ui/library/swatches.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -36,6 +37,7 @@ namespace ps {
 namespace {
 
 constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
+constexpr int kPicture = 72;              // px
 constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
 
 /// Cards that can be dragged onto bodies, of the view too, which takes the page's place meanwhile.
@@ -71,6 +73,32 @@ class CardList : public QListWidget {
 
 }  // namespace
 
+/// A material's picture, larger than on its card; hidden without a material.
+class SwatchView : public QWidget {
+ public:
+  explicit SwatchView(Swatches& swatches) : m_swatches(swatches) {
+    setFixedSize(kPicture, kPicture);
+    connect(&swatches, &Swatches::arrived, this, qOverload<>(&QWidget::update));
+  }
+  void showMatter(const LibraryEntry* entry) {
+    setVisible(entry != nullptr);
+    if (!entry) return;
+    m_swatch = swatchOf(*entry);
+    setAccessibleName(entry->label);
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    paintSwatch(painter, rect(), m_swatch, m_swatches);
+  }
+
+ private:
+  Swatches& m_swatches;
+  Swatch m_swatch;
+};
+
 LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& selection, QWidget* parent)
     : QWidget(parent),
       m_library(library),
@@ -88,7 +116,8 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_export(new QPushButton(QStringLiteral("Export…"))),
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
-      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))) {
+      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
+      m_swatches(new Swatches(this)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);
@@ -123,7 +152,7 @@ QWidget* LibraryPage::makeLeft() {
   choices->addLayout(m_chips);
   choices->addStretch(1);
   column->addLayout(choices);
-  m_cards->setItemDelegate(new MaterialCard(m_library, m_cards));
+  m_cards->setItemDelegate(new MaterialCard(m_library, *m_swatches, m_cards));
   m_cards->setViewMode(QListView::IconMode);
   m_cards->setResizeMode(QListView::Adjust);
   m_cards->setMovement(QListView::Static);
@@ -136,6 +165,7 @@ QWidget* LibraryPage::makeLeft() {
   m_hint->setProperty("role", "muted");
   m_hint->setWordWrap(true);
   column->addWidget(m_hint);
+  connect(m_swatches, &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
@@ -157,7 +187,14 @@ QWidget* LibraryPage::makeRight() {
   column->addLayout(head);
   m_about->setWordWrap(true);
   m_about->setProperty("role", "text2");
-  column->addWidget(m_about);
+  auto* shown = new QHBoxLayout;
+  shown->setSpacing(8);
+  for (SwatchView*& picture : m_pictures) {
+    picture = new SwatchView(*m_swatches);
+    shown->addWidget(picture, 0, Qt::AlignTop);
+  }
+  shown->addWidget(m_about, 1);
+  column->addLayout(shown);
   m_table->setRootIsDecorated(false);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
@@ -295,6 +332,7 @@ void LibraryPage::showChosen() {
   m_table->setHeaderLabels(head);
   m_title->setText(head.mid(1).join(QStringLiteral(" and ")));
   m_about->setText(some.size() == 1 ? some.front()->about : QString());
+  for (size_t k = 0; k < m_pictures.size(); ++k) m_pictures[k]->showMatter(k < some.size() ? some[k] : nullptr);
   for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
   m_remove->setVisible(some.size() == 1 && !some.front()->file.isEmpty());
   const api::ParameterList catalogue = propertyCatalogue();

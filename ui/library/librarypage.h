@@ -4,6 +4,8 @@
 
 #include <QtWidgets/QWidget>
 
+#include <array>
+
 class QButtonGroup;
 class QHBoxLayout;
 class QLabel;
@@ -16,10 +18,12 @@ class QTreeWidget;
 namespace ps {
 
 class Selection;
+class SwatchView;
+class Swatches;
 
 /// All materials that can be had: cards to search in, with a swatch and the phases over temperature at a glance, and
-/// the properties of one, or of two side by side (Ctrl+click). From here they come into the scene; the scene's own
-/// become presets.
+/// picture and properties of one, or of two side by side (Ctrl+click). From here they come into the scene; the scene's
+/// own become presets.
 class LibraryPage : public QWidget {
   Q_OBJECT
  public:
@@ -65,6 +69,8 @@ class LibraryPage : public QWidget {
   QLabel *m_title, *m_about, *m_of, *m_hint;
   QPushButton *m_add, *m_export, *m_remove, *m_save, *m_mixture;
   QString m_tag;
+  Swatches* m_swatches;
+  std::array<SwatchView*, 2> m_pictures{};  ///< of the chosen ones
 };
 
 }  // namespace ps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/library/materialcard.h"
 
+#include "ui/library/swatches.h"
 #include "ui/rows/panelheader.h"
 #include "ui/theme/legend.h"
 #include "ui/theme/paint.h"
@@ -16,6 +17,7 @@ namespace ps {
 namespace {
 
 constexpr QSize kCard{222, 84};
+constexpr double kSwatch = 44;
 
 /// Place on the bar, 0 to 1: its ways are factors of the absolute temperature.
 double placeOf(double kelvin) {
@@ -23,6 +25,18 @@ double placeOf(double kelvin) {
 }
 
 }  // namespace
+
+void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches) {
+  const QImage picture =
+      swatches.of(swatch, static_cast<int>(std::lround(square.width() * painter.device()->devicePixelRatio())));
+  if (picture.isNull()) {
+    const double edge = square.width() / 11;  // as far as pictures have
+    const auto [red, green, blue, clearness] = swatch.look;
+    return paintBall(painter, square.adjusted(edge, edge, -edge, -edge), QColor::fromRgbF(red, green, blue));
+  }
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);  // of scales that are no whole number
+  painter.drawImage(snapped(painter, square), picture);
+}
 
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands) {
   const Theme& theme = Theme::current();
@@ -58,8 +72,8 @@ QString transitionsText(const LibraryEntry& entry) {
                                                          : QStringLiteral("never melts");
 }
 
-MaterialCard::MaterialCard(const MaterialLibrary& library, QObject* parent)
-    : QStyledItemDelegate(parent), m_library(library) {}
+MaterialCard::MaterialCard(const MaterialLibrary& library, Swatches& swatches, QObject* parent)
+    : QStyledItemDelegate(parent), m_library(library), m_swatches(swatches) {}
 
 QSize MaterialCard::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const { return kCard; }
 
@@ -77,7 +91,7 @@ void MaterialCard::paint(QPainter* painter, const QStyleOptionViewItem& option, 
                  : hover  ? Token::Hover
                           : Token::Header],
            selected ? theme[Token::Accent] : QColor(), 7);
-  paintBall(*painter, QRectF(card.left() + 10, card.top() + 9, 36, 36), entry.colour);
+  paintSwatch(*painter, QRectF(card.left() + 6, card.top() + 5, kSwatch, kSwatch), swatchOf(entry), m_swatches);
   QFont bold = Theme::font(TextRole::Normal);
   bold.setWeight(QFont::DemiBold);
   const QRectF words(card.left() + 56, card.top() + 8, card.width() - 64, 18);

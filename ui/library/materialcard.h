@@ -6,21 +6,28 @@
 
 namespace ps {
 
+class Swatches;
+struct Swatch;
+
 inline constexpr double kColdest = 50, kHottest = 4000;  ///< K, ends of the bar
 inline constexpr int kEntryRole = Qt::UserRole + 1;      ///< index into MaterialLibrary::entries()
 
-/// Paints an entry of the library: a ball as its matter looks, its name, when it melts and boils, and a bar of its
-/// phases over temperature, which has one scale for all.
+/// Paints an entry of the library: its swatch, its name, when it melts and boils, and a bar of its phases over
+/// temperature, which has one scale for all.
 class MaterialCard : public QStyledItemDelegate {
   Q_OBJECT
  public:
-  MaterialCard(const MaterialLibrary& library, QObject* parent);
+  MaterialCard(const MaterialLibrary& library, Swatches& swatches, QObject* parent);
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
 
  private:
   const MaterialLibrary& m_library;
+  Swatches& m_swatches;
 };
+
+/// The picture of a sample in a square, or, as long as there is none, a ball of its colour.
+void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches);
 
 /// A bar of phases over temperature, of the one scale for all, with a line where rooms are.
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands);

@@ -60,8 +60,7 @@ void Inspector::shareRows(std::vector<RowModel>& rows) const {
   std::erase_if(rows, [&](const RowModel& row) {
     const auto address = Address::parse(row.key.toStdString());
     const std::vector<Address> all = addressesOf(*address);
-    return !std::all_of(all.begin(), all.end(),
-                        [&](const Address& one) { return rowModelOf(m_document, one).has_value(); });
+    return !std::all_of(all.begin(), all.end(), [&](const Address& one) { return hasRow(m_document, one); });
   });
   for (RowModel& row : rows) row.mixed = isMixed(*Address::parse(row.key.toStdString()));
 }

@@ -44,15 +44,18 @@ void addRules(RowModel& row, const Document& document, const Address& address) {
   row.disabledReason = idleText(document, address);
 }
 
-std::optional<RowModel> rowModelOf(const Document& document, const Address& address) {
-  const api::ParameterDeclaration* declaration = document.declaration(address);
+bool hasRow(const Document& document, const Address& address) {
   const bool there = address.owner == Owner::Probe
                          ? document.probe(address.id) != nullptr
                          : address.owner == Owner::Scene || findSet(document.project(), address);
-  if (!declaration || !there) return std::nullopt;
+  return there && document.declaration(address);
+}
+
+std::optional<RowModel> rowModelOf(const Document& document, const Address& address) {
+  if (!hasRow(document, address)) return std::nullopt;
   RowModel row;
   row.key = QString::fromStdString(address.text());
-  row.declaration = *declaration;
+  row.declaration = *document.declaration(address);
   row.value = document.value(address);
   row.defaultValue = document.defaultValue(address);
   row.choiceLabels = choiceLabels(document.project(), document.plugins(), address, row.declaration);

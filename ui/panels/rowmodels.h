@@ -13,7 +13,9 @@ class PluginRegistry;
 
 // Rows of panels for the addresses of a document.
 
-/// The row of one address; nothing where it has no declaration or no owner.
+/// Whether an address has a declaration and an owner, so that there can be a row of it.
+bool hasRow(const Document& document, const Address& address);
+/// The row of one address; nothing where there can be none.
 std::optional<RowModel> rowModelOf(const Document& document, const Address& address);
 /// What bounds the value of a row's address and when it acts, and whether it does nothing as the scene is.
 void addRules(RowModel& row, const Document& document, const Address& address);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 namespace ps::render {
 namespace {
@@ -161,20 +162,30 @@ Lines sphereLines(const WallFace& face, const std::vector<Plane>& ends) {
   return seen;
 }
 
-/// From where its axis comes into the scene to where it leaves it; of what stands beside the scene nothing.
-Lines cylinderLines(const WallFace& face, const std::vector<Plane>& ends) {
-  constexpr int kStraight = 8;
+/// What is seen of a cylinder: from where its axis comes into the scene to where it leaves it, and two radii across.
+struct Barrel {
+  Vector3 low, high, u, v;  // m
+};
+
+/// Nothing of one that stands beside the scene.
+std::optional<Barrel> barrelOf(const WallFace& face, const std::vector<Plane>& ends) {
   double from = -1e4, to = 1e4;
   for (const Plane& end : ends) {
     const double rise = end.normal.dot(face.axis()), height = end.heightOf(face.centre());
     if (rise > 1e-6) from = std::max(from, -height / rise);
     if (rise < -1e-6) to = std::min(to, -height / rise);
   }
+  if (!(from < to)) return std::nullopt;
+  const Vector3 u = face.radius() * face.axis().unitOrthogonal();
+  return Barrel{face.centre() + from * face.axis(), face.centre() + to * face.axis(), u, face.axis().cross(u)};
+}
+
+Lines cylinderLines(const WallFace& face, const std::vector<Plane>& ends) {
+  constexpr int kStraight = 8;
   Lines lines;
-  if (!(from < to)) return lines;
-  const Vector3& axis = face.axis();
-  const Vector3 u = face.radius() * axis.unitOrthogonal(), v = axis.cross(u);
-  const Vector3 low = face.centre() + from * axis, high = face.centre() + to * axis;
+  const std::optional<Barrel> barrel = barrelOf(face, ends);
+  if (!barrel) return lines;
+  const auto& [low, high, u, v] = *barrel;
   addRing(lines, low, u, v);
   addRing(lines, high, u, v);
   for (int k = 0; k < kStraight; ++k) {
@@ -183,6 +194,58 @@ Lines cylinderLines(const WallFace& face, const std::vector<Plane>& ends) {
     lines.emplace_back(low + out, high + out);
   }
   return lines;
+}
+
+/// Where what is seen of a curved wall ends.
+std::vector<Plane> endsOf(const Environment& environment, size_t wall, const WallFace& face) {
+  Furniture floor;
+  placeFloor(floor, environment);
+  std::vector<Plane> ends;
+  for (const Cut& cut : cutsOf(environment, wall)) {
+    if (cut.wall || face.form() == WallForm::Cylinder) ends.push_back(cut.plane);
+  }
+  const bool fades = face.form() == WallForm::Cylinder && std::abs(face.axis().y()) > kLevel;
+  if (fades) ends.push_back({{0, -1, 0}, -topOf(environment, floor).height});
+  return ends;
+}
+
+/// The polygon as a fan of triangles; normals are the face's.
+void addCurved(std::vector<MeshVertex>& out, const Face& shown, const WallFace& face,
+               const std::array<float, 4>& material) {
+  for (size_t k = 2; k < shown.corners.size(); ++k) {
+    for (const size_t i : {size_t{0}, k - 1, k})
+      out.push_back({floats(shown.corners[i]), floats(face.at(shown.corners[i]).normal), material});
+  }
+}
+
+/// A curved wall as glass: what is seen of it, in facets.
+void addGlass(std::vector<MeshVertex>& out, const Environment& environment, size_t wall,
+              const std::array<float, 4>& material) {
+  const WallFace face = faceOf(environment.walls[wall]);
+  if (!face.isCurved()) return;
+  const std::vector<Plane> ends = endsOf(environment, wall, face);
+  const auto step = [](int k) { return 2 * std::numbers::pi * k / kAround; };
+  if (face.form() == WallForm::Cylinder) {
+    const std::optional<Barrel> barrel = barrelOf(face, ends);
+    for (int k = 0; barrel && k < kAround; ++k) {
+      const auto across = [&](double a) { return Vector3(std::cos(a) * barrel->u + std::sin(a) * barrel->v); };
+      const Vector3 a = across(step(k)), b = across(step(k + 1));
+      addCurved(out, {{barrel->low + a, barrel->low + b, barrel->high + b, barrel->high + a}, {}}, face, material);
+    }
+    return;
+  }
+  const auto place = [&](int up, int around) {
+    const double latitude = step(up) - std::numbers::pi / 2, r = std::cos(latitude);
+    return Vector3(face.centre() +
+                   face.radius() * Vector3(r * std::cos(step(around)), std::sin(latitude), r * std::sin(step(around))));
+  };
+  for (int up = 0; up < kAround / 2; ++up) {
+    for (int k = 0; k < kAround; ++k) {
+      Face quad{{place(up, k), place(up, k + 1), place(up + 1, k + 1), place(up + 1, k)}, {false, false, false, false}};
+      for (const Plane& end : ends) clip(quad, {end, false});
+      addCurved(out, quad, face, material);
+    }
+  }
 }
 
 }  // namespace
@@ -227,15 +290,9 @@ Face seenFace(const Environment& environment, size_t wall) {
 std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole) {
   const WallFace face = faceOf(environment.walls[wall]);
   if (!face.isCurved()) return {};
-  Furniture floor;
-  placeFloor(floor, environment);
-  std::vector<Plane> ends;  // of what is seen
-  for (const Cut& cut : cutsOf(environment, wall)) {
-    if (cut.wall || face.form() == WallForm::Cylinder) ends.push_back(cut.plane);
-  }
-  if (face.form() == WallForm::Sphere) return sphereLines(face, whole ? std::vector<Plane>{} : ends);
-  if (std::abs(face.axis().y()) > kLevel) ends.push_back({{0, -1, 0}, -topOf(environment, floor).height});
-  return cylinderLines(face, ends);
+  if (face.form() == WallForm::Sphere)
+    return sphereLines(face, whole ? std::vector<Plane>{} : endsOf(environment, wall, face));
+  return cylinderLines(face, endsOf(environment, wall, face));
 }
 
 bool sameFurniture(const Environment& a, const Environment& b) {
@@ -256,7 +313,8 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   out.lidHeight = static_cast<float>(top.height);
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
-    constexpr double kRound = 0.3;
+    constexpr double kRound = 0.3, kGlass = 0.06;
+    addGlass(out.clear, environment, i, with(lid, kGlass));
     for (const auto& [from, to] : roundLines(environment, i)) addEdge(out.edges, from, to, kRound);
     const Face face = seenFace(environment, i);
     if (face.corners.empty()) continue;

@@ -54,7 +54,7 @@ struct Furniture {
 bool sameFurniture(const Environment& a, const Environment& b);
 
 /// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes,
-/// curved walls thin lines.
+/// curved walls glass between thin lines.
 Furniture buildFurniture(const Environment& environment, bool dark);
 
 /// How much a floor glows, 0 below hand warmth to 1 far above boiling water; 0 for walls that are not held at a

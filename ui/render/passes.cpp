@@ -180,8 +180,10 @@ const Texture& Passes::drawBackground(const Job& job) {
 
 void Passes::drawLight(const Job& job) {
   const auto& [prepared, frame, layers, plain] = job;
-  copyPicture(drawBackground(job), layers.picture, {0, 0, frame.width, frame.height});
+  const auto& backdrop = prepared.look.backdrop;
+  if (!backdrop) copyPicture(drawBackground(job), layers.picture, {0, 0, frame.width, frame.height});
   const Target target({&layers.picture}, &layers.depth);
+  if (backdrop) clearColour(0, (*backdrop)[0], (*backdrop)[1], (*backdrop)[2], 1);
   glEnable(GL_STENCIL_TEST);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   for (const auto& [program, kind] : {std::pair{&m_programs.lightMetal, kMetal}, {&m_programs.lightMatter, kMatter}}) {

@@ -65,7 +65,7 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
     std::tie(request.minimum, request.maximum) = colourRange(now, look.colour);
   const ShownField shown(now, look.colour);
   request.surfaces = !shown || !shown.field().inner;
-  request.steam = sceneColour(look.dark, "steam");
+  request.steam = look.vapour.value_or(sceneColour(look.dark, "steam"));
   for (const uint32_t body : look.outline ? look.outline->bodies : std::vector<uint32_t>{}) {
     request.outlined.resize(std::max<size_t>(request.outlined.size(), body + size_t{1}));
     request.outlined[body] = 1;

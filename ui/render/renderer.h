@@ -53,6 +53,8 @@ struct Look {
   std::optional<BodyOutline> outline;
   std::optional<Ghost> ghost;
   std::vector<GuideLine> guides;
+  std::optional<std::array<float, 3>> backdrop;  ///< sRGB of one even ground, in place of the studio
+  std::optional<std::array<float, 3>> vapour;    ///< sRGB, in place of the theme's
   bool operator==(const Look&) const = default;
 };
 

@@ -290,7 +290,7 @@ void ParameterPanel::Private::measure() {
       longest = std::max(longest, wanted);
     }
   }
-  label = std::max(label, symbols ? longest - kSymbolWidth : longest);
+  label = std::max(label, longest + kLabelGap - (symbols ? kSymbolWidth : 0));
   const int bar = q->width() - scroll->viewport()->width();
   for (const Group& group : groups) {
     for (ParameterRow* row : group.rows) {

@@ -4,7 +4,6 @@
 #include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "ui/document/document.h"
-#include "ui/render/camera.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
 
@@ -13,6 +12,7 @@
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
+#include <QtGui/QImage>
 
 namespace ps {
 namespace {
@@ -40,17 +40,6 @@ QString thumbnailPath(const QString& project) {
   const QByteArray hash = QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha1).toHex();
   return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/thumbnails/") +
          QString::fromLatin1(hash) + QStringLiteral(".jpg");
-}
-
-QImage drawShot(const SceneShot& shot, const QSize& size) {
-  HeadlessContext context;
-  context.makeCurrent();
-  Renderer renderer;
-  const PictureSize picture{size.width(), size.height(), true};
-  renderer.prepare(*shot.snapshot, nullptr, 1, shot.scene, shot.look);
-  const std::vector<uint8_t> pixels = renderImage(renderer, eyeOf(shot.camera, picture.width, picture.height), picture);
-  return QImage(pixels.data(), picture.width, picture.height, 4 * picture.width, QImage::Format_RGBA8888)
-      .convertToFormat(QImage::Format_RGB32);
 }
 
 Thumbnails::Thumbnails(Session& session, std::function<std::optional<SceneShot>()> shot, QObject* parent)

@@ -2,14 +2,13 @@
 // A picture is drawn by a thread and a context of its own: reading one back from the view would hold up the interface.
 // At close the one that has begun is waited for.
 #pragma once
-#include "ui/render/renderer.h"
+#include "ui/film/sceneshot.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QSize>
 #include <QtCore/QString>
 #include <QtCore/QTimer>
-#include <QtGui/QImage>
 
 #include <functional>
 #include <memory>
@@ -21,16 +20,6 @@ class Session;
 
 /// Where the picture of a project's file is kept, in the user's cache.
 QString thumbnailPath(const QString& project);
-
-/// A scene as a view shows it.
-struct SceneShot {
-  SnapshotPtr snapshot;
-  RenderScene scene;
-  Look look;
-  Camera camera;
-};
-/// Draws it without a display, on any thread. Throws Error where there is no OpenGL.
-QImage drawShot(const SceneShot& shot, const QSize& size);
 
 /// Keeps pictures of the projects that a window has open: when one is saved, some seconds after it was opened where
 /// there is none yet, and when it is asked to. Not of samples, which have theirs.

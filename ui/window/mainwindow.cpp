@@ -28,6 +28,7 @@
 #include "ui/window/fileactions.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
+#include "ui/window/loosematter.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/pagechooser.h"
@@ -198,6 +199,7 @@ void MainWindow::makeMenus() {
                                          *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
+  new LooseMatter(*m_session, *m_notices, this);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
   m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
   QMenu* edit = bar->addMenu(QStringLiteral("Edit"));

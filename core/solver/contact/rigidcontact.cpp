@@ -15,7 +15,7 @@ namespace {
 
 /// Most passes over all contacts in one iteration of the solver: they are cheap beside density, and stacks need many.
 constexpr int kSweeps = 20;
-/// Fewer are enough when none has moved anything by more than this, in spacings.
+/// Fewer are enough when a pass has moved no body and no particle by more than this, in spacings.
 constexpr double kStill = 1e-5;
 /// Share of the last substep's impulses that the next one starts from: with all of them the split among contacts that
 /// bear the same load wanders, and bodies creep.
@@ -278,6 +278,33 @@ double RigidContact::solve(ParticleStore& store, Contact& c, double gap) {
   return (more * more + rubbed2) * perMass * perMass;
 }
 
+/// Notes where bodies are, and how far from their centres they are touched.
+void RigidContact::markPlaces() {
+  for (Body& body : m_bodies) body.markedShift = body.shift, body.markedTurn = body.turn, body.reach2 = 0;
+  for (const Open& open : m_open) {
+    for (const Side* side : {&open.contact->a, &open.contact->b}) {
+      if (side->body == kNone) continue;
+      double& reach2 = m_bodies[side->body].reach2;
+      reach2 = std::max(reach2, side->arm.squaredNorm());
+    }
+  }
+}
+
+/// The square of how far bodies have moved since they were marked, at most, in m², where they are touched; marks them
+/// anew. What counts is a body as a whole: the hundreds of contacts of a face push it by turns and leave it in its
+/// place, long after that is found.
+double RigidContact::moveSinceMark() {
+  double most = 0;
+  for (Body& body : m_bodies) {
+    if (!body.touched) continue;
+    const double shift2 = (body.shift - body.markedShift).squaredNorm();
+    const double turn2 = body.reach2 * (body.turn - body.markedTurn).squaredNorm();
+    most = std::max(most, 2 * (shift2 + turn2));
+    body.markedShift = body.shift, body.markedTurn = body.turn;
+  }
+  return most;
+}
+
 void RigidContact::project(ParticleStore& store) {
   if (m_contacts.empty()) return;
   for (Body& body : m_bodies) {
@@ -285,13 +312,16 @@ void RigidContact::project(ParticleStore& store) {
   }
   readPlaces(store);
   if (m_resume) resume(store);
+  markPlaces();
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double most = 0;
     for (const Open& open : m_open) {
       const double gap = gapOf(store, open);
-      if (gap < 0 || open.contact->push != 0) most = std::max(most, solve(store, *open.contact, gap));
+      if (!(gap < 0) && open.contact->push == 0) continue;
+      const double moved = solve(store, *open.contact, gap);
+      if (open.contact->b.inverseMass > 0) most = std::max(most, moved);
     }
-    if (most < kStill * kStill * m_spacing * m_spacing) break;
+    if (std::max(most, moveSinceMark()) < kStill * kStill * m_spacing * m_spacing) break;
   }
   forChunks(m_open.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {

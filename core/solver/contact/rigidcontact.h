@@ -101,13 +101,15 @@ class RigidContact {
     Matrix3 inverseInertia;  ///< 1/(kg m2), about the centre
     Vector3 centre;          ///< m
     Vector3 shift, turn;  ///< m, rad: what contacts did since positions were read; m/s, rad/s in strike() and bounce()
-    Vector3 turned;       ///< rad, since the start of the substep, when positions were read
-    Vector3 pushed, twisted;  ///< kg m, kg m2: impulses of this substep, and their moments about the centre
-    BodyMotion before;        ///< as the substep began, before contacts
-    uint32_t island = 0;      ///< the least of bodies that may touch each other, in strike() and bounce()
-    Vector3 late;             ///< kg m, way that impulses have not given since they came late in the substep
-    double time = 0;          ///< of an island, when it is struck, as a share of the substep
-    bool struck = false;      ///< an island, in strike()
+    Vector3 markedShift, markedTurn;  ///< m, rad: these, as the last pass over contacts left them
+    double reach2 = 0;                ///< m2, of the place of contact that is farthest from the centre
+    Vector3 turned;                   ///< rad, since the start of the substep, when positions were read
+    Vector3 pushed, twisted;          ///< kg m, kg m2: impulses of this substep, and their moments about the centre
+    BodyMotion before;                ///< as the substep began, before contacts
+    uint32_t island = 0;              ///< the least of bodies that may touch each other, in strike() and bounce()
+    Vector3 late;                     ///< kg m, way that impulses have not given since they came late in the substep
+    double time = 0;                  ///< of an island, when it is struck, as a share of the substep
+    bool struck = false;              ///< an island, in strike()
     double workBefore = 0, workChange = 0;  ///< J, of the impulses in an island, likewise
     bool touched = false, hasContacts = false;
   };
@@ -211,6 +213,8 @@ class RigidContact {
   double gapOf(const ParticleStore& store, const Open& open) const;
   double solve(ParticleStore& store, Contact& contact, double gap);
   void resume(ParticleStore& store);
+  void markPlaces();
+  double moveSinceMark();
   void beginContact(const ParticleStore& store, Contact& contact) const;
   void readPlaces(const ParticleStore& store);
   void readPlace(const ParticleStore& store, Open& open) const;

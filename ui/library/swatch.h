@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/types.h>
+
+#include <array>
+
+namespace ps {
+
+struct LibraryEntry;
+struct SceneShot;
+
+/// A sample of a material as it is in a room: all that its picture depends on.
+struct Swatch {
+  std::array<float, 4> look{};  ///< sRGB and clearness, as Snapshot::materialLook
+  api::Phase phase = api::Phase::Solid;
+  bool operator==(const Swatch&) const = default;
+};
+
+Swatch swatchOf(const LibraryEntry& entry);
+/// A lump of it, a drop or a cloud. Its particles are put where they are: for a picture as small as this no plugin has
+/// to run, and what scene is open does not matter.
+SceneShot shotOf(const Swatch& swatch);
+
+}  // namespace ps

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures are drawn by a thread and a context of its own, one after the other: what is asked for last comes first, so
+// that cards in sight do not wait for those that were scrolled past. The context lasts as long as there is something to
+// draw. At close the picture that has begun is waited for, the others are given up.
+#pragma once
+#include "ui/library/swatch.h"
+#include "ui/session/worker.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QString>
+#include <QtGui/QImage>
+
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+
+namespace ps {
+
+/// Where the picture of a sample is kept, `side` pixels wide and high, in the user's cache.
+QString swatchPath(const Swatch& swatch, int side);
+
+/// Pictures of materials on nothing, for any ground.
+class Swatches : public QObject {
+  Q_OBJECT
+ public:
+  explicit Swatches(QObject* parent = nullptr) : QObject(parent) {}
+  ~Swatches() override;
+  /// `side` in device pixels. Null while it is not there: it is read or drawn, and arrived() follows.
+  QImage of(const Swatch& swatch, int side);
+  /// False from when it turned out that there is no OpenGL: no more pictures come, which is no error.
+  bool canDraw() const { return m_canDraw; }
+
+ Q_SIGNALS:
+  void arrived();
+
+ private:
+  struct Wanted {
+    QString path;
+    Swatch swatch;
+    int side = 0;
+  };
+  void drawAll();
+  std::optional<Wanted> next();
+  std::map<QString, QImage> m_pictures;  ///< by path; null: asked for
+  bool m_canDraw = true;
+  std::mutex m_mutex;
+  std::deque<Wanted> m_wanted;  ///< the next one comes first
+  bool m_drawing = false;       ///< the thread looks into `m_wanted` once more
+  Worker m_worker;              // ends first
+};
+
+}  // namespace ps
