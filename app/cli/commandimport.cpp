@@ -93,7 +93,7 @@ nlohmann::json reportOf(const ImportedMesh& imported, double spacing, const Soli
 std::string importHelp() {
   return "phasesketch-cli import MESH --out PROJECT.json [options]\n\nMakes a project of a mesh (OBJ, STL, PLY, glTF, "
          "FBX, 3MF and what else assimp reads), filled with particles and standing\non a floor. Open meshes are filled "
-         "by their winding number, or stand for their surface alone (--wall). The file is read in a process of its "
+         "by their winding number; with --wall any mesh stands for its surface alone. The file is read in a process of its "
          "own, which can do no\nharm.\n\n" +
          optionHelp(kOptions);
 }

@@ -233,15 +233,20 @@ class TestHeat : public QObject {
   void insulatedBodiesConductNothing_data() {
     QTest::addColumn<bool>("sameMaterial");
     QTest::addColumn<double>("frame");
+    QTest::addColumn<bool>("ownLaw");
     for (const bool same : {true, false}) {
-      QTest::addRow("%s, explicit", same ? "one material" : "two materials") << same << 1.0;
-      QTest::addRow("%s, sweeps", same ? "one material" : "two materials") << same << 200.0;
+      QTest::addRow("%s, explicit", same ? "one material" : "two materials") << same << 1.0 << false;
+      QTest::addRow("%s, sweeps", same ? "one material" : "two materials") << same << 200.0 << false;
     }
+    QTest::newRow("a model's own law") << true << 0.001 << true;  // which is far quicker than conduction
   }
   void insulatedBodiesConductNothing() {
     QFETCH(bool, sameMaterial);
     QFETCH(double, frame);
+    QFETCH(bool, ownLaw);
+    OwnLaws own;
     Scene scene;
+    if (ownLaw) scene.model = &own;
     scene.thermal.airConvection = 20;
     scene.addMaterial(heattest::materialOf({}));
     scene.addMaterial(heattest::materialOf({.conductivitySolid = 3}));

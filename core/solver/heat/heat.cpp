@@ -361,8 +361,11 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
 
 void HeatStage::gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last) {
   for (size_t i = first; i < last; ++i) {
+    if (m_pairs.isInsulated(i)) continue;
     double watts = 0;
-    for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) watts += m_pairWatts[k];
+    for (uint32_t k = lists.begin[i]; k < lists.last[i]; ++k) {
+      if (!m_pairs.isInsulated(lists.index[k])) watts += m_pairWatts[k];
+    }
     m_joules[i] += step * watts;
   }
 }
