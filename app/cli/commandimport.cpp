@@ -93,8 +93,8 @@ nlohmann::json reportOf(const ImportedMesh& imported, double spacing, const Soli
 std::string importHelp() {
   return "phasesketch-cli import MESH --out PROJECT.json [options]\n\nMakes a project of a mesh (OBJ, STL, PLY, glTF, "
          "FBX, 3MF and what else assimp reads), filled with particles and standing\non a floor. Open meshes are filled "
-         "by their winding number; with --wall any mesh stands for its surface alone. The file is read in a process of its "
-         "own, which can do no\nharm.\n\n" +
+         "by their winding number; with --wall any mesh stands for its surface alone.\nThe file is read in a process "
+         "of its own, which can do no harm.\n\n" +
          optionHelp(kOptions);
 }
 
