@@ -78,7 +78,9 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
   m_insulated.clear();
   if (m_bodyHeating.insulates()) {
     m_insulated.resize(n);
-    for (size_t i = 0; i < n; ++i) m_insulated[i] = m_bodyHeating.isInsulated(store, i) ? 1 : 0;
+    forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) m_insulated[i] = m_bodyHeating.isInsulated(store, i) ? 1 : 0;
+    });
   }
   m_pairs.build(store, neighbours.view(), m_materials,
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
@@ -136,9 +138,11 @@ void HeatStage::hold(ParticleStore& store) {
     const double held = m_bodyHeating.heldAt(store, i);
     return held > 0 && !(std::abs(store.temperature()[i] - held) < kSameTemperature);
   };
-  size_t first = 0;
-  while (first < store.size() && !strays(first)) ++first;
-  if (first == store.size()) return;
+  const bool any = anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    while (first < last && !strays(first)) ++first;
+    return first < last;
+  });
+  if (!any) return;
   const double before = energy(store);
   m_newTemperature.resize(store.size());
   m_newPhase.resize(store.size());
