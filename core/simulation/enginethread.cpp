@@ -114,8 +114,8 @@ void EngineThread::Impl::step() {
   // Play stops at the end of the scene, once: played from there, it goes on.
   const Project& project = engine->project();
   const double last = project.duration - numberOf(project.solver.parameters, solverParameters(), "dt") / 2;
-  if (newest && newest->stats.time < last && snapshot->stats.time >= last) halt();
-  publish(std::move(snapshot));
+  const bool ends = newest && newest->stats.time < last && snapshot->stats.time >= last;
+  publish(std::move(snapshot), ends);
   if (record.wantsState(engine->solver().time())) record.keepState(*engine);
 }
 
@@ -184,7 +184,7 @@ void EngineThread::Impl::tellOf(const StepReport& report) {
   if (kind == EngineEvent::Kind::Step || kind == EngineEvent::Kind::Stopped) settle();
 }
 
-void EngineThread::Impl::publish(SnapshotPtr snapshot) {
+void EngineThread::Impl::publish(SnapshotPtr snapshot, bool ends) {
   edited = false;
   record.add(snapshot);
   const bool fresh = !newest || newest->revision != snapshot->revision;
@@ -199,6 +199,7 @@ void EngineThread::Impl::publish(SnapshotPtr snapshot) {
     }
     history.add(snapshot->stats);
     newest = std::move(snapshot);
+    if (ends) playing = false;
   }
   if (published) published();
 }

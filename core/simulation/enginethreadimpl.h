@@ -54,7 +54,8 @@ struct EngineThread::Impl {
   void recordEdit(RecordedEdit edit);
   void recordRun();
   void noScene(const EngineEvent& failure);
-  void publish(SnapshotPtr snapshot);
+  /// Play ends with the snapshot that ends the scene: whoever sees it paused sees that one.
+  void publish(SnapshotPtr snapshot, bool ends = false);
   void publishEdits();
   void notify(EngineEvent event);  // gives it its number
   void tellOf(const StepReport& report);
