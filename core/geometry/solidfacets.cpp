@@ -30,6 +30,21 @@ std::vector<MeshNearest::Triangle> facetsOfBlock(const Vector3& size) {
   return triangles;
 }
 
+/// From the inner rim over the outer one down to the foot, and up again inside; `axes` of the outer half ellipsoid, m.
+std::vector<SolidRim> bowlOutline(const Vector3& axes, double wall, int arc) {
+  const double top = axes[1] / 2;
+  const Vector3 inner = axes - Vector3::Constant(wall);
+  const bool isFull = !(inner.minCoeff() > 0);
+  std::vector<SolidRim> outline{isFull ? SolidRim{0, top, 0} : SolidRim{inner[0], top, inner[2]}};
+  const auto add = [&](const Vector3& e, int k) {
+    const double angle = kPi / 2 * k / arc, out = k == arc ? 0 : std::cos(angle);
+    outline.push_back({e[0] * out, top - e[1] * std::sin(angle), e[2] * out});
+  };
+  for (int k = 0; k <= arc; ++k) add(axes, k);
+  for (int k = arc; k >= 0 && !isFull; --k) add(inner, k);
+  return outline;
+}
+
 }  // namespace
 
 bool isEllipsoid(const SolidForm& form) {
@@ -64,6 +79,8 @@ std::vector<SolidRim> outlineOf(const SolidForm& form, int arc) {
       if (const double wall = form.wall(); wall < std::min(x, z))
         return {{x - wall, y, z - wall}, {x, y, z}, {x, -y, z}, {x - wall, -y, z - wall}, {x - wall, y, z - wall}};
       break;
+    case Kind::Bowl:
+      return bowlOutline({x, 2 * y, z}, form.wall(), arc / 2);
     case Kind::Torus: {
       const double ring = x - y;  // the tube is as thick as it is high
       for (int k = 0; k <= arc; ++k) {

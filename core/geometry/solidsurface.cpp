@@ -53,9 +53,11 @@ void SolidSurface::takeRound() {
     m_profile.push_back({{radius - half, 0}, {radius - half, 0}});
     m_swell = half;
   } else {
-    const std::vector<SolidRim> outline = outlineOf(form(), kArc);
-    for (size_t k = 0; k + 1 < outline.size(); ++k)
+    const std::vector<SolidRim> outline = outlineOf(form(), kAround);
+    for (size_t k = 0; k + 1 < outline.size(); ++k) {
+      if (outline[k].x == 0 && outline[k + 1].x == 0) continue;  // through the foot of a bowl, which is no surface
       m_profile.push_back({{outline[k].x, outline[k].y}, {outline[k + 1].x, outline[k + 1].y}});
+    }
   }
 }
 

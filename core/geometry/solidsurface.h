@@ -10,7 +10,8 @@ namespace ps {
 class MeshNearest;
 
 /// How far a place is from a solid's surface, and which way it faces there. Exact for blocks, ellipsoids and what is
-/// round about its y axis; what is oval across it is taken as a mesh of facets, of which 96 go round.
+/// round about its y axis, but for bowls, whose arcs are 48 straight lines each; what is oval across that axis is taken
+/// as a mesh of facets, of which 96 go round.
 class SolidSurface {
  public:
   explicit SolidSurface(const SolidShape& shape);

@@ -173,8 +173,9 @@ Body scaled(Body body, const Vector3& factors) {
     const api::ParameterList list = solidParameters();
     const double wall = numberOf(solid->parameters, list, "wall");
     place(*solid, "size", SolidForm(*solid).size().cwiseProduct(factors));
-    if (choiceOf(solid->parameters, list, "kind") == "tube" && factors == Vector3::Constant(factors[0]))
-      solid->parameters.values["wall"] = wall * factors[0];
+    const SolidForm::Kind kind = SolidForm(*solid).kind();
+    const bool isWalled = kind == SolidForm::Kind::Tube || kind == SolidForm::Kind::Bowl;
+    if (isWalled && factors == Vector3::Constant(factors[0])) solid->parameters.values["wall"] = wall * factors[0];
   }
   return body;
 }

@@ -43,6 +43,15 @@ double torusVolume(double width, double thickness) {
   return sum * kPi / kSlices / 3;
 }
 
+/// Half axes of the lower half ellipsoids that a bowl is between, about the middle of its rim; m.
+struct BowlAxes {
+  Vector3 outer, inner;  ///< no inner ones where the wall fills it
+};
+BowlAxes bowlAxes(const Vector3& size, double wall) {
+  const Vector3 outer(size[0] / 2, size[1], size[2] / 2), inner = outer - Vector3::Constant(wall);
+  return {outer, inner.minCoeff() > 0 ? inner : Vector3(Vector3::Zero())};
+}
+
 Vector3 pointOf(const SceneMesh& mesh, uint32_t index) {
   const auto& p = mesh.points[index];
   return {p[0], p[1], p[2]};
@@ -111,6 +120,12 @@ bool SolidForm::holds(const Vector3& own) const {
       const double x = m_size[0] / 2 - m_wall, z = m_size[2] / 2 - m_wall;
       return across <= 1 && (x <= 0 || z <= 0 || square(own[0] / x) + square(own[2] / z) >= 1);
     }
+    case Kind::Bowl: {
+      const auto [outer, inner] = bowlAxes(m_size, m_wall);
+      const Vector3 fromRim = own - m_size[1] / 2 * Vector3::UnitY();
+      return fromRim.cwiseQuotient(outer).squaredNorm() <= 1 &&
+             (inner.isZero() || fromRim.cwiseQuotient(inner).squaredNorm() >= 1);
+    }
     case Kind::Rope: {
       for (size_t k = 0; k + 1 < m_points.size(); ++k) {
         const Vector3 line = m_points[k + 1] - m_points[k], from = own - m_points[k];
@@ -128,6 +143,12 @@ bool SolidForm::holds(const Vector3& own) const {
 
 Vector3 SolidForm::centroid() const {
   if (m_kind == Kind::Cone) return {0, -m_size[1] / 4, 0};
+  if (m_kind == Kind::Bowl) {
+    const auto [outer, inner] = bowlAxes(m_size, m_wall);
+    constexpr double kBelow = 3.0 / 8;  // of a half ball's radius, from its flat side to its middle
+    const double moment = outer.prod() * outer[1] - inner.prod() * inner[1];
+    return {0, m_size[1] / 2 - kBelow * moment / (outer.prod() - inner.prod()), 0};
+  }
   if (m_kind == Kind::Rope) {
     Vector3 moment;
     double length = 0;
@@ -186,6 +207,10 @@ double SolidForm::volume(double layer) const {
     case Kind::Tube: {
       const double x = std::max(0.0, m_size[0] - 2 * m_wall), z = std::max(0.0, m_size[2] - 2 * m_wall);
       return kPi / 4 * m_size[1] * (m_size[0] * m_size[2] - x * z);
+    }
+    case Kind::Bowl: {
+      const auto [outer, inner] = bowlAxes(m_size, m_wall);
+      return 2 * kPi / 3 * (outer.prod() - inner.prod());
     }
     case Kind::Sheet:
       return m_size[0] * m_size[2] * layer;

@@ -4,20 +4,20 @@
 
 namespace ps {
 
-inline constexpr const char* kSolidKinds = "ellipsoid|block|cylinder|cone|capsule|torus|tube|mesh|sheet|rope";
+inline constexpr const char* kSolidKinds = "ellipsoid|block|cylinder|cone|capsule|torus|tube|bowl|mesh|sheet|rope";
 
 /// What the parameters of a solid say, ready to be computed with. Its own axes are those along which its sizes are; its
 /// middle is the origin of them.
 class SolidForm {
  public:
-  enum class Kind : uint8_t { Ellipsoid, Block, Cylinder, Cone, Capsule, Torus, Tube, Mesh, Sheet, Rope };
+  enum class Kind : uint8_t { Ellipsoid, Block, Cylinder, Cone, Capsule, Torus, Tube, Bowl, Mesh, Sheet, Rope };
 
   explicit SolidForm(const SolidShape& shape);
 
   Kind kind() const { return m_kind; }
   const Vector3& size() const { return m_size; }      ///< m, along its own axes
   const Vector3& middle() const { return m_middle; }  ///< m, in the scene
-  double wall() const { return m_wall; }              ///< m, thickness of that of a tube
+  double wall() const { return m_wall; }              ///< m, thickness of that of a tube or bowl
   bool isTurned() const { return m_isTurned; }
   const Matrix3& axes() const { return m_axes; }  ///< its own, as columns
   Vector3 toScene(const Vector3& own) const { return m_middle + m_axes * own; }

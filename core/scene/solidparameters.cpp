@@ -35,15 +35,16 @@ constexpr api::ParameterDeclaration kSolid[] = {
     atReset(choice({"kind", "Shape", "", ""}, kSolidKinds, 0,
                    {"Shape",
                     "What the sizes along its own axes are the extents of. Cylinders, cones, capsules and tubes stand "
-                    "upright, a torus lies.",
+                    "upright, a torus lies, a bowl is open at its top.",
                     "ellipsoid with three equal sizes for a ball", ""})),
     actingWhen("kind != rope",
                size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.", "a dice 0.016, a brick 0.25")),
-    size(
-        {"size_y", "Size along y", "", "m"},
-        "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring. "
-        "Sheets and ropes are one particle thick, whatever this says: so much of them a brush takes when it cuts them.",
-        "a mug 0.1, a table 0.75"),
+    size({"size_y", "Size along y", "", "m"},
+         "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring; "
+         "of "
+         "a bowl: its height, half its width for half a ball. Sheets and ropes are one particle thick, whatever this "
+         "says: so much of them a brush takes when it cuts them.",
+         "a mug 0.1, a table 0.75"),
     actingWhen("kind != rope",
                size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 0.02")),
     actingWhen(
@@ -53,9 +54,10 @@ constexpr api::ParameterDeclaration kSolid[] = {
                         "What of it stays where it is: of a rope its first point, or that and its last one; of a "
                         "sheet the edge at the low end of its z axis, or that and the opposite one.",
                         "start for a flag or a swing, ends for a hammock", ""}))),
-    actingWhen("kind = tube",
+    actingWhen("kind = tube|bowl",
                size({"wall", "Thickness of the wall", "", "m"},
-                    "Of a tube, measured inwards; as much as it is wide makes it a cylinder.", "a pipe 0.005", kWall)),
+                    "Of a tube or bowl, measured inwards; as much as half its width leaves no room in it.",
+                    "a pipe 0.005, a bowl of clay 0.008", kWall)),
     actingWhen("kind = mesh",
                atReset(choice(
                    {"inside", "Inside", "", ""}, "filled|hollow", 0,

@@ -61,7 +61,7 @@ class TestFills : public QObject {
     QTest::addColumn<QString>("fill");
     QTest::addColumn<double>("temperature");  // K
     for (const char* fill : {"lattice", "relaxed"}) {
-      for (const char* kind : {"ellipsoid", "cylinder", "cone", "capsule", "torus", "tube", "block"})
+      for (const char* kind : {"ellipsoid", "cylinder", "cone", "capsule", "torus", "tube", "bowl", "block"})
         QTest::addRow("%s, %s", kind, fill) << QString(kind) << QString(fill) << 293.15;
       QTest::addRow("ice, %s", fill) << QString("ellipsoid") << QString(fill) << 263.15;
     }

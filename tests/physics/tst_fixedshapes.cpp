@@ -136,6 +136,7 @@ class TestFixedShapes : public QObject {
     QTest::newRow("a tube on a floor") << "tube";
     QTest::newRow("a cup") << "cup";
     QTest::newRow("a bowl") << "bowl";
+    QTest::newRow("a bowl that is no mesh") << "solid bowl";
     QTest::newRow("a bowl of one side") << "sheet";
     QTest::newRow("a hollow ball") << "ball";
   }
@@ -271,11 +272,14 @@ class TestFixedShapes : public QObject {
 
  private:
   ps::Project load(const json& scene) { return ps::parseProject(scene.dump(), "scene", m_plugins).project; }
-  static bool isRound(const QString& vessel) { return vessel == "bowl" || vessel == "sheet" || vessel == "ball"; }
+  static bool isRound(const QString& vessel) { return vessel.endsWith("bowl") || vessel == "sheet" || vessel == "ball"; }
   /// A vessel whose inner side has kRadius, standing on y = 0; a bowl's middle is at the origin.
   ps::Project filled(const QString& vessel) {
     const bool round = isRound(vessel);
     json solid = solidOf("tube", {2 * (kRadius + kThin), 0.2, 2 * (kRadius + kThin)}, {0, 0.1, 0});
+    if (vessel == "solid bowl")
+      solid = solidOf("bowl", {2 * (kRadius + kThin), kRadius + kThin, 2 * (kRadius + kThin)},
+                      {0, -(kRadius + kThin) / 2, 0});
     solid["wall"] = kThin;
     const json water = round ? solidOf("ellipsoid", {0.13, 0.08, 0.13}, {0, -0.02, 0})
                              : solidOf("cylinder", {2 * kRadius, 0.1, 2 * kRadius}, {0, 0.05, 0});
@@ -284,7 +288,7 @@ class TestFixedShapes : public QObject {
       scene["environment"]["walls"] = json::array({{{"id", "floor"}, {"point", {0, 0, 0}}, {"normal", {0, 1, 0}}}});
     scene["probes"] = json::array({{{"id", "force"}, {"quantity", "force_y"}, {"body", "vessel"}}});
     ps::Project project = load(scene);
-    if (vessel == "tube") return project;
+    if (vessel == "tube" || vessel == "solid bowl") return project;
     auto mesh = std::make_shared<const ps::SceneMesh>(vessel == "cup"    ? cup()
                                                       : vessel == "ball" ? ball()
                                                                          : bowl(vessel == "bowl"));

@@ -32,7 +32,8 @@ class TestBodies : public SampleWindowTest {
 
   void everySolidJoinsTheScene_data() {
     QTest::addColumn<QString>("kind");
-    for (const char* kind : {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube", "sheet", "rope"})
+    for (const char* kind :
+         {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube", "bowl", "sheet", "rope"})
       QTest::newRow(kind) << QString::fromLatin1(kind);
   }
   void everySolidJoinsTheScene() {

@@ -119,6 +119,7 @@ class TstSolids : public QObject {
     row("capsule", 0.1, 0.3, 0.1, kPi * 0.0025 * 0.2 + 4.0 / 3 * kPi * 0.05 * 0.05 * 0.05);
     row("torus", 0.5, 0.1, 0.5, 2 * kPi * kPi * 0.2 * 0.05 * 0.05);
     row("tube", 0.2, 0.3, 0.2, kPi * (0.01 - 0.0036) * 0.3);
+    row("bowl", 0.2, 0.1, 0.2, 2 * kPi / 3 * (1e-3 - 0.06 * 0.06 * 0.06));
   }
   void volumesAreThoseOfFormulas() {
     QFETCH(QString, kind);
@@ -159,6 +160,32 @@ class TstSolids : public QObject {
     QCOMPARE(fillSolid(solidOf("block", {0.1, 0.014, 0.1}), 0.01).stretch[1], 1.12);
   }
 
+  /// Ten cells across, with a wall of one, two or three of them: the volume is right, and its middle where a formula
+  /// has it.
+  void smallBowlsHaveTheRightVolume() {
+    constexpr double kSpacing = 0.01, kRadius = 5 * kSpacing;
+    for (const double wall : {0.01, 0.02, 0.03}) {
+      for (const char* fill : {"lattice", "relaxed"}) {
+        SolidShape bowl = solidOf("bowl", {2 * kRadius, kRadius, 2 * kRadius}, wall);
+        bowl.parameters.values["fill"] = std::string(fill);
+        const double inner = kRadius - wall, cubes = std::pow(kRadius, 3) - std::pow(inner, 3);
+        const double share = filled(bowl, kSpacing) / (2 * kPi / 3 * cubes);
+        QVERIFY2(std::abs(share - 1) < 5e-3, qPrintable(QString("%1 %2: %3").arg(wall).arg(fill).arg(share)));
+        const Vector3 middle = SolidForm(bowl).centroid();
+        const double wanted = kRadius / 2 - 3.0 / 8 * (std::pow(kRadius, 4) - std::pow(inner, 4)) / cubes;
+        QVERIFY((middle - Vector3(0, wanted, 0)).norm() < 1e-12);
+        Vector3 sum;
+        const std::vector<api::Double3> places = solidMatter(bowl, kSpacing).places;
+        for (const api::Double3& p : places) sum += vectorOf(p) / static_cast<double>(places.size());
+        QVERIFY2((sum - SolidForm(bowl).toScene(middle)).norm() < 0.3 * kSpacing, qPrintable(QString::number(sum[1])));
+      }
+    }
+    // A wall as thick as half its width leaves no room: half a ball.
+    const SolidForm full(solidOf("bowl", {0.1, 0.05, 0.1}, 0.05));
+    QVERIFY(std::abs(full.volume() / (2 * kPi / 3 * std::pow(0.05, 3)) - 1) < 1e-12);
+    QVERIFY(full.holds({0, 0.02, 0}) && !full.holds({0.04, -0.02, 0}));
+  }
+
   /// The distance is that along the normal to the surface, and grows as fast as one goes along it.
   void surfacesAreTrue_data() {
     QTest::addColumn<QString>("kind");
@@ -177,6 +204,10 @@ class TstSolids : public QObject {
     row("low capsule", "capsule", 0.2, 0.1, 0.15);
     row("torus", "torus", 0.2, 0.05, 0.2);
     row("tube", "tube", 0.2, 0.1, 0.2);
+    row("bowl", "bowl", 0.2, 0.1, 0.2);
+    row("deep bowl", "bowl", 0.16, 0.18, 0.16);
+    row("bowl without room", "bowl", 0.2, 0.02, 0.2);
+    row("oval bowl", "bowl", 0.2, 0.08, 0.15);
     row("oval cylinder", "cylinder", 0.2, 0.1, 0.12);
     row("oval cone", "cone", 0.12, 0.2, 0.2);
     row("oval capsule", "capsule", 0.1, 0.3, 0.16);
@@ -266,13 +297,14 @@ class TstSolids : public QObject {
     QTest::newRow("cylinder") << QString("cylinder") << 0.1;
     QTest::newRow("pointed cone") << QString("cone") << 0.2;
     QTest::newRow("ring") << QString("torus") << 0.04;
+    QTest::newRow("bowl") << QString("bowl") << 0.05;
     QTest::newRow("mesh") << QString("mesh") << 0.1;
   }
   void packingHugsTheSurface() {
     QFETCH(QString, kind);
     QFETCH(double, y);
     constexpr double kSpacing = 0.01;
-    SolidShape solid = solidOf(kind.toLatin1(), {0.1, y, 0.1});
+    SolidShape solid = solidOf(kind.toLatin1(), {0.1, y, 0.1}, 0.02);
     if (kind == "mesh") solid = meshSolid(ballMesh(24), {0.1, y, 0.1});
     const size_t count = solidMatter(solid, kSpacing).places.size();
     solid.parameters.values["fill"] = std::string("relaxed");

@@ -44,7 +44,8 @@ struct SolidRow {
 };
 constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ball"}, {Kind::Block, "Block"},     {Kind::Cylinder, "Cylinder"},
                                 {Kind::Cone, "Cone"},      {Kind::Capsule, "Capsule"}, {Kind::Torus, "Ring"},
-                                {Kind::Tube, "Tube"},      {Kind::Sheet, "Sheet"},     {Kind::Rope, "Rope"}};
+                                {Kind::Tube, "Tube"},      {Kind::Bowl, "Bowl"},       {Kind::Sheet, "Sheet"},
+                                {Kind::Rope, "Rope"}};
 
 /// As the parameter of solids calls it.
 std::string nameOf(Kind kind) {
@@ -218,7 +219,7 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
   document.undoStack().endMacro();
 }
 
-/// A fifth of the scene wide; sheets and ropes lie, and are longer.
+/// A fifth of the scene wide; a bowl is half a ball, sheets and ropes lie, and are longer.
 Body BodyActions::newSolid(Kind kind, const QString& name) const {
   const Room room = roomOf(m_session.document().project().environment);
   const Vector3 wide = room.maximum - room.minimum;
@@ -233,6 +234,10 @@ Body BodyActions::newSolid(Kind kind, const QString& name) const {
   values["size_y"] = kind == Kind::Torus ? rounded(size / 4) : size;
   values["size_z"] = size;
   if (kind == Kind::Tube) values["wall"] = rounded(size / 5);
+  if (kind == Kind::Bowl) {
+    values["size_y"] = rounded(size / 2);
+    values["wall"] = rounded(std::max(size / 8, spacingOf(m_session.document())));
+  }
   if (kind == Kind::Sheet || kind == Kind::Rope) values["size_y"] = spacingOf(m_session.document());
   if (kind == Kind::Sheet) values["size_x"] = values["size_z"] = 2 * size;
   if (kind == Kind::Rope) {
