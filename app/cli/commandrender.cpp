@@ -11,6 +11,7 @@
 #include "ui/film/projectlook.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -29,6 +30,8 @@ constexpr OptionSpec kOptions[] = {
     {"--every", "N", "draws every Nth frame; without it 1 for films and recordings, 60 for pictures of a project"},
     {"--colour", "NAME",
      "material, or a field of particles, as 'plugins --fields' lists them; without it as the project says"},
+    {"--section", "[-]AXIS=M|none",
+     "cuts the scene open: x=0.1 leaves out what lies beyond 0.1 m along x, -x=0.1 what lies before it"},
     kAtStart,
     kThreads,
     kIsa,
@@ -62,13 +65,32 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   return colour;
 }
 
+std::optional<ViewSection> sectionOf(const Arguments& arguments) {
+  if (!arguments.has("--section")) return std::nullopt;
+  const std::string asked = arguments.text("--section");
+  if (asked == "none") return std::nullopt;
+  const bool flipped = asked.starts_with('-');
+  const std::string text = asked.substr(flipped ? 1 : 0), axes = "xyz";
+  const size_t axis = text.size() > 2 && text[1] == '=' ? axes.find(text[0]) : std::string::npos;
+  double place = NAN;
+  if (axis != std::string::npos) {
+    const char* const end = text.data() + text.size();
+    if (std::from_chars(text.data() + 2, end, place).ptr != end) place = NAN;
+  }
+  if (!(std::abs(place) <= 1e4))
+    throw InputError("--section must be none, or an axis and where it is cut in m, as x=0.1 or -y=0.02, not '" + asked +
+                     "'");
+  return ViewSection{text.substr(0, 1), place * Vector3::Unit(static_cast<Eigen::Index>(axis)), flipped};
+}
+
 FilmChoices choicesOf(const Arguments& arguments, const Project& project, const PluginRegistry& plugins,
                       const std::string& colour, long every) {
   return {.out = arguments.text("--out"),
           .framesPerSecond = 1 / (frameLength(project) * static_cast<double>(every)),
           .size = sizeOf(arguments),
           .look = lookOf(project, plugins, colour),
-          .camera = {}};
+          .camera = {},
+          .section = sectionOf(arguments)};
 }
 
 /// Of one picture, the last, all before it are left out.
@@ -153,6 +175,7 @@ int renderCommand(CommandArguments list) {
   if (isFilm(arguments.text("--out")) || isPicture(arguments.text("--out")))
     requireOutputs(arguments, {path}, {"--out"});
   sizeOf(arguments);
+  sectionOf(arguments);
   applyMachineOptions(arguments);
   return isRecording(path) ? renderRecording(arguments, path) : renderProject(arguments, path);
 }

@@ -6,6 +6,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
+#include "ui/render/framing.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/selection.h"
@@ -327,6 +328,66 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(range.update(speed, {0, 5}) == (std::pair{0.0, 5.0}));  // another map is automatic
     QVERIFY(range.update(speed, {0, 3}) == (std::pair{0.0, 5.0}));  // and stands as long as half of it is used
     QVERIFY(range.update(speed, {0, 2}) == (std::pair{0.0, 2.0}));
+  }
+
+  /// By its action, its keys and its strip; it is no edit, turns with who looks, and ends with Esc.
+  void aSectionOpensTheScene() {
+    const auto act = [&](const char* name) { m_window->action(QString::fromLatin1(name))->trigger(); };
+    const auto kept = [&] { return view()->viewSection(); };
+    const auto paint = [&] { view()->grabFramebuffer(); };
+    const int steps = document().undoStack().count();
+    QVERIFY(!kept() && !m_window->action(QStringLiteral("view.sectionFlip"))->isEnabled());
+    act("view.section");
+    QVERIFY(kept() && kept()->across == "view" && m_window->action(QStringLiteral("view.section"))->isChecked());
+    const auto box = boxOf(*view()->snapshot());
+    QVERIFY((kept()->through - (box->first + box->second) / 2).norm() < 0.1 * (box->second - box->first).norm());
+    paint();
+    QVERIFY(view()->shownLook().section == view()->section());
+    QVERIFY(view()->summary().contains(QStringLiteral("Section that faces you")));
+
+    const double offset = view()->section()->plane.offset, spacing = view()->snapshot()->spacing;
+    act("view.sectionDeeper");
+    QVERIFY(std::abs(view()->section()->plane.offset - offset - spacing) < 1e-9);
+    act("view.sectionBack");
+    QVERIFY(std::abs(view()->section()->plane.offset - offset) < 1e-9);
+
+    view()->show(StandardView::Top);
+    QVERIFY((view()->section()->plane.normal - Vector3(0, -1, 0)).norm() < 1e-9);
+    view()->show(StandardView::Right);
+    act("view.sectionX");
+    QVERIFY(kept()->across == "x" && (view()->section()->plane.normal - Vector3(-1, 0, 0)).norm() < 1e-9);
+    view()->show(StandardView::Left);  // it stays where it is
+    QVERIFY((view()->section()->plane.normal - Vector3(-1, 0, 0)).norm() < 1e-9);
+
+    paint();
+    const SectionHits hits = view()->overlayHits().section;
+    QVERIFY(!hits.slider.isEmpty() && hits.ways.size() == 4);
+    const auto click = [&](const QPointF& at, const QPointF& to) {
+      for (const auto& [type, place] : {std::pair(QEvent::MouseButtonPress, at), std::pair(QEvent::MouseMove, to),
+                                        std::pair(QEvent::MouseButtonRelease, to)}) {
+        QMouseEvent event(type, place, view()->mapToGlobal(place), Qt::LeftButton,
+                          type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(view(), &event);
+      }
+    };
+    const QPointF middle = hits.slider.center(), quarter(hits.slider.width() / 4, 0);
+    click(middle, middle - quarter);
+    const double less = kept()->through.x();
+    click(middle, middle + quarter);
+    QVERIFY2(kept()->through.x() < less, "farther to the right more is cut away");
+    click(hits.flip.center(), hits.flip.center());
+    QVERIFY(kept()->flipped && view()->section()->plane.normal == Vector3(1, 0, 0));
+    click(hits.ways[3].second.center(), hits.ways[3].second.center());
+    QCOMPARE(kept()->across, std::string("z"));
+
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY(!kept() && !view()->section() && !m_window->action(QStringLiteral("view.section"))->isChecked());
+    paint();
+    QVERIFY(!view()->shownLook().section && view()->overlayHits().section.strip.isEmpty());
+    act("view.sectionZ");
+    act("view.section");
+    QVERIFY(!kept());
+    QCOMPARE(document().undoStack().count(), steps);
   }
 
   /// The label names a direction only as long as one looks from there.

@@ -8,6 +8,7 @@
 #include "ui/tools/picking.h"
 #include "ui/tools/placing.h"
 #include "ui/tools/selecttool.h"
+#include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
 #include <QtGui/QUndoStack>
@@ -174,6 +175,65 @@ class TestPicking : public QObject {
     const Placeable both = placeable(*m_document, {kRope, kPin}, Gizmo::Kind::Move, {});
     QVERIFY(std::none_of(both.items.begin(), both.items.end(),
                          [](const auto& item) { return item.first.kind == OutlineKind::Pin; }));
+  }
+
+  /// What a section cuts away is neither clicked nor framed nor drawn on: what lies behind it is.
+  void whatIsCutAwayIsNotPicked() {
+    auto scene = std::make_shared<Snapshot>();
+    scene->spacing = 0.02;
+    scene->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"shell", "rope"});
+    for (const uint32_t body : {0u, 1u}) {  // the shell's sheet is nearer
+      for (int i = -5; i <= 5; ++i) {
+        for (int j = -5; j <= 5; ++j) {
+          scene->position.push_back(
+              {0.02f * static_cast<float>(i), 0.3f + 0.02f * static_cast<float>(j), body == 0 ? 0.2f : 0.0f, 0.0125f});
+          scene->body.push_back(body);
+          scene->id.push_back(static_cast<uint32_t>(scene->id.size()));
+        }
+      }
+    }
+    Project project = m_document->project();
+    Body shell = project.bodies[0];
+    shell.id = "shell", shell.pins.clear();
+    project.bodies.push_back(shell);
+    SceneWall lid;
+    lid.id = "lid", lid.point = Vector3(0, 0.6, 0), lid.normal = Vector3(0, -1, 0);
+    project.environment.walls.push_back(lid);
+    m_document->open(project, {});
+    Toolbox tools(*m_document, *m_selection);
+    SelectTool tool(tools);
+    Pointer pointer;
+    pointer.ray = {{0, 0.3, 1}, {0, 0, -1}};
+    pointer.scene = scene;
+    tool.click(pointer);
+    QVERIFY(m_selection->has(OutlineKind::Body, "shell"));
+    pointer.section = Section{{Vector3(0, 0, -1), -0.1}};
+    tool.click(pointer);
+    QVERIFY(m_selection->has(OutlineKind::Body, "rope") && !m_selection->has(OutlineKind::Body, "shell"));
+    const auto surface = surfaceUnder(pointer, project.environment);
+    QVERIFY(surface && std::abs(surface->point.z() - 0.0125) < 1e-6);
+    // Framed: both lie in it, and one of them is shown.
+    Pointer from = pointer, to = pointer;
+    from.ray.direction = Vector3(-0.3, -0.3, -1).normalized();
+    to.ray.direction = Vector3(0.3, 0.3, -1).normalized();
+    from.control = to.control = true;
+    QVERIFY(tool.press(from));
+    tool.drag(to);
+    tool.release(to);
+    QVERIFY(m_selection->has(OutlineKind::Body, "rope") && !m_selection->has(OutlineKind::Body, "shell"));
+    // A lid by its face from below, until it is cut away.
+    const SelectedItem kLid{OutlineKind::Wall, "lid"};
+    Pointer below;
+    below.ray = {{0.3, 0.1, 0.3}, {0, 1, 0}};
+    const auto whole = pickAt(project, {}, below);
+    QVERIFY(whole && whole->item == kLid);
+    below.section = Section{{Vector3(0, -1, 0), -0.5}};
+    QVERIFY(!pickAt(project, {}, below));
+    // A floor stays.
+    Pointer down = at({0.3, 0, 0.2});
+    down.section = pointer.section;
+    const auto floor = pickAt(project, {}, down);
+    QVERIFY(floor && floor->item == kFloor);
   }
 
   /// By the tool: a click on a floor selects it, on nothing nothing; what is selected is outlined.

@@ -71,6 +71,9 @@ class TestRender : public QObject {
   void tooLargeAPictureIsRefused_data();
   void tooLargeAPictureIsRefused();
   void furnitureFollowsItsScene();
+  void aSectionShowsWhatIsInside_data();
+  void aSectionShowsWhatIsInside();
+  void aSectionCutsLids();
   void theSelectedBodyHasAnOutline_data();
   void theSelectedBodyHasAnOutline();
   void aGhostIsToldApart_data();
@@ -291,6 +294,77 @@ void TestRender::furnitureFollowsItsScene() {
   }
   for (size_t i = 1; i < 4; ++i) QVERIFY(pictures[i] != pictures[i - 1]);
   QVERIFY(pictures[4] == pictures[0]);
+}
+
+void TestRender::aSectionShowsWhatIsInside_data() {
+  QTest::addColumn<QString>("colour");
+  QTest::addColumn<int>("inside");  // api::Motion
+  QTest::newRow("solid in a kettle") << QString(kMatterColour) << static_cast<int>(api::Motion::Solid);
+  QTest::newRow("liquid in a kettle") << QString(kMatterColour) << static_cast<int>(api::Motion::Liquid);
+  QTest::newRow("by phases") << QStringLiteral("phase") << static_cast<int>(api::Motion::Liquid);
+}
+
+/// A red kettle, closed all round and held in place, with something blue in it: of that one sees nothing until the near
+/// side is cut away, and then it stands between what is left of the kettle's sides.
+void TestRender::aSectionShowsWhatIsInside() {
+  QFETCH(QString, colour);
+  QFETCH(int, inside);
+  Snapshot s;
+  s.materialLook = {{0.9f, 0.1f, 0.1f, 0}, {0.1f, 0.2f, 0.9f, 0}};
+  constexpr int kHalf = 6;
+  constexpr double kStep = 0.02;
+  uint32_t id = 0;
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    for (int j = -kHalf; j <= kHalf; ++j) {
+      for (int k = -kHalf; k <= kHalf; ++k) {
+        const bool shell = std::max({std::abs(i), std::abs(j), std::abs(k)}) >= kHalf - 1;
+        const Vector3 place(i * kStep, 0.2 + j * kStep, k * kStep);
+        addParticle(s, place, 0.0124, id++, shell ? api::Motion::Static : static_cast<api::Motion>(inside));
+        s.material.back() = shell ? 0 : 1;
+      }
+    }
+  }
+  Renderer renderer;
+  Shot o = options(colour.toStdString());
+  o.camera.azimuth = o.camera.elevation = 0;
+  o.camera.distance = 1;
+  const int middle = kWidth / 2, height = kHeight / 2;
+  const auto wallPixel = *project(o.camera, kWidth, kHeight, {(kHalf - 0.5) * kStep, 0.2, 0});
+  const auto draw = [&](std::optional<Section> section) {
+    o.look.section = section;
+    const auto image = renderImage(renderer, s, RenderScene{}, o);
+    return std::pair(pixelAt(image, middle, height), pixelAt(image, static_cast<int>(wallPixel.x()), height));
+  };
+  const auto differ = [](const std::array<int, 3>& a, const std::array<int, 3>& b) {
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) > 60;
+  };
+  const auto [closed, side] = draw({});
+  QVERIFY(!differ(closed, side));  // the same kettle in both places
+  const auto [opened, wall] = draw(Section{{Vector3(0, 0, -1), 0}});
+  QVERIFY(differ(opened, closed) && differ(opened, wall));
+  if (colour == kMatterColour) {
+    QVERIFY(closed[0] > closed[2] && wall[0] > wall[2]);  // red
+    QVERIFY(opened[2] > opened[0]);                       // blue
+  }
+  const auto [other, otherWall] = draw(Section{{Vector3(0, 0, 1), 0}});  // its far side is gone
+  QVERIFY(!differ(other, closed) && !differ(otherWall, side));
+  const auto [gone, goneWall] = draw(Section{{Vector3(0, 0, -1), 1}});  // nothing lies so far back
+  QVERIFY(differ(gone, closed) && differ(gone, opened) && !differ(gone, goneWall));
+}
+
+/// The lid's frosted plate goes where a level section lies below it, and comes back with it.
+void TestRender::aSectionCutsLids() {
+  Renderer renderer;
+  Shot o = options();
+  o.camera.distance = 3;
+  const auto whole = renderImage(renderer, everything(), tray(), o);
+  o.look.section = Section{{Vector3(0, -1, 0), -0.75}};
+  const auto cut = renderImage(renderer, everything(), tray(), o);
+  size_t changed = 0;
+  for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) changed += difference(whole, cut, i) > 12;
+  QVERIFY2(changed > 500, qPrintable(QString::number(changed)));
+  o.look.section.reset();
+  QVERIFY(renderImage(renderer, everything(), tray(), o) == whole);
 }
 
 void TestRender::theSelectedBodyHasAnOutline_data() {

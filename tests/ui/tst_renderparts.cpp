@@ -45,6 +45,9 @@ class TestRenderParts : public QObject {
   void leavesOutWhatIsBuried();
   void wallsAreClippedByEachOther();
   void curvedWallsAreGlass();
+  void sectionsFaceWhoLooks();
+  void aSectionCutsMatter();
+  void aSectionCutsWalls();
   void glow_data();
   void glow();
 };
@@ -447,6 +450,70 @@ void TestRenderParts::curvedWallsAreGlass() {
     QVERIFY(std::abs(lowest) < 1e-6);  // on the floor
     QVERIFY(std::abs(highest - (face.form() == WallForm::Sphere ? 0.4 : 0.8)) < 1e-6);
   }
+}
+
+/// Along an axis the same for everybody; one that faces the viewer cuts away what is near, flipped what is far.
+void TestRenderParts::sectionsFaceWhoLooks() {
+  ViewSection kept{"x", {0.1, 5, 7}, false};
+  const Vector3 forward = Vector3(1, -1, -2).normalized();
+  QVERIFY(sectionFor(kept, forward).shows({0.09, 0, 0}) && !sectionFor(kept, forward).shows({0.11, 0, 0}));
+  kept.flipped = true;
+  QVERIFY(!sectionFor(kept, forward).shows({0.09, 0, 0}) && sectionFor(kept, forward).shows({0.11, 0, 0}));
+  kept.across = "view";
+  QVERIFY(sectionFor(kept, forward).shows(kept.through - 0.01 * forward));
+  kept.flipped = false;
+  QVERIFY(!sectionFor(kept, forward).shows(kept.through - 0.01 * forward));
+  QVERIFY(sectionFor(kept, forward).shows(kept.through + 0.01 * forward));
+  const auto left = leftOf({{{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {3, 0, 0}}}, Section{{Vector3(-1, 0, 0), -0.25}});
+  QCOMPARE(left.size(), size_t{1});
+  QVERIFY(left[0].first == Vector3(0, 0, 0) && (left[0].second - Vector3(0.25, 0, 0)).norm() < 1e-12);
+}
+
+/// Of all kinds of matter, of another run's ghost and of outlines only what lies on the side that is left is drawn, and
+/// rays go through the rest.
+void TestRenderParts::aSectionCutsMatter() {
+  const Snapshot s = everything();
+  const Section section{{Vector3(-1, 0, 0), -0.01}};
+  render::InstanceRequest request;
+  request.now = request.ghost = &s;
+  request.outlined = {1};
+  render::Instances whole, cut;
+  render::collectInstances(request, whole);
+  request.section = section;
+  render::collectInstances(request, cut);
+  QVERIFY(cut.buriedSpheres + cut.spheres > 0 && cut.liquids() > 0 && cut.vapours > 0);
+  QVERIFY(cut.ghosts > 0 && cut.ghosts < whole.ghosts);
+  QVERIFY(cut.outlined > 0 && cut.outlined < whole.outlined);
+  for (const render::Instance& p : cut.particles) QVERIFY(p.x <= 0.0101f);
+  Snapshot two;
+  addParticle(two, {0.3, 0.2, 0}, 0.05, 0, api::Motion::Solid);
+  addParticle(two, {-0.3, 0.2, 0}, 0.05, 1, api::Motion::Solid);
+  const Ray ray{{1, 0.2, 0}, {-1, 0, 0}};
+  QCOMPARE(pickParticle(two, ray), std::optional<size_t>(0));
+  QCOMPARE(pickParticle(two, ray, section), std::optional<size_t>(1));
+  QVERIFY(!pickParticle(two, ray, Section{{Vector3(-1, 0, 0), 0.5}}));
+}
+
+/// Panes, lids and glass end at the section; floors stay whole as long as any of them is left.
+void TestRenderParts::aSectionCutsWalls() {
+  Environment environment = tray().environment;
+  for (const char* shape : {"cylinder", "sphere"}) {
+    SceneWall round = wall(shape, {0, 0.3, 0}, {0, 1, 0}, 0);
+    round.parameters.values = {{"shape", std::string(shape)}, {"radius", 0.2}};
+    environment.walls.push_back(round);
+  }
+  const render::Furniture whole = render::buildFurniture(environment, true);
+  const auto vector = [](const std::array<float, 3>& p) { return Vector3(double{p[0]}, double{p[1]}, double{p[2]}); };
+  constexpr double kMargin = 0.03;  // m: the rounded sides of a lid
+  for (const Vector3& kept : {Vector3(0, -1, 0), Vector3(-1, 0, 0), Vector3(Vector3(1, 0, -2).normalized())}) {
+    const Section section{{kept, kept.dot(Vector3(0, 0.35, 0))}};
+    const render::Furniture cut = render::buildFurniture(environment, true, section);
+    QVERIFY(cut.clear.size() > 100 && cut.clear.size() < whole.clear.size() + 500);
+    for (const render::MeshVertex& v : cut.clear) QVERIFY(section.plane.heightOf(vector(v.position)) > -kMargin);
+    for (const render::EdgeVertex& v : cut.edges) QVERIFY(section.plane.heightOf(vector(v.position)) > -1e-6);
+    QCOMPARE(cut.opaque.size(), whole.opaque.size());
+  }
+  QVERIFY(render::buildFurniture(environment, true, Section{{Vector3(0, 1, 0), 0.1}}).opaque.empty());
 }
 
 void TestRenderParts::glow_data() {

@@ -467,6 +467,17 @@ void TestCli::recordingsAreDrawn() {
   QVERIFY(colours.size() > 100);  // an empty or broken picture has a few
   ran = cli({"render", recording, "--out", out, "--size", "160x120", "--every", "9"});
   QVERIFY2(ran.out.startsWith("1 picture in "), ran.out.constData());
+  const auto cut = [&](const QString& section) {
+    ran = cli({"render", recording, "--out", folder.filePath("cut.png"), "--size", "160x120", "--section", section});
+    return ran.code == 0 ? QImage(folder.filePath("cut.png")) : QImage();
+  };
+  const QImage whole = cut("none");
+  QVERIFY2(!whole.isNull(), ran.err.constData());
+  QVERIFY(cut("x=9") == whole);  // all of it lies before that
+  QVERIFY(!cut("x=0").isNull() && cut("x=0") != whole && cut("-x=0") != cut("x=0"));
+  for (const char* wrong : {"w=1", "x", "x=", "x=1m", "=1", "y=1e9", ""}) {
+    QVERIFY2(cut(wrong).isNull() && ran.code == 2 && ran.err.contains("--section must be none"), wrong);
+  }
   const auto coloured = [&](const QString& colour) {
     return cli({"render", recording, "--out", out, "--size", "160x120", "--every", "4", "--colour", colour});
   };

@@ -24,6 +24,7 @@ void FilmPainter::draw(const Snapshot& snapshot, long frame) {
   const auto [width, height, still] = m_choices.size;
   // One view for the whole film: what it begins with.
   if (!m_choices.camera) m_choices.camera = cameraShowing(snapshot, m_scene.environment, width, height);
+  if (m_choices.section) m_choices.look.section = sectionFor(*m_choices.section, frameOf(*m_choices.camera).forward);
   m_scene.environment = environmentAt(m_project, &m_plugins, snapshot.stats.time);
   m_renderer->prepare(snapshot, nullptr, 1, m_scene, m_choices.look);
   m_sink->add(renderImage(*m_renderer, eyeOf(*m_choices.camera, width, height), m_choices.size), frame);

@@ -17,7 +17,8 @@ struct FilmChoices {
   double framesPerSecond = 60;
   PictureSize size;
   Look look;
-  std::optional<Camera> camera;  ///< else the project's own; else one that shows what the first frame has
+  std::optional<Camera> camera;          ///< else the project's own; else one that shows what the first frame has
+  std::optional<ViewSection> section{};  ///< in place of the look's, as that camera sees it
 };
 
 /// Draws frames of one project's run into a film or a folder, without a display; for the thread that made it.

@@ -118,7 +118,7 @@ void frameAll(Camera& camera, int width, int height, const Vector3& minimum, con
   camera.distance = radius / std::sin(std::atan(narrow));
 }
 
-std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray) {
+std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray, const std::optional<Section>& section) {
   std::optional<size_t> hit;
   double nearest = 0;
   for (size_t i = 0; i < snapshot.position.size(); ++i) {
@@ -129,6 +129,7 @@ std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray) {
     if (inside < 0) continue;
     const double distance = middle - std::sqrt(inside);
     if (distance <= 0 || (hit && distance >= nearest)) continue;
+    if (section && !section->shows({p.x, p.y, p.z})) continue;
     hit = i;
     nearest = distance;
   }

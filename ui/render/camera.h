@@ -53,8 +53,10 @@ void dollyTo(Camera& camera, int width, int height, double x, double y, double f
 /// Same angles, nearest distance from which the sphere around the box is whole in the picture.
 void frameAll(Camera& camera, int width, int height, const Vector3& minimum, const Vector3& maximum);
 
-/// Index of the nearest particle that the ray hits, by its sphere; nothing when it hits none. Static particles count.
-std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray);
+/// Index of the nearest particle that the ray hits, by its sphere; nothing when it hits none. Static particles count,
+/// what a section cuts away does not.
+std::optional<size_t> pickParticle(const Snapshot& snapshot, const Ray& ray,
+                                   const std::optional<Section>& section = std::nullopt);
 /// The same for the ray through a pixel.
 std::optional<size_t> pickParticle(const Snapshot& snapshot, const Camera& camera, int width, int height, double x,
                                    double y);

@@ -220,17 +220,21 @@ void addCurved(std::vector<MeshVertex>& out, const Face& shown, const WallFace& 
 
 /// A curved wall as glass: what is seen of it, in facets.
 void addGlass(std::vector<MeshVertex>& out, const Environment& environment, size_t wall,
-              const std::array<float, 4>& material) {
+              const std::optional<Section>& section, const std::array<float, 4>& material) {
   const WallFace face = faceOf(environment.walls[wall]);
   if (!face.isCurved()) return;
   const std::vector<Plane> ends = endsOf(environment, wall, face);
+  const auto addLeft = [&](Face quad) {
+    if (section) clip(quad, {section->plane, false});
+    addCurved(out, quad, face, material);
+  };
   const auto step = [](int k) { return 2 * std::numbers::pi * k / kAround; };
   if (face.form() == WallForm::Cylinder) {
     const std::optional<Barrel> barrel = barrelOf(face, ends);
     for (int k = 0; barrel && k < kAround; ++k) {
       const auto across = [&](double a) { return Vector3(std::cos(a) * barrel->u + std::sin(a) * barrel->v); };
       const Vector3 a = across(step(k)), b = across(step(k + 1));
-      addCurved(out, {{barrel->low + a, barrel->low + b, barrel->high + b, barrel->high + a}, {}}, face, material);
+      addLeft({{barrel->low + a, barrel->low + b, barrel->high + b, barrel->high + a}, {false, false, false, false}});
     }
     return;
   }
@@ -243,7 +247,7 @@ void addGlass(std::vector<MeshVertex>& out, const Environment& environment, size
     for (int k = 0; k < kAround; ++k) {
       Face quad{{place(up, k), place(up, k + 1), place(up + 1, k + 1), place(up + 1, k)}, {false, false, false, false}};
       for (const Plane& end : ends) clip(quad, {end, false});
-      addCurved(out, quad, face, material);
+      addLeft(std::move(quad));
     }
   }
 }
@@ -287,6 +291,15 @@ Face seenFace(const Environment& environment, size_t wall) {
   return face.corners.size() >= 3 ? face : Face{};
 }
 
+Face leftOf(const Environment& environment, size_t wall, const std::optional<Section>& section) {
+  const Face whole = seenFace(environment, wall);
+  if (!section || whole.corners.empty()) return whole;
+  Face left = whole;
+  clip(left, {section->plane, false});
+  if (left.corners.size() < 3) return {};
+  return roleOf(environment.walls[wall]) == Role::Floor ? whole : left;
+}
+
 std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole) {
   const WallFace face = faceOf(environment.walls[wall]);
   if (!face.isCurved()) return {};
@@ -303,7 +316,7 @@ bool sameFurniture(const Environment& a, const Environment& b) {
                     });
 }
 
-Furniture buildFurniture(const Environment& environment, bool dark) {
+Furniture buildFurniture(const Environment& environment, bool dark, const std::optional<Section>& section) {
   Furniture out;
   placeFloor(out, environment);
   const double size = out.size, thickness = 0.065 * size, margin = 0.07 * size;
@@ -314,9 +327,9 @@ Furniture buildFurniture(const Environment& environment, bool dark) {
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     constexpr double kRound = 0.3, kGlass = 0.06;
-    addGlass(out.clear, environment, i, with(lid, kGlass));
-    for (const auto& [from, to] : roundLines(environment, i)) addEdge(out.edges, from, to, kRound);
-    const Face face = seenFace(environment, i);
+    addGlass(out.clear, environment, i, section, with(lid, kGlass));
+    for (const auto& [from, to] : ps::leftOf(roundLines(environment, i), section)) addEdge(out.edges, from, to, kRound);
+    const Face face = leftOf(environment, i, section);
     if (face.corners.empty()) continue;
     const Vector3 normal = environment.walls[i].normal.normalized();
     switch (roleOf(environment.walls[i])) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/instances.h"
+#include "ui/render/section.h"
 
 #include <array>
 #include <utility>
@@ -32,6 +33,8 @@ struct Face {
 Face wallFace(const Environment& environment, size_t wall);
 /// What is shown of that: sides end at a lid, or fade out somewhat above the floor.
 Face seenFace(const Environment& environment, size_t wall);
+/// What a section leaves of that. A floor stays whole as long as any of it is left: it is what things stand on.
+Face leftOf(const Environment& environment, size_t wall, const std::optional<Section>& section);
 /// The lines by which a curved wall is seen, m: rings and straight lines of a cylinder from floor to lid, or where
 /// panes fade; three great circles of a sphere, as far as planes do not hide them, or `whole`. Nothing of a plane.
 std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole = false);
@@ -55,7 +58,7 @@ bool sameFurniture(const Environment& a, const Environment& b);
 
 /// Floors (normal up) are metal slabs, lids (normal down) frosted plates, sides a low rim and the edges of glass panes,
 /// curved walls glass between thin lines.
-Furniture buildFurniture(const Environment& environment, bool dark);
+Furniture buildFurniture(const Environment& environment, bool dark, const std::optional<Section>& section = {});
 
 /// How much a floor glows, 0 below hand warmth to 1 far above boiling water; 0 for walls that are not held at a
 /// temperature. A sign, not physics: metal glows by itself above 800 K only.

@@ -153,12 +153,13 @@ void arrange(Instances& out) {
 }
 
 /// What moves of another run's matter, and can be seen from outside of it.
-void collectGhost(const Snapshot* ghost, Instances& out) {
+void collectGhost(const Snapshot* ghost, const std::optional<Section>& section, Instances& out) {
   out.ghost.clear();
   Extent extent;
   for (size_t i = 0; ghost && i < ghost->position.size(); ++i) {
     const auto& [x, y, z, radius] = ghost->position[i];
     if (ghost->motion[i] == api::Motion::Static || !std::isfinite(x + y + z + radius) || radius <= 0) continue;
+    if (section && !section->shows({x, y, z})) continue;
     out.ghost.push_back({x, y, z, radius, 0, 0, 0, 0});
     extent.add(x, y, z, radius);
   }
@@ -215,6 +216,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   for (size_t i = 0; i < count; ++i) {
     Instance& p = all[i];
     if (!std::isfinite(p.x + p.y + p.z + p.radius) || p.radius <= 0) continue;
+    if (request.section && !request.section->shows({p.x, p.y, p.z})) continue;
     const api::Motion motion = s.motion[i];
     if (motion == api::Motion::Gas) {
       Instance cloud = p;
@@ -243,7 +245,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   for (const Instance& p : spheres) out.sphereExtent.add(p.x, p.y, p.z, p.radius);
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
-  collectGhost(request.ghost, out);
+  collectGhost(request.ghost, request.section, out);
   arrange(out);
 }
 

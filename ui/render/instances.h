@@ -50,6 +50,7 @@ struct InstanceRequest {
   std::array<float, 3> steam{1, 1, 1};  ///< colour of vapour where colours show no data
   std::vector<uint8_t> outlined;        ///< 1 for bodies that get an outline, by index
   const Snapshot* ghost = nullptr;      ///< of another run; nullptr: none
+  std::optional<Section> section;       ///< leaves out those whose middle it cuts away
 };
 
 /// A part of a list.

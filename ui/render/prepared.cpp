@@ -45,11 +45,13 @@ void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend,
 }
 
 void Prepared::furnish(const Environment& environment) {
-  if (m_furnished && m_dark == look.dark && sameFurniture(*m_furnished, environment)) return;
-  furniture = buildFurniture(environment, look.dark);
+  const bool sameLook = m_dark == look.dark && m_section == look.section;
+  if (m_furnished && sameLook && sameFurniture(*m_furnished, environment)) return;
+  furniture = buildFurniture(environment, look.dark, look.section);
   ++furnitureRevision;
   m_furnished = environment;
   m_dark = look.dark;
+  m_section = look.section;
 }
 
 void Prepared::collect(const Snapshot& now, const Snapshot* previous, double blend) {
@@ -71,6 +73,7 @@ void Prepared::collect(const Snapshot& now, const Snapshot* previous, double ble
     request.outlined[body] = 1;
   }
   if (look.ghost) request.ghost = look.ghost->matter.get();
+  request.section = look.section;
   collectInstances(request, instances);
 }
 

@@ -33,8 +33,9 @@ struct Prepared {
   void placeContactMap();
   void fitShadow();
 
-  std::optional<Environment> m_furnished;  // what `furniture` was made of, and for which theme
+  std::optional<Environment> m_furnished;  // what `furniture` was made of, for which theme and section
   bool m_dark = false;
+  std::optional<Section> m_section;
 };
 
 FrameUniforms::Matrix floats(const Matrix4& a);

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/particlefield.h"
 #include "core/simulation/snapshot.h"
+#include "ui/render/section.h"
 
 #include <array>
 #include <memory>
@@ -53,6 +54,7 @@ struct Look {
   std::optional<BodyOutline> outline;
   std::optional<Ghost> ghost;
   std::vector<GuideLine> guides;
+  std::optional<Section> section;  ///< cuts away matter and walls; a floor stays whole as long as any of it is left
   std::optional<std::array<float, 3>> backdrop;  ///< sRGB of one even ground, in place of the studio
   std::optional<std::array<float, 3>> vapour;    ///< sRGB, in place of the theme's
   bool operator==(const Look&) const = default;

@@ -47,13 +47,21 @@ bool isPlate(const SceneWall& wall) {
   return !faceOf(wall).isCurved() && std::abs(wall.normal.normalized().y()) > render::kLevel;
 }
 
+Lines edgesOf(const render::Face& face) {
+  Lines lines;
+  for (size_t i = 0; i < face.corners.size(); ++i)
+    lines.emplace_back(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
+  return lines;
+}
+
 std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointer) {
   std::optional<Pick> onLine, onFace;
   double line = kReach, depth = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < environment.walls.size(); ++k) {
     const SceneWall& wall = environment.walls[k];
-    const render::Face face = render::seenFace(environment, k);
-    const double near = distanceOf(pointer, wallLines(environment, k));
+    const render::Face face = render::leftOf(environment, k, pointer.section);
+    const Lines lines = faceOf(wall).isCurved() ? leftOf(wallLines(environment, k), pointer.section) : edgesOf(face);
+    const double near = distanceOf(pointer, lines);
     const double far = isPlate(wall) ? depthOf(pointer, wall, face) : std::numeric_limits<double>::infinity();
     if (near < line) line = near, onLine = Pick{{OutlineKind::Wall, wall.id}, true};
     if (far < depth) depth = far, onFace = Pick{{OutlineKind::Wall, wall.id}, false};
@@ -67,11 +75,7 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
 
 Lines wallLines(const Environment& environment, size_t wall, bool whole) {
   if (faceOf(environment.walls[wall]).isCurved()) return render::roundLines(environment, wall, whole);
-  const render::Face face = render::seenFace(environment, wall);
-  Lines lines;
-  for (size_t i = 0; i < face.corners.size(); ++i)
-    lines.emplace_back(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
-  return lines;
+  return edgesOf(render::seenFace(environment, wall));
 }
 
 Lines boxLines(const Region& box) {

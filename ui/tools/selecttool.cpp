@@ -75,7 +75,9 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
     std::vector<uint8_t> seen(scene->bodyIds->size());
     for (size_t i = 0; i < scene->position.size(); ++i) {
       const uint32_t body = scene->body[i];
-      if (body < seen.size() && seen[body] == 0 && within(vectorOf(scene->position[i]))) seen[body] = 1;
+      if (body >= seen.size() || seen[body] != 0) continue;
+      const Vector3 place = vectorOf(scene->position[i]);
+      if (within(place) && (!to.section || to.section->shows(place))) seen[body] = 1;
     }
     for (size_t k = 0; k < seen.size(); ++k) {
       const std::string& id = (*scene->bodyIds)[k];
@@ -99,7 +101,7 @@ void SelectTool::click(const Pointer& pointer) {
     if (adds) return selection.toggle(pick->item.kind, pick->item.id);
     return selection.select(pick->item.kind, pick->item.id);
   }
-  const auto hit = pointer.scene ? pickParticle(*pointer.scene, pointer.ray) : std::nullopt;
+  const auto hit = pointer.scene ? pickParticle(*pointer.scene, pointer.ray, pointer.section) : std::nullopt;
   if (!hit) {
     if (!adds) selection.clear();
     return;

@@ -14,11 +14,13 @@ namespace {
 constexpr double kNear = 2.5;       // spacings, of the particles that make a surface
 constexpr double kAlongAxis = 0.9;  // cosine from which a surface's normal counts as an axis
 
-/// Away from the matter around a point of its surface; along an axis where it nearly is.
-Vector3 normalAt(const Snapshot& scene, const Vector3& point) {
+/// Away from the matter that is shown around a point of its surface; along an axis where it nearly is.
+Vector3 normalAt(const Pointer& pointer, const Vector3& point) {
+  const Snapshot& scene = *pointer.scene;
   const double reach = kNear * scene.spacing;
   Vector3 sum;
   for (const api::Float4& p : scene.position) {
+    if (pointer.section && !pointer.section->shows(vectorOf(p))) continue;
     const Vector3 off = point - vectorOf(p);
     if (off.norm() < reach) sum += off;
   }
@@ -50,7 +52,7 @@ double shownSpacing(const Pointer& pointer, double fallback) {
 
 std::optional<Vector3> matterOn(const Pointer& pointer) {
   const Ray& ray = pointer.ray;
-  const auto hit = pointer.scene ? pickParticle(*pointer.scene, ray) : std::nullopt;
+  const auto hit = pointer.scene ? pickParticle(*pointer.scene, ray, pointer.section) : std::nullopt;
   if (!hit) return std::nullopt;
   const api::Float4& p = pointer.scene->position[*hit];
   const double along = (vectorOf(p) - ray.origin).dot(ray.direction) - static_cast<double>(p.w);
@@ -59,7 +61,7 @@ std::optional<Vector3> matterOn(const Pointer& pointer) {
 
 std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment) {
   const Ray& ray = pointer.ray;
-  if (const auto point = matterOn(pointer)) return Surface{*point, normalAt(*pointer.scene, *point)};
+  if (const auto point = matterOn(pointer)) return Surface{*point, normalAt(pointer, *point)};
   const auto floor = meet(ray, {{0, floorHeight(environment), 0}, {0, 1, 0}});
   const auto within = [&](int axis) {
     return (*floor)[axis] >= environment.boundsMinimum[axis] && (*floor)[axis] <= environment.boundsMaximum[axis];

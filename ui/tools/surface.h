@@ -13,7 +13,7 @@ struct Surface {
 /// What the pointer's ray meets first: matter, else the floor within the bounds, else the air at the depth one looks
 /// at. Nothing where the ray runs away from all of them.
 std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment);
-/// Where the pointer's ray meets matter first.
+/// Where the pointer's ray meets matter first that is shown.
 std::optional<Vector3> matterOn(const Pointer& pointer);
 /// m, of the highest level wall, or of the bounds.
 double floorHeight(const Environment& environment);

@@ -3,6 +3,7 @@
 #include "core/scene/ray.h"
 #include "core/simulation/snapshot.h"
 #include "ui/document/port.h"
+#include "ui/render/section.h"
 
 #include <QtCore/QString>
 
@@ -28,7 +29,8 @@ struct Pointer {
   double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
   double seconds = 0;         ///< on any clock that runs on
   bool shift = false, control = false, alt = false;
-  SnapshotPtr scene;  ///< as the view shows it; nullptr: nothing yet
+  SnapshotPtr scene;               ///< as the view shows it, but for what the section cuts away; nullptr: nothing yet
+  std::optional<Section> section;  ///< none: all is shown
 };
 
 /// The brush under the pointer.

@@ -331,6 +331,7 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   if (state.cursor) CursorPainter(painter, state).paint(*state.cursor);
   if (state.tag) paintTag(painter, state, *state.tag);
   paintViewLabel(painter, state);
+  if (state.section) hits.section = paintSection(painter, *state.section, {kMargin, kMargin + kLine + kPadding / 2});
   paintScaleBar(painter, state);
   paintLegendOver(painter, state, hits);
   if (!state.hints.empty()) hits.hintClose = paintHint(painter, state);

@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/render/camera.h"
 #include "ui/tools/tool.h"
+#include "ui/viewport/sectionstrip.h"
 
 #include <QtCore/QPointF>
 #include <QtCore/QRectF>
@@ -39,6 +40,7 @@ struct OverlayState {
   std::vector<OverlayHint> hints;                       ///< empty: no strip
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;
+  std::optional<SectionNote> section;
   QString invitation;  ///< in the middle of an empty scene: what to do
 };
 
@@ -54,9 +56,10 @@ struct OverlayHits {
   QRectF legendBar;                 ///< its gradient; empty where colours are classes
   QString legendTitle, legendUnit;  ///< as painted
   int legendClasses = 0;            ///< swatches in place of a gradient
+  SectionHits section;
 };
 
-/// Paints legend, view label, scale bar, hint strip, axis ball, tags and the brush's true volume.
+/// Paints legend, view label, strip of the section, scale bar, hint strip, axis ball, tags and the brush's true volume.
 OverlayHits paintOverlays(QPainter& painter, const OverlayState& state);
 /// Nothing but a sentence on the ground of the window: no picture can be had.
 void paintMessage(QPainter& painter, const QSizeF& size, const QString& title, const QString& text);

@@ -238,6 +238,7 @@ OverlayState Viewport::overlayState() const {
   if (m_hint) state.hints = hints();
   state.tag = tag();
   state.invitation = invitation();
+  state.section = sectionNote();
   if (m_drag != Drag::View) state.cursor = m_tools.tool().picture().cursor;
   return state;
 }
@@ -297,6 +298,7 @@ std::optional<SceneTag> Viewport::tag() const {
   SceneTag tag;
   const api::Float4& p = m_now->position[row];
   tag.place = {p.x, p.y, p.z};
+  if (const auto cut = section(); cut && !cut->shows(tag.place)) return std::nullopt;
   const uint32_t index = m_now->body[row];
   const Body* body =
       m_now->bodyIds && index < m_now->bodyIds->size() ? m_document.body((*m_now->bodyIds)[index]) : nullptr;
@@ -314,6 +316,8 @@ void Viewport::projectOpened() {
     m_navigator.setScene({camera->target, camera->distance, camera->azimuth, camera->elevation});
   else
     m_unframed = m_now ? m_now->revision : 0;  // framed when there is something of it to see
+  m_section.reset();
+  Q_EMIT sectionChanged();
   m_colour = view.colour;
   m_legendRange.reset();
   bodiesChanged();
@@ -415,6 +419,7 @@ void Viewport::setHintShown(bool on) {
 QString Viewport::summary() const {
   QStringList parts{m_tools.tool().words()};
   if (const auto port = m_selection.port()) parts << m_document.portName(*port);
+  if (const auto note = sectionNote()) parts << note->words();
   if (const auto marked = tag()) parts << marked->name + QLatin1Char(' ') + marked->value;
   return parts.join(QStringLiteral(", "));
 }

@@ -47,6 +47,15 @@ class Viewport : public QOpenGLWidget {
   std::optional<PortHandle> portHandleAt(const QPointF& position) const;
   bool hintShown() const { return m_hint; }
   void setHintShown(bool on);
+  const std::optional<ViewSection>& viewSection() const { return m_section; }  ///< none: the whole scene is shown
+  /// As it is seen from here.
+  std::optional<Section> section() const;
+  /// Cuts the scene open across "x", "y" or "z", from the side that one sees, or facing the viewer ("view"): through
+  /// the middle of what is selected or in view, or where it is cut by now.
+  void cutAcross(const std::string& across);
+  void flipSection();
+  void moveSection(int steps);  ///< so many spacings away from the side that is cut away
+  bool endSection();            ///< false: there was none
   /// Esc: gives up a drag or stroke. False when there was none.
   bool cancelGesture();
   /// "" or why there is no picture.
@@ -72,6 +81,7 @@ class Viewport : public QOpenGLWidget {
 
  Q_SIGNALS:
   void viewMenuRequested(const QPoint& global);
+  void sectionChanged();
   void glReady();
   void glFailed(const QString& problem);
 
@@ -95,7 +105,7 @@ class Viewport : public QOpenGLWidget {
 
  private:
   /// Who has the button that is down.
-  enum class Drag { None, Tool, Click, View, Menu, LegendHigh, LegendLow };
+  enum class Drag { None, Tool, Click, View, Menu, LegendHigh, LegendLow, Section };
   void onChanged(const ChangeEvent& event);
   void onTool();
   void snapshotArrived();
@@ -116,6 +126,14 @@ class Viewport : public QOpenGLWidget {
   std::optional<std::pair<Vector3, Vector3>> boxAround(const Port& port) const;
   void announce();  ///< tells assistive technology of another summary()
   void storeView();
+  // viewportsection.cpp
+  void setSection(const std::optional<ViewSection>& section);
+  Vector3 middleInView() const;
+  std::pair<double, double> reachOfSection(const Vector3& side) const;
+  void cutAt(double height);
+  std::optional<SectionNote> sectionNote() const;
+  bool clickSection(const QPointF& position);
+  void dragSection(const QPointF& position);
   // viewportdrops.cpp
   std::string matterAt(const QPointF& position) const;
   void aimDrop(const QPointF& position);
@@ -157,6 +175,7 @@ class Viewport : public QOpenGLWidget {
   Navigation m_navigation{m_navigator};
   std::string m_colour = kMatterColour;
   LegendRange m_legendRange, m_legendBefore;
+  std::optional<ViewSection> m_section, m_sectionBefore;  ///< of now, and before it is dragged
   std::pair<double, double> m_range{0, 1};
   OverlayHits m_hits;
   bool m_hint = true;

@@ -14,7 +14,7 @@ namespace ps {
 /// Whose it is, Body::id or Emitter::id; "" where there is none.
 std::string Viewport::matterAt(const QPointF& position) const {
   const Pointer pointer = pointerAt(position, {});
-  const auto hit = m_now && m_now->bodyIds ? pickParticle(*m_now, pointer.ray) : std::nullopt;
+  const auto hit = m_now && m_now->bodyIds ? pickParticle(*m_now, pointer.ray, pointer.section) : std::nullopt;
   if (!hit) return {};
   const uint32_t body = m_now->body[*hit];
   return body < m_now->bodyIds->size() ? (*m_now->bodyIds)[body] : std::string();

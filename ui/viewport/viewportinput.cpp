@@ -52,6 +52,7 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
   pointer.control = modifiers & Qt::ControlModifier;
   pointer.alt = modifiers & Qt::AltModifier;
   pointer.scene = m_now;
+  pointer.section = section();
   return pointer;
 }
 
@@ -114,6 +115,8 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   } else if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) {
     m_legendRange = m_legendBefore;
     m_legendRange.moveEnd(m_drag == Drag::LegendHigh, (m_pressed.y() - position.y()) / m_hits.legendBar.height());
+  } else if (m_drag == Drag::Section) {
+    dragSection(position);
   } else if (m_drag == Drag::Tool) {
     m_tools.tool().drag(pointerAt(position, event->modifiers()));
   } else {
@@ -123,7 +126,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void Viewport::hover(const QPointF& position, Qt::KeyboardModifiers modifiers) {
-  if (m_hits.legend.contains(position)) {
+  if (m_hits.legend.contains(position) || m_hits.section.strip.contains(position)) {
     m_tools.tool().leave();
   } else {
     m_tools.tool().hover(pointerAt(position, modifiers));
@@ -190,7 +193,9 @@ Viewport::Drag Viewport::legendEndAt(const QPointF& position) const {
 void Viewport::updatePointer(const QPointF& position) {
   if (legendEndAt(position) != Drag::None) {
     setCursor(Qt::SizeVerCursor);
-  } else if (m_hits.legend.contains(position)) {
+  } else if (m_hits.section.slider.contains(position)) {
+    setCursor(Qt::SizeHorCursor);
+  } else if (m_hits.legend.contains(position) || m_hits.section.strip.contains(position)) {
     setCursor(Qt::ArrowCursor);
   } else {
     setCursor(cursorFor(m_tools.tool().picture().pointer));
@@ -235,6 +240,7 @@ bool Viewport::cancelGesture() {
   const bool busy = m_drag != Drag::None;
   m_navigation.cancel();
   if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) m_legendRange = m_legendBefore;
+  if (m_drag == Drag::Section) setSection(m_sectionBefore);
   const bool gave = m_tools.tool().cancel();
   m_drag = Drag::None;
   update();
@@ -250,6 +256,7 @@ bool Viewport::clickOverlay(const QPointF& position) {
     m_drag = legendEndAt(position);
     return true;
   }
+  if (clickSection(position)) return true;
   for (const OverlayHits::Axis& axis : m_hits.axes) {
     if (!axis.rect.contains(position)) continue;
     m_navigator.look(axis.azimuth, axis.elevation);

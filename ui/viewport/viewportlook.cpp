@@ -42,6 +42,7 @@ Look Viewport::look() {
   look.dark = Theme::current().dark();
   look.meltingPoint = meltingPoint();
   look.outline = outline();
+  look.section = section();
   if (m_ghost)
     look.ghost = Ghost{m_ghost, channels(Theme::current()[Token::Curve]), channels(Theme::current()[Token::Field]),
                        1.5f * static_cast<float>(devicePixelRatioF())};

@@ -431,6 +431,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     return;
   } else if (m_layout->fullViewport()) {
     m_layout->setFullViewport(false);
+  } else if (m_tools->active() == kSelectTool && view && view->endSection()) {
+    return;
   } else {
     m_tools->activate(kSelectTool);
   }

@@ -44,6 +44,7 @@ void ViewActions::makeMenu(QMenu* menu) {
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
   addColours(colours);
   QObject::connect(&m_session, &Session::ready, colours, [this, colours] { addColours(colours); });
+  makeSection(menu->addMenu(QStringLiteral("Section")));
   menu->addSeparator();
   makeThemes(menu);
   menu->addSeparator();
@@ -53,6 +54,37 @@ void ViewActions::makeMenu(QMenu* menu) {
                 [this] { m_layout.applyDefault(); });
   m_actions.add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {},
                 viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
+}
+
+/// What only acts on a section is enabled while there is one.
+void ViewActions::makeSection(QMenu* menu) {
+  const auto add = [&](const char* id, const char* text, const char* keys, auto act) {
+    return m_actions.add(menu, QStringLiteral("view.section") + QString::fromLatin1(id), QString::fromLatin1(text),
+                         *keys ? QList{QKeySequence(QString::fromLatin1(keys))} : QList<QKeySequence>{}, [this, act] {
+                           if (m_view) act(*m_view);
+                         });
+  };
+  QAction* shown = add("", "Section on or off", "X", [](Viewport& v) {
+    if (!v.endSection()) v.cutAcross("view");
+  });
+  shown->setCheckable(true);
+  menu->addSeparator();
+  add("View", "Section that faces you", "", [](Viewport& v) { v.cutAcross("view"); });
+  add("X", "Section across x", "", [](Viewport& v) { v.cutAcross("x"); });
+  add("Y", "Section across y", "", [](Viewport& v) { v.cutAcross("y"); });
+  add("Z", "Section across z", "", [](Viewport& v) { v.cutAcross("z"); });
+  menu->addSeparator();
+  const QList<QAction*> moves{add("Flip", "Flip the section", "Shift+X", [](Viewport& v) { v.flipSection(); }),
+                              add("Deeper", "Move the section deeper", ".", [](Viewport& v) { v.moveSection(1); }),
+                              add("Back", "Move the section back", ",", [](Viewport& v) { v.moveSection(-1); })};
+  const auto follow = [this, shown, moves] {
+    const bool on = m_view && m_view->viewSection();
+    shown->setChecked(on);
+    for (QAction* move : moves) move->setEnabled(on);
+  };
+  if (m_view) QObject::connect(m_view, &Viewport::sectionChanged, menu, follow);
+  QObject::connect(shown, &QAction::triggered, menu, follow);  // without a view nothing changes
+  follow();
 }
 
 void ViewActions::addColours(QMenu* menu) {
@@ -92,6 +124,7 @@ void ViewActions::openViewMenu(const QPoint& global) const {
   menu->addAction(m_actions.find(QStringLiteral("view.frameAll")));
   QMenu* views = menu->addMenu(QStringLiteral("Look from"));
   for (int i = 1; i <= kViews; ++i) views->addAction(m_actions.find(QStringLiteral("view.look%1").arg(i)));
+  menu->addAction(m_actions.find(QStringLiteral("view.section")));
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
   for (qsizetype i = 0; QAction* colour = m_actions.find(colourAction(i)); ++i) colours->addAction(colour);
   menu->popup(global);

@@ -22,6 +22,7 @@ class ViewActions {
   void openViewMenu(const QPoint& global) const;
 
  private:
+  void makeSection(QMenu* menu);
   void makeThemes(QMenu* menu);
   /// Matter and the fields that have no entry yet.
   void addColours(QMenu* menu);
