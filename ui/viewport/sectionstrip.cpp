@@ -6,6 +6,8 @@
 
 #include <QtGui/QPainter>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
@@ -25,7 +27,7 @@ class StripPainter {
     // Measured by being painted nowhere: the ground has to come first.
     m_painter.save();
     m_painter.setClipRect(QRectF());
-    const double width = row(corner, true);
+    const double width = std::max(row(corner, true), row(corner, false));
     m_painter.restore();
     m_hits = {};
     m_hits.strip = QRectF(corner.x(), corner.y(), width, 2 * kRow + kGap);
@@ -50,7 +52,10 @@ class StripPainter {
     } else {
       slider();
       text(m_note.place, Token::Text, kPlace);
-      text(QStringLiteral(", .  move   X  end"), Token::Muted);
+      for (const char* name : {",", "."}) key(QString::fromLatin1(name));
+      text(QStringLiteral("move"), Token::Text2);
+      key(QStringLiteral("X"));
+      text(QStringLiteral("end"), Token::Text2);
     }
     return m_x - corner.x() + kPadding - kGap;
   }
@@ -59,6 +64,13 @@ class StripPainter {
     paintText(m_painter, QRectF(m_x, m_top, width, kRow), Qt::AlignLeft | Qt::AlignVCenter, text, m_font,
               m_theme[colour]);
     m_x += width + kPadding;
+  }
+  void key(const QString& name) {
+    constexpr double kHigh = 18;
+    const QRectF rect(m_x, m_top + (kRow - kHigh) / 2, textWidth(name, m_font) + 10, kHigh);
+    paintBox(m_painter, rect, m_theme[Token::Raised], m_theme[Token::Line2], 3);
+    paintText(m_painter, rect, Qt::AlignCenter, name, m_font, m_theme[Token::Text]);
+    m_x = rect.right() + kGap;
   }
   QRectF button(const QString& label, bool on) {
     const QRectF rect(m_x, m_top + (kRow - kButton) / 2, std::max(22.0, textWidth(label, m_font) + 12), kButton);
