@@ -31,7 +31,8 @@ constexpr OptionSpec kOptions[] = {
     {"--colour", "NAME",
      "material, or a field of particles, as 'plugins --fields' lists them; without it as the project says"},
     {"--section", "[-]AXIS=M|none",
-     "cuts the scene open: x=0.1 leaves out what lies beyond 0.1 m along x, -x=0.1 what lies before it"},
+     "cuts the scene open: x=0.1 leaves out what lies beyond 0.1 m along x, -x=0.1 what lies before it; without it as "
+     "the project says"},
     kAtStart,
     kThreads,
     kIsa,
@@ -65,8 +66,8 @@ std::string colourOf(const Project& project, const ParticleFields& fields, const
   return colour;
 }
 
-std::optional<ViewSection> sectionOf(const Arguments& arguments) {
-  if (!arguments.has("--section")) return std::nullopt;
+std::optional<ViewSection> sectionOf(const Arguments& arguments, const Project& project) {
+  if (!arguments.has("--section")) return project.view.section;
   const std::string asked = arguments.text("--section");
   if (asked == "none") return std::nullopt;
   const bool flipped = asked.starts_with('-');
@@ -90,7 +91,7 @@ FilmChoices choicesOf(const Arguments& arguments, const Project& project, const 
           .size = sizeOf(arguments),
           .look = lookOf(project, plugins, colour),
           .camera = {},
-          .section = sectionOf(arguments)};
+          .section = sectionOf(arguments, project)};
 }
 
 /// Of one picture, the last, all before it are left out.
@@ -175,7 +176,7 @@ int renderCommand(CommandArguments list) {
   if (isFilm(arguments.text("--out")) || isPicture(arguments.text("--out")))
     requireOutputs(arguments, {path}, {"--out"});
   sizeOf(arguments);
-  sectionOf(arguments);
+  sectionOf(arguments, {});
   applyMachineOptions(arguments);
   return isRecording(path) ? renderRecording(arguments, path) : renderProject(arguments, path);
 }

@@ -76,7 +76,8 @@ std::vector<Field<Project>> sceneRows() {
       field("duration", &Project::duration, Number{0, 1e9, "s"}, "length of the scene").always(),
       field("view", &Project::view, Object{viewFields()}, "").omittedWhen([](const Project& project) {
         const ViewState& view = project.view;
-        return !view.camera && !view.unknown && view.pinned.empty() && view.colour == ViewState().colour;
+        return !view.camera && !view.section && !view.unknown && view.pinned.empty() &&
+               view.colour == ViewState().colour;
       }),
       field("state", &Project::state, Shared{Object{stateFields()}},
             "matter as it stands at a later time: the project opens there, and its start stays what it is"),

@@ -153,6 +153,21 @@ const FieldTable<Probe>& probeFields() {
   return table;
 }
 
+namespace {
+
+const FieldTable<ViewSection>& sectionFields() {
+  static const FieldTable<ViewSection> table{
+      .help = "a plane; what lies before it is not shown",
+      .rows = {field("across", &ViewSection::across, Choice{{"view", "x", "y", "z"}},
+                     "the axis that it cuts across; view: it faces whoever looks"),
+               field("through", &ViewSection::through, Vector{"m"}, "a point of the plane").required(),
+               field("flipped", &ViewSection::flipped, Toggle{},
+                     "shows what lies up the axis, or on the near side, instead of the other part")}};
+  return table;
+}
+
+}  // namespace
+
 const FieldTable<ViewState>& viewFields() {
   const auto camera = [](Field<ViewCamera> row) { return within(&ViewState::camera, std::move(row)); };
   static const FieldTable<ViewState> table{
@@ -163,6 +178,7 @@ const FieldTable<ViewState>& viewFields() {
            camera(field("azimuth", &ViewCamera::azimuth, Number{-36000, 36000, "°"}, "")),
            camera(field("elevation", &ViewCamera::elevation, Number{-90, 90, "°"}, "")),
            field("colour", &ViewState::colour, ColourName{colourNames(ParticleFields())}, "what colours mean").always(),
+           field("section", &ViewState::section, Optional{Object{sectionFields()}}, "what is cut away of the scene"),
            field("pinned", &ViewState::pinned, List{AddressText{}, "address of a parameter: wall/floor/temperature"},
                  "rows under Try these")},
       .unknown = &ViewState::unknown};

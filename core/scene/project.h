@@ -299,10 +299,19 @@ struct ViewCamera {
   bool operator==(const ViewCamera&) const = default;
 };
 
+/// A plane through the scene; what lies before it is not shown, so that one sees what is inside. It changes nothing.
+struct ViewSection {
+  std::string across = "view";  ///< "x", "y" or "z": the axis that it cuts across; "view": it faces whoever looks
+  Vector3 through{0, 0, 0};     ///< m, a point of the plane
+  bool flipped = false;         ///< shows what lies up the axis, or on the near side, instead of the other part
+  bool operator==(const ViewSection&) const = default;
+};
+
 struct ViewState {
-  std::optional<ViewCamera> camera;  ///< none: the whole scene is shown
-  std::string colour = "material";   ///< that, or the name of a field of particles: see ParticleFields
-  std::vector<std::string> pinned;   ///< addresses of "Try these" rows: "wall/floor/temperature"
+  std::optional<ViewCamera> camera;    ///< none: the whole scene is shown
+  std::optional<ViewSection> section;  ///< none: nothing is cut away
+  std::string colour = "material";     ///< that, or the name of a field of particles: see ParticleFields
+  std::vector<std::string> pinned;     ///< addresses of "Try these" rows: "wall/floor/temperature"
   Unknown unknown;
 };
 

@@ -352,6 +352,7 @@ class TestAutosave : public QObject {
     saveProject(project, path.toStdString());
     ViewState seen;
     seen.camera = ViewCamera{{0.1, 0.25, -0.3}, 0.75, -120, 60};
+    seen.section = ViewSection{"z", {0.01, 0.2, -0.05}, true};
     {
       Desk desk(*m_plugins, m_copies);
       QSignalSpy opened(&desk.files, &DocumentFiles::opened);
@@ -371,6 +372,7 @@ class TestAutosave : public QObject {
     QVERIFY(opened.wait());
     const ViewState& view = desk.document.project().view;
     QVERIFY(view.camera == seen.camera);
+    QVERIFY(view.section == seen.section);
     QCOMPARE(view.colour, std::string("phase"));
     QCOMPARE(view.pinned, project.view.pinned);
     QVERIFY(!desk.document.isDirty());

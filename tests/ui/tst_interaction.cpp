@@ -343,6 +343,7 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY((kept()->through - (box->first + box->second) / 2).norm() < 0.1 * (box->second - box->first).norm());
     paint();
     QVERIFY(view()->shownLook().section == view()->section());
+    QVERIFY(document().project().view.section == kept());  // as a project keeps it
     QVERIFY(view()->summary().contains(QStringLiteral("Section that faces you")));
 
     const double offset = view()->section()->plane.offset, spacing = view()->snapshot()->spacing;
@@ -383,6 +384,7 @@ class TestInteraction : public SampleWindowTest {
     QTest::keyClick(view(), Qt::Key_Escape);
     QVERIFY(!kept() && !view()->section() && !m_window->action(QStringLiteral("view.section"))->isChecked());
     paint();
+    QVERIFY(!document().project().view.section);
     QVERIFY(!view()->shownLook().section && view()->overlayHits().section.strip.isEmpty());
     act("view.sectionZ");
     act("view.section");

@@ -34,6 +34,7 @@ class TestProjectIo : public QObject {
   void requiredKeysAreWrittenAtTheirDefaults();
   void everythingSurvives();
   void aViewWithoutACameraStaysWithoutOne();
+  void aViewKeepsItsSection();
   void unknownKeysSurvive_data();
   void unknownKeysSurvive();
   void slipsAreNamed();
@@ -198,6 +199,17 @@ void TestProjectIo::aViewWithoutACameraStaysWithoutOne() {
   camera.distance = 3;
   QVERIFY(placed.view.camera == camera);
   QVERIFY(parse(writeProject(placed)).project.view.camera == camera);
+}
+
+void TestProjectIo::aViewKeepsItsSection() {
+  QVERIFY(!parse(kFull).project.view.section);
+  QVERIFY(!json::parse(writeProject(parse(kFull).project))["view"].contains("section"));
+  Project project = parse(kFull).project;
+  project.view.section = ViewSection{"y", {0.1, -0.2, 0.3}, true};
+  QVERIFY(parse(writeProject(project)).project.view.section == project.view.section);
+  project.view = {};
+  project.view.section = ViewSection{"view", {0, 0.1, 0}, false};  // all that there is to say of the view
+  QVERIFY(parse(writeProject(project)).project.view.section == project.view.section);
 }
 
 void TestProjectIo::unknownKeysSurvive_data() {

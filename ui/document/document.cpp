@@ -274,7 +274,10 @@ void Document::setColour(const std::string& colour) {
   notify(ViewChanged{});
 }
 
-void Document::setView(const ViewState& view) { m_project.view.camera = view.camera; }
+void Document::setView(const ViewState& view) {
+  m_project.view.camera = view.camera;
+  m_project.view.section = view.section;
+}
 
 void Document::applyParameter(const Address& address, const std::optional<Value>& value) {
   ParameterSet* set = findSet(m_project, address);

@@ -202,7 +202,7 @@ class Document : public QObject {
   // View: saved with the project, no undo steps except pins
   void setPinned(const std::string& address, bool pinned);
   void setColour(const std::string& colour);
-  void setView(const ViewState& view);  ///< camera; silent
+  void setView(const ViewState& view);  ///< camera and section; silent
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);

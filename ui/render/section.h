@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/plane.h"
+#include "core/scene/project.h"
 
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace ps {
-
-/// A plane through the scene; what lies before it is not shown, so that one sees what is inside. It changes nothing.
-struct ViewSection {
-  std::string across = "view";  ///< "x", "y" or "z": the axis that it cuts across; "view": it faces whoever looks
-  Vector3 through{0, 0, 0};     ///< m, a point of the plane
-  bool flipped = false;         ///< shows what lies up the axis, or on the near side, instead of the other part
-  bool operator==(const ViewSection&) const = default;
-};
 
 /// A plane that opens the scene: what lies below it is neither drawn nor picked.
 struct Section {

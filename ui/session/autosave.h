@@ -34,7 +34,7 @@ struct AutosavedSession {
   QString title;
   QDateTime time;
   SessionEnd end = SessionEnd::None;
-  ViewState view;  ///< camera and colour at the end, without pins
+  ViewState view;  ///< camera, section and colour at the end, without pins
 };
 
 /// Unsaved work whose place another project took, as it was: the way back needs no file.

@@ -23,6 +23,13 @@ const QString kNote = QStringLiteral(".note"), kJson = QStringLiteral(".json"), 
 
 QJsonObject toJson(const ViewState& view) {
   QJsonObject json{{QStringLiteral("colour"), QString::fromStdString(view.colour)}};
+  if (const auto& section = view.section) {
+    const Vector3& p = section->through;
+    json.insert(QStringLiteral("section"),
+                QJsonObject{{QStringLiteral("across"), QString::fromStdString(section->across)},
+                            {QStringLiteral("through"), QJsonArray{p[0], p[1], p[2]}},
+                            {QStringLiteral("flipped"), section->flipped}});
+  }
   if (!view.camera) return json;
   const Vector3& target = view.camera->target;
   json.insert(QStringLiteral("target"), QJsonArray{target[0], target[1], target[2]});
@@ -32,15 +39,27 @@ QJsonObject toJson(const ViewState& view) {
   return json;
 }
 
+/// m; what is no number stays as in `otherwise`.
+Vector3 placeOf(const QJsonValue& json, Vector3 otherwise) {
+  const QJsonArray numbers = json.toArray();
+  for (int i = 0; i < 3; ++i) otherwise[i] = numbers.at(i).toDouble(otherwise[i]);
+  return otherwise;
+}
+
 ViewState viewOf(const QJsonObject& json) {
   ViewState view;
   view.colour = json.value(QStringLiteral("colour")).toString(QString::fromStdString(view.colour)).toStdString();
+  if (json.contains(QStringLiteral("section"))) {
+    const QJsonObject section = json.value(QStringLiteral("section")).toObject();
+    ViewSection& kept = view.section.emplace();
+    kept.across = section.value(QStringLiteral("across")).toString().toStdString();
+    kept.through = placeOf(section.value(QStringLiteral("through")), kept.through);
+    kept.flipped = section.value(QStringLiteral("flipped")).toBool();
+  }
   if (!json.contains(QStringLiteral("target"))) return view;
   ViewCamera& camera = view.camera.emplace();
   const auto number = [&](const char* key, double& value) { value = json.value(QLatin1String(key)).toDouble(value); };
-  const QJsonArray target = json.value(QStringLiteral("target")).toArray();
-  for (int i = 0; i < 3; ++i)
-    camera.target[static_cast<size_t>(i)] = target.at(i).toDouble(camera.target[static_cast<size_t>(i)]);
+  camera.target = placeOf(json.value(QStringLiteral("target")), camera.target);
   number("distance", camera.distance);
   number("azimuth", camera.azimuth);
   number("elevation", camera.elevation);

@@ -63,7 +63,7 @@ LoadedProject parse(const std::string& bytes, const QString& path, const PluginR
   return loaded;
 }
 
-/// The camera and colour of `seen`, with the pins and unknown keys of `stored`.
+/// The camera, section and colour of `seen`, with the pins and unknown keys of `stored`.
 ViewState asSeen(ViewState stored, const ViewState& seen) {
   ViewState view = seen;
   view.pinned = std::move(stored.pinned);

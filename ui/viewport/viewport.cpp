@@ -316,7 +316,7 @@ void Viewport::projectOpened() {
     m_navigator.setScene({camera->target, camera->distance, camera->azimuth, camera->elevation});
   else
     m_unframed = m_now ? m_now->revision : 0;  // framed when there is something of it to see
-  m_section.reset();
+  m_section = view.section;
   Q_EMIT sectionChanged();
   m_colour = view.colour;
   m_legendRange.reset();

@@ -136,7 +136,9 @@ void Viewport::hover(const QPointF& position, Qt::KeyboardModifiers modifiers) {
 
 /// What the pointer stands on is another place then.
 void Viewport::storeView() {
-  m_document.setView(m_navigator.view());
+  ViewState view = m_navigator.view();
+  view.section = m_section;
+  m_document.setView(view);
   const QPoint at = mapFromGlobal(QCursor::pos());
   if (m_drag == Drag::None && rect().contains(at)) hover(at, {});
 }

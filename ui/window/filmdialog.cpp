@@ -103,7 +103,10 @@ void FilmDialog::begin() {
                       .size = size(),
                       .look = m_view ? m_view->shownLook() : lookOf(project, *session().plugins(), project.view.colour),
                       .camera = {}};
-  if (m_view) choices.camera = m_view->navigator().camera();
+  if (m_view)
+    choices.camera = m_view->navigator().camera();
+  else
+    choices.section = project.view.section;
   std::set<std::string> hidden;
   if (m_view) hidden = m_view->hiddenBodies();
   session().work().start({film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
