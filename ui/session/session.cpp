@@ -306,7 +306,8 @@ void Session::applyAutosave() {
 
 QString Session::close() {
   if (m_closed || !m_autosave) return {};
-  const QString problem = m_autosave->close();
+  const bool hasRun = m_recordings->keep(m_autosave->runPath());
+  const QString problem = m_autosave->close(hasRun);
   m_closed = problem.isEmpty();
   return problem;
 }
