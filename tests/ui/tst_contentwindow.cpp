@@ -308,6 +308,7 @@ class TestContentWindow : public SampleWindowTest {
   /// What a value should be it may also not be: its row says so, beside what else there is to say.
   void aRowSaysWhatItsValueShouldBe() {
     Emitter tap;
+    leaveTheStart();
     tap.material = "water";
     tap.point = {0, 0.6, 0};
     const std::string id = document().addEmitter(tap).id;
@@ -332,6 +333,7 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(document().setParameter({Owner::Body, "ice", "motion_start"}, 4.0), QString());
     QCOMPARE(document().setParameter({Owner::Body, "ice", "motion_stop"}, 3.0), QString());
     const auto* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/motion_stop"));
+    leaveTheStart();
     const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
     QVERIFY(label);
     QVERIFY2(label->text().startsWith(QStringLiteral("Should be above “Sets off at” (4 s), not 3 s.")),
@@ -500,3 +502,9 @@ int main(int argc, char** argv) {
   return QTest::qExec(&test, argc, argv);
 }
 #include "tst_contentwindow.moc"
+  /// Paused there, nothing waits for a reset.
+  void leaveTheStart() {
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 0, kLong);
+    QTRY_VERIFY(!session().appliesAtOnce());
+  }

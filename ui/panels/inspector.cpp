@@ -379,6 +379,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
+    m_notes.setNothingWaits(m_session.appliesAtOnce());
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
@@ -431,6 +432,7 @@ void Inspector::refreshProperties(const std::string& material) {
 
 void Inspector::setSnapshot(const Snapshot& snapshot) {
   showTemperatures(snapshot);
+  m_notes.setNothingWaits(m_session.appliesAtOnce());
   m_notes.setSnapshot(snapshot);
 }
 
