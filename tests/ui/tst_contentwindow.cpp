@@ -446,6 +446,34 @@ class TestContentWindow : public SampleWindowTest {
     limit.unit = "MPa";
     limit.asked = 60;
     const auto text = [&](double delivered) {
+  /// Nor does another stage that is named as the slowest: what stands to the right of its name stays.
+  void anotherStageMovesNothing() {
+    auto* line = m_window->findChild<StatusLine*>();
+    StatusLine::State state = line->state();
+    const auto shown = [&](Stage slowest) {
+      auto snapshot = std::make_shared<Snapshot>(*state.snapshot);
+      snapshot->revision += 1000 + static_cast<uint64_t>(slowest);  // of a run of its own: nothing is known of before
+      snapshot->stats.milliseconds = {};
+      snapshot->stats.milliseconds[static_cast<size_t>(slowest)] = 5000;
+      state.snapshot = snapshot;
+      for (int frame = 0; frame < 200; ++frame) line->setState(state);
+      return line->grab().toImage().convertToFormat(QImage::Format_RGB32);
+    };
+    const QImage narrow = shown(Stage::Heat), wide = shown(Stage::Neighbours);
+    QVERIFY(line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("neighbours")));
+    // Columns that differ are those of the name and of what is measured beside it.
+    int last = 0;
+    for (int x = 0; x < wide.width(); ++x) {
+      for (int y = 0; y < wide.height(); ++y) {
+        if (wide.pixel(x, y) != narrow.pixel(x, y)) last = x;
+      }
+    }
+    const double most =
+        textWidth(line->parts().mid(0, 3).join(QString(8, QLatin1Char('0'))), Theme::font(TextRole::Small)) *
+        line->devicePixelRatioF();
+    QVERIFY2(last < most, qPrintable(QStringLiteral("%1 of %2").arg(last).arg(most)));
+  }
+
       limit.delivered = delivered;
       return limitText(limit, nullptr);
     };
