@@ -44,12 +44,12 @@ Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body&
   return spawn;
 }
 
-/// What it is given, and what it does where it is held in place.
-BodyHeat heatOf(const Body& body) {
+/// What it is given, and what it does where it is `fixed`, held in place.
+BodyHeat heatOf(const Body& body, bool fixed) {
   const api::ParameterList list = bodyParameters();
   BodyHeat heat;
   heat.watts = numberOf(body.parameters, list, "heating_power");
-  if (!toggleOf(body.parameters, list, "fixed")) return heat;
+  if (!fixed) return heat;
   const std::string kind = choiceOf(body.parameters, list, "heat");
   if (kind == "fixed_temperature") heat.held = numberOf(body.parameters, list, "held_temperature");
   heat.insulated = kind == "adiabatic";
@@ -65,7 +65,7 @@ void setMatter(Spawn& spawn, std::span<const BakedMaterial> materials, uint32_t 
 
 void setMatter(Spawn& spawn, const Project& project, std::span<const BakedMaterial> materials,
                const std::string& material, double temperature, const Body& body) {
-  const double held = heatOf(body).held;
+  const double held = heatOf(body, toggleOf(body.parameters, bodyParameters(), "fixed")).held;
   setMatter(spawn, materials, materialIndex(project, material, shownName(body)), held > 0 ? held : temperature,
             choiceOf(body.parameters, bodyParameters(), "phase"));
 }
@@ -342,11 +342,12 @@ BodyMotion compileMotion(const Body& body, double spacing) {
   return motion;
 }
 
-std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds) {
+std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
+                                     std::span<const uint8_t> fixed) {
   std::vector<BodyHeat> heat(bodyIds.size());
   for (const Body& body : project.bodies) {
     const auto index = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), body.id) - bodyIds.begin());
-    if (index < heat.size()) heat[index] = heatOf(body);
+    if (index < heat.size()) heat[index] = heatOf(body, index < fixed.size() && fixed[index]);
   }
   return heat;
 }

@@ -47,7 +47,9 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
 /// How a fixed body moves; none of others.
 BodyMotion compileMotion(const Body& body, double spacing);
 /// Heat that each body is given, by the index that its particles carry; bodies that have left the project get none.
-std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds);
+/// `fixed`: 1 for those whose matter was made fixed, by the same index; what the project says acts at the next reset.
+std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
+                                     std::span<const uint8_t> fixed);
 /// One batch of a sketched body's cells, filled with particles of `spacing` m.
 Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
                    const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);

@@ -210,7 +210,7 @@ void Engine::Impl::recompile(const Touched& touched) {
     lead();
     setShapes();
     fill = fillLimit(project, spacing);
-    solver->setHeating(compileHeating(project, *bodyIds));
+    solver->setHeating(compileHeating(project, *bodyIds, fixedBodies));
   }
   if (any({Owner::Constraint})) setConstraints();
 }
@@ -219,7 +219,7 @@ void Engine::Impl::setShapes() {
   std::vector<FixedShape> shapes;
   for (const Body& body : project.bodies) {
     const auto found = std::find(bodyIds->begin(), bodyIds->end(), body.id);
-    if (found == bodyIds->end()) continue;
+    if (!isFixed(body.id)) continue;  // as its matter was made: what the project says acts at the next reset
     const auto index = static_cast<uint32_t>(found - bodyIds->begin());
     if (std::optional<FixedShape> shape = surfaces.of(body, index, spacing)) shapes.push_back(std::move(*shape));
   }

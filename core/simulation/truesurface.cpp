@@ -60,7 +60,7 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
 
 std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, double spacing) {
   const auto* solid = std::get_if<SolidShape>(&body.shape);
-  if (!solid || !toggleOf(body.parameters, bodyParameters(), "fixed")) return std::nullopt;
+  if (!solid) return std::nullopt;
   const SolidForm form(*solid);
   if (form.isThin()) return std::nullopt;
   Known& known = m_known[body.id];
@@ -81,6 +81,7 @@ std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, do
 }
 
 void ShapeSurfaces::note(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing) {
+  if (!toggleOf(body.parameters, bodyParameters(), "fixed")) return;
   const std::optional<FixedShape> shape = of(body, 0, spacing);
   if (!shape) return;
   store.declare(field::kShapePlace, api::FieldType::Float4, "m", "place in a fixed shape, and a mark of that");

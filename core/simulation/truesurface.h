@@ -21,7 +21,7 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
 /// made is kept for as long as a body has that shape.
 class ShapeSurfaces {
  public:
-  /// Of a body by its index; none of other bodies.
+  /// Of a body that is fixed, by its index; none of what is no such solid.
   std::optional<FixedShape> of(const Body& body, uint32_t index, double spacing);
   /// Writes field::kShapePlace of all particles of such a body, as they are born.
   void note(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);

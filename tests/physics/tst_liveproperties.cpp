@@ -182,6 +182,40 @@ class TestLiveProperties : public QObject {
     QCOMPARE(runFor(engine, 5), QString());
   }
 
+  /// "Held in place" acts at the next reset, and so does all that hangs on it: until then matter that was made held
+  /// keeps its temperature when the switch is off, and what was made free warms when it is on.
+  void whatIsHeldStaysHeldUntilTheReset_data() {
+    QTest::addColumn<bool>("held");
+    QTest::newRow("switched off") << true;
+    QTest::newRow("switched on") << false;
+  }
+  void whatIsHeldStaysHeldUntilTheReset() {
+    QFETCH(bool, held);
+    Project project = between("iron");
+    ParameterSet& mild = project.bodies[1].parameters;
+    mild.values["heating_power"] = 0.0;
+    mild.values["fixed"] = held;
+    mild.values["heat"] = std::string("fixed_temperature");
+    mild.values["held_temperature"] = 290.0;
+    Engine engine(project, *m_plugins);
+    const auto isBath = [&] {
+      const ParticleStore& store = engine.particles();
+      for (size_t i = 0; i < store.size(); ++i) {
+        const bool fixed = store.motion()[i] == api::Motion::Static;
+        if (store.body()[i] == 1 && (!fixed || std::abs(double{store.temperature()[i]} - 290) > 1e-3)) return false;
+      }
+      return true;
+    };
+    QCOMPARE(runFor(engine, 3), QString());
+    QCOMPARE(isBath(), held);
+    QVERIFY(!engine.setParameter({Owner::Body, "mild", "fixed"}, !held));  // not yet
+    QCOMPARE(runFor(engine, 3), QString());
+    QCOMPARE(isBath(), held);
+    engine.reset();
+    QCOMPARE(runFor(engine, 3), QString());
+    QCOMPARE(isBath(), !held);
+  }
+
   /// What is not of the edited material is not touched, to the bit.
   void otherMatterIsLeftAlone() {
     Project project = slushAndSteam();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies and materials come and go by hands in the real window; rows that follow.
+#include "core/plugin_host/registry.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/graphs/energypanel.h"
@@ -9,6 +10,7 @@
 #include "ui/panels/outliner.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
 #include "ui/theme/paint.h"
@@ -17,7 +19,9 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
+#include "ui/window/windowlayout.h"
 
+#include <QtCore/QMimeData>
 #include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
 #include <QtGui/QContextMenuEvent>
@@ -25,6 +29,8 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QTreeView>
 
 #include <set>
@@ -70,6 +76,36 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(palette->currentTitle(), QStringLiteral("Add material Paraffin wax"));
     QTest::keyClick(palette->field(), Qt::Key_Return);
     QCOMPARE(document().project().materials.back().base, std::string("wax"));
+  }
+
+  /// One that joins the scene by being dropped on a body, say, may stand far below what the panel shows.
+  void aMaterialThatJoinsIsInSight() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    m_window->layoutOfDocks().showPage(QStringLiteral("Materials"));
+    QScrollArea* scroll = nullptr;
+    for (QWidget* at = panel; at && !scroll; at = at->parentWidget()) scroll = qobject_cast<QScrollArea*>(at);
+    QVERIFY(scroll);
+    const auto inSight = [&](const std::string& id) {
+      const QRect tile = panel->tileOf(id);
+      return !tile.isEmpty() && scroll->viewport()->rect().contains(panel->mapTo(scroll->viewport(), tile.center()));
+    };
+    std::vector<std::string> bases = document().plugins()->ids(PluginKind::Material);
+    std::erase(bases, std::string("water"));
+    QVERIFY(bases.size() > 8);
+    const std::string last = bases.back();
+    bases.pop_back();
+    for (const std::string& base : bases) document().addMaterial(base);
+    QTRY_VERIFY(scroll->verticalScrollBar()->maximum() > 0);
+    m_window->selection().setMaterial("water");
+    QTRY_VERIFY(inSight("water"));
+    QMimeData dragged;
+    dragged.setData(QLatin1String(kInstalledMime), QByteArray::fromStdString(last));
+    QVERIFY(giveMaterial(document(), {"ice"}, dragged));
+    QTRY_VERIFY(inSight(document().body("ice")->material));
+    QVERIFY(!inSight("water"));
+    m_window->selection().setMaterial(bases.front());  // by a body that is selected, or a row that is looked for
+    m_window->selection().setMaterial("water");
+    QTRY_VERIFY(inSight("water"));
   }
 
   void anUnusedMaterialIsRemovedByItsMenu() {
@@ -272,6 +308,7 @@ class TestContentWindow : public SampleWindowTest {
     ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/temperature"));
     QVERIFY(row && row->model().rules.contains(QStringLiteral("Acts at the next reset.")));
     const auto waits = [&] { return row->has(RowState::Limited); };
+    leaveTheStart();
     QVERIFY(!waits());
     document().setParameter({Owner::Body, "ice", "temperature"}, 250.0);
     QVERIFY(waits());
@@ -296,6 +333,7 @@ class TestContentWindow : public SampleWindowTest {
       const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
       return label ? label->text() : QString();
     };
+    leaveTheStart();
     QCOMPARE(note(), QString());
     QCOMPARE(document().setParameter(kSpacing, before / 2), QString());
     QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset: ")), qPrintable(note()));
@@ -408,6 +446,34 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY2(last - first <= number + 2, qPrintable(QString::number(last - first)));
   }
 
+  /// Nor does another stage that is named as the slowest: what stands to the right of its name stays.
+  void anotherStageMovesNothing() {
+    auto* line = m_window->findChild<StatusLine*>();
+    StatusLine::State state = line->state();
+    const auto shown = [&](Stage slowest) {
+      auto snapshot = std::make_shared<Snapshot>(*state.snapshot);
+      snapshot->revision += 1000 + static_cast<uint64_t>(slowest);  // of a run of its own: nothing is known of before
+      snapshot->stats.milliseconds = {};
+      snapshot->stats.milliseconds[static_cast<size_t>(slowest)] = 5000;
+      state.snapshot = snapshot;
+      for (int frame = 0; frame < 200; ++frame) line->setState(state);
+      return line->grab().toImage().convertToFormat(QImage::Format_RGB32);
+    };
+    const QImage narrow = shown(Stage::Heat), wide = shown(Stage::Neighbours);
+    QVERIFY(line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("neighbours")));
+    // Columns that differ are those of the name and of what is measured beside it.
+    int last = 0;
+    for (int x = 0; x < wide.width(); ++x) {
+      for (int y = 0; y < wide.height(); ++y) {
+        if (wide.pixel(x, y) != narrow.pixel(x, y)) last = x;
+      }
+    }
+    const double most =
+        textWidth(line->parts().mid(0, 3).join(QString(8, QLatin1Char('0'))), Theme::font(TextRole::Small)) *
+        line->devicePixelRatioF();
+    QVERIFY2(last < most, qPrintable(QStringLiteral("%1 of %2").arg(last).arg(most)));
+  }
+
   void tipsOfTheFileMenuSayMoreThanTheEntry() {
     QList<QAction*> entries;
     for (const QObject* place : m_window->action(QStringLiteral("file.new"))->associatedObjects()) {
@@ -484,6 +550,12 @@ class TestContentWindow : public SampleWindowTest {
   }
 
  private:
+  /// Paused there, nothing waits for a reset.
+  void leaveTheStart() {
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 0, kLong);
+    QTRY_VERIFY(!session().appliesAtOnce());
+  }
   /// What stands beside a name in the outliner.
   QString probeDetail(const QString& name) const {
     const QAbstractItemModel* model = m_window->outliner()->view()->model();

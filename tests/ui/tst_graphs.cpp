@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 using namespace ps;
 using namespace ps::testing;
@@ -35,6 +36,7 @@ class TestGraphs : public QObject {
   void labelsKeepClearOfTheTitle_data();
   void labelsKeepClearOfTheTitle();
   void stackAddsUp();
+  void whatMeltsIsHatched();
   void unitsTakePrefixes();
   void nothingIsNoData();
   void paintingDoesNotGrowWithSamples();
@@ -315,6 +317,28 @@ void TestGraphs::stackAddsUp() {
   QCOMPARE(at(0.4), QColor(0x3A, 0x63, 0xB8));
   QCOMPARE(at(0.87), QColor(0x45, 0xC4, 0xB8));
   QCOMPARE(at(0.97), QColor(0xF5, 0xF1, 0xE6));
+}
+
+/// In grey what melts is as dark as what is solid: it is hatched.
+void TestGraphs::whatMeltsIsHatched() {
+  PhaseStackView stack;
+  stack.append(0, {1.0, 1.0, 0, 0, 0});
+  stack.append(10, {1.0, 1.0, 0, 0, 0});
+  stack.resize(400, 200);
+  const QImage image = stack.grab().toImage();
+  const QRectF plot = stack.plotRect();
+  const double ratio = image.devicePixelRatio();
+  const auto colours = [&](double share) {
+    std::set<QRgb> found;
+    const auto y = static_cast<int>((plot.bottom() - (plot.height() - 22) * share) * ratio);
+    for (int x = 0; x < 40; ++x) {
+      for (int down = 0; down < 10; ++down)
+        found.insert(image.pixel(static_cast<int>((plot.left() + 20) * ratio) + x, y + down));
+    }
+    return found;
+  };
+  QCOMPARE(colours(0.25).size(), size_t{1});
+  QVERIFY(colours(0.75).size() > 1 && colours(0.75).contains(QColor(0xB5, 0x52, 0x8F).rgb()));
 }
 
 /// The axis takes the prefix that its values need, and says so; the read-out takes the one of each value.

@@ -345,9 +345,9 @@ class TestGraphsWindow : public SampleWindowTest {
   void aPathThatCannotBeWrittenIsTold() {
     hands::answerDialog(m_folder.filePath(QStringLiteral("no/such/folder/graph.csv")));
     choose(first(), {"Export as CSV…"});
-    QTRY_VERIFY_WITH_TIMEOUT(m_window->notice()->isVisible(), kLong);
-    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("no/such/folder")),
-             qPrintable(m_window->notice()->text()));
+    QTRY_VERIFY2_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("no/such/folder")),
+                              qPrintable(m_window->notice()->text()), kLong);
+    QVERIFY(m_window->notice()->isVisible());
   }
 
  private:

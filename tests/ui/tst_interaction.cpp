@@ -184,6 +184,25 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(passed == all);
   }
 
+  /// The header of a dock is read before its pages, and so are its buttons.
+  void tabGoesThroughAHeaderFirst() {
+    auto* dock = m_window->findChild<Dock*>(QStringLiteral("dock.graphs"));
+    auto* tabs = dock->findChild<QTabBar*>();
+    std::vector<QWidget*> buttons;
+    for (QToolButton* button : dock->titleBarWidget()->findChildren<QToolButton*>()) {
+      if ((button->focusPolicy() & Qt::TabFocus) && button->isVisible()) buttons.push_back(button);
+    }
+    std::sort(buttons.begin(), buttons.end(), [](const QWidget* a, const QWidget* b) { return a->x() < b->x(); });
+    QVERIFY(buttons.size() >= 2);
+    QWidget* at = tabs;
+    for (const QWidget* button : buttons) {
+      do {
+        at = at->nextInFocusChain();
+      } while (!(at->focusPolicy() & Qt::TabFocus) || !at->isVisible());
+      QCOMPARE(at, button);
+    }
+  }
+
   /// A key turns the view under a pointer that rests.
   void theBrushStandsUnderThePointerInAnotherView() {
     m_window->tools().activate("brush");

@@ -404,6 +404,9 @@ class TestLibrary : public SampleWindowTest {
     const auto rows = dialog->table()->findItems(QStringLiteral("Density, solid"), Qt::MatchExactly);
     QVERIFY(rows.size() == 1 && rows.front()->text(4).startsWith(QStringLiteral("volumes add up")));
     QVERIFY(!dialog->preview()->curve(MixPreview::Mixed).empty());
+    for (const auto which : {MixPreview::First, MixPreview::Second, MixPreview::Mixed})
+      QVERIFY(dialog->preview()->swatch(which));
+    QCOMPARE(*dialog->preview()->swatch(MixPreview::First), swatchOf(entryOf("tin")->values));
     QTest::qWait(50);
     dialog->grab().save(QStringLiteral("mix_dialog.png"));
     press(*dialog, QStringLiteral("Add to the scene"));

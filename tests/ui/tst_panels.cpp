@@ -43,6 +43,7 @@ class TestPanels : public QObject {
   void panelGroupsAndFilters();
   void headingsCountWhatIsShown();
   void revealPutsTheHeadingOnTop();
+  void notesMoveNoRowUnderThePointer();
   void explainShowsTheTip();
   void pinnedOriginalsOfferTheWayBack();
   void panelCountsChanges();
@@ -319,6 +320,36 @@ void TestPanels::noTextIsCut() {
   }
   const ParameterRow* row = panel.row(QStringLiteral("conductivity"));
   QCOMPARE(row->sliderRect().left() - row->labelRect().right() > kSymbolWidth - 2, symbols);
+}
+
+/// A note that comes or goes above the row under the pointer leaves that where it is.
+void TestPanels::notesMoveNoRowUnderThePointer() {
+  std::vector<RowModel> rows;
+  for (const char* name : {"One", "Two", "Three", "Four"}) {
+    for (RowModel& row : rowModels(list(), {}, {}, QString::fromLatin1(name) + QLatin1Char('/'))) {
+      row.declaration.group = name;
+      rows.push_back(std::move(row));
+    }
+  }
+  ParameterPanel panel;
+  panel.setModel(rows);
+  panel.resize(392, 300);
+  show(panel);
+  const auto* scroll = panel.findChild<QScrollArea*>();
+  ParameterRow* row = panel.row(QStringLiteral("Two/conductivity"));
+  QVERIFY(panel.reveal(row->key(), false));
+  row->setAttribute(Qt::WA_UnderMouse);
+  const auto top = [&] { return row->mapTo(scroll->viewport(), QPoint()).y(); };
+  const int before = top(), height = scroll->widget()->height();
+  panel.setLimit(QStringLiteral("One/conductivity"), QStringLiteral("The solver reaches less than that."));
+  QTRY_VERIFY(scroll->widget()->height() > height);
+  QCOMPARE(top(), before);
+  panel.setError(QStringLiteral("One/plate_temperature"), QStringLiteral("Below 0 K there is nothing."));
+  QCOMPARE(top(), before);
+  panel.setLimit(QStringLiteral("One/conductivity"), {});
+  panel.setError(QStringLiteral("One/plate_temperature"), {});
+  QTRY_COMPARE(scroll->widget()->height(), height);
+  QCOMPARE(top(), before);
 }
 
 /// A panel on the screen takes the other theme's colours at once, notes with links included.

@@ -16,6 +16,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/session/worker.h"
+#include "ui/theme/icon.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
@@ -24,6 +25,7 @@
 #include <QtCore/QDir>
 #include <QtCore/QMimeData>
 #include <QtCore/QProcess>
+#include <QtCore/QStandardPaths>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QTimer>
 #include <QtGui/QAction>
@@ -32,6 +34,7 @@
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QFileDialog>
+#include <QtWidgets/QHeaderView>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMessageBox>
 #include <QtWidgets/QPushButton>
@@ -351,6 +354,30 @@ class TestSession : public QObject {
     QVERIFY(suggested.endsWith(QStringLiteral("Ice on a plate.json")));
     m_window->session().worker().wait();
     QCOMPARE(read(m_sample), before);
+  }
+
+  /// Files to read begin where people keep theirs, not among the samples; Qt's own list shows whole names, and its
+  /// folders have the theme's icon.
+  void filesAreChosenWherePeopleKeepThem() {
+    open();
+    const QString home = QDir::homePath(),
+                  documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+    for (const char* name : {"file.open", "file.openRecording", "add.mesh"}) {
+      bool asked = false;
+      whenOpen<QFileDialog>([&](QFileDialog& dialog) {
+        asked = true;
+        const QString at = dialog.directory().absolutePath();
+        const auto* list = dialog.findChild<QTreeView*>(QStringLiteral("treeView"));
+        dialog.reject();
+        QCOMPARE(at, QDir(documents).exists() ? documents : home);
+        QVERIFY(list);
+        QCOMPARE(list->header()->sectionResizeMode(0), QHeaderView::Stretch);
+      });
+      m_window->action(QString::fromLatin1(name))->trigger();
+      QVERIFY2(asked, name);
+    }
+    const QPixmap folder = qApp->style()->standardIcon(QStyle::SP_DirIcon).pixmap(16);
+    QCOMPARE(folder.toImage(), icon(QStringLiteral("folder"), false).pixmap(16).toImage());
   }
 
   /// "foo" becomes "foo.json" before the question whether that file may be replaced.

@@ -4,6 +4,7 @@
 #include "ui/library/materialcard.h"
 #include "ui/library/swatches.h"
 #include "ui/rows/panelheader.h"
+#include "ui/session/cachefolder.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QDir>
@@ -102,6 +103,33 @@ class TestSwatches : public QObject {
   void initTestCase() { QStandardPaths::setTestModeEnabled(true); }
   void init() { QDir(folder()).removeRecursively(); }
   void cleanupTestCase() { QDir(folder()).removeRecursively(); }
+
+  /// What nobody asked for in half a year, and what does not fit, the oldest first; what was left half written as well.
+  void oldPicturesGo() {
+    QVERIFY(QDir().mkpath(folder()));
+    const auto put = [](const QString& name, int bytes, int days) {
+      QFile file(folder() + QLatin1Char('/') + name);
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(QByteArray(bytes, 'x'));
+      file.flush();
+      file.setFileTime(QDateTime::currentDateTime().addDays(-days), QFileDevice::FileModificationTime);
+    };
+    put(QStringLiteral("new.png"), 100, 0);
+    put(QStringLiteral("used.png"), 100, 40);
+    put(QStringLiteral("large.png"), 100, 50);
+    put(QStringLiteral("old.png"), 1, 200);
+    useCached(folder() + QStringLiteral("/new.png"));
+    tidyCache(folder(), {250, 180});
+    const auto left = [] { return QDir(folder()).entryList(QDir::Files, QDir::Name); };
+    QCOMPARE(left(), QStringList({QStringLiteral("new.png"), QStringLiteral("used.png")}));
+    useCached(folder() + QStringLiteral("/used.png"));
+    put(QStringLiteral("middle.png"), 100, 10);
+    tidyCache(folder(), {250, 180});
+    QCOMPARE(left(), QStringList({QStringLiteral("new.png"), QStringLiteral("used.png")}));
+    put(QStringLiteral("old.png"), 1, 200);
+    const Swatches swatches;  // at the start of a program
+    QTRY_VERIFY(!QFile::exists(folder() + QStringLiteral("/old.png")));
+  }
 
   /// On nothing, in its own colour, and so large that one sees it.
   void matterHasItsColour_data() {

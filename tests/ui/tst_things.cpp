@@ -63,6 +63,25 @@ class TestThings : public SampleWindowTest {
     QVERIFY(row(key)->has(RowState::Mixed));
   }
 
+  /// A row that is found by its name is of one body: that one is selected alone, and the row edits no other.
+  void aRowThatIsRevealedIsOfOneBody() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies(ids);
+    const Address address{Owner::Shape, ids[1], "size_y"};
+    const double other = sizeOf(ids[0]);
+    QVERIFY(m_window->revealParameter(address));
+    QCOMPARE(m_window->selection().bodies(), std::vector<std::string>{ids[1]});
+    ParameterRow* revealed = row(QString::fromStdString(address.text()));
+    QVERIFY(revealed && revealed->enter(QStringLiteral("50 mm")));
+    QCOMPARE(sizeOf(ids[1]), 0.05);
+    QCOMPARE(sizeOf(ids[0]), other);
+    // Of another body than the one that is selected, too.
+    QVERIFY(m_window->revealParameter({Owner::Body, ids[2], "temperature"}));
+    QCOMPARE(m_window->selection().bodies(), std::vector<std::string>{ids[2]});
+    QVERIFY(m_window->revealParameter({Owner::Wall, "floor", "temperature"}));  // shown with all others
+    QCOMPARE(m_window->selection().bodies(), std::vector<std::string>{ids[2]});
+  }
+
   void anEditOfManyComparesEachOnce_data() {
     QTest::addColumn<int>("bodies");
     QTest::newRow("10") << 10;

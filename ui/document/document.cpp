@@ -77,6 +77,14 @@ void Document::beginGesture(const QString& text) {
   m_gestureText = text;
 }
 
+bool Document::actsAtReset(const Address& address) const {
+  const api::ParameterDeclaration* declared = declaration(address);
+  if (!declared) return false;
+  const Body* body = this->body(address.id);
+  const bool fixed = body && toggleOf(body->parameters, bodyParameters(), "fixed");
+  return declared->actsAt == api::ActsAt::NextReset || (declared->actsAt == api::ActsAt::NextFrameIfFixed && !fixed);
+}
+
 void Document::endGesture() {
   if (m_gestureDepth > 0 && --m_gestureDepth == 0) ++m_gesture;
 }

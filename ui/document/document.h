@@ -64,6 +64,8 @@ class Document : public QObject {
   Value value(const Address& address) const;
   Value defaultValue(const Address& address) const;
   const api::ParameterDeclaration* declaration(const Address& address) const;
+  /// Of the scene as it is made: another value acts at the next reset.
+  bool actsAtReset(const Address& address) const;
   /// Edits between these two are one undo step.
   void beginGesture(const QString& text = {});
   void endGesture();
@@ -125,8 +127,8 @@ class Document : public QObject {
   // Things of several kinds
   /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their tracks, groups
   /// and materials, but for materials that the scene has already; what they refer to among themselves follows their new
-  /// ids. A copy of some of a group's members joins that group, one of all of them is a group more. Returns them as they
-  /// are here.
+  /// ids. A copy of some of a group's members joins that group, one of all of them is a group more. Returns them as
+  /// they are here.
   Placement insertThings(Project things, const QString& title);
   /// How things stand in lists, and their groups (see livingGroups()).
   SceneOrder order() const;

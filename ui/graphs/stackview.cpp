@@ -112,6 +112,9 @@ void StackView::paintLayers(QPainter& painter, const std::vector<size_t>& column
     area << QPointF(x(times[columns.back()].time), y(0));
     painter.setBrush(colourOf(layer));
     if (any) painter.drawPolygon(area);
+    if (!any || !isHatched(layer)) continue;
+    painter.setBrush(QBrush(Theme::current()[Token::Window], Qt::BDiagPattern));
+    painter.drawPolygon(area);
   }
 }
 
@@ -238,6 +241,12 @@ void PhaseStackView::append(double time, const std::array<double, 5>& kilograms)
 }
 
 QColor PhaseStackView::colourOf(size_t layer) const { return colourMap(QStringLiteral("phase")).stops[layer].second; }
+
+/// What melts is as dark as what is solid, where colours do not show, and what boils as bright as a liquid.
+bool PhaseStackView::isHatched(size_t layer) const {
+  const auto phase = static_cast<api::Phase>(layer);
+  return phase == api::Phase::Melting || phase == api::Phase::Boiling;
+}
 
 EnergyStackView::EnergyStackView(QWidget* parent)
     : StackView({{QStringLiteral("Through walls"), QStringLiteral("W")},

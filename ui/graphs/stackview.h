@@ -30,6 +30,7 @@ class StackView : public TimePlot {
 
  protected:
   virtual QColor colourOf(size_t layer) const = 0;
+  virtual bool isHatched(size_t) const { return false; }  ///< to be told from its neighbours without colours
   bool hasData() const override;
   double lastTime() const override;
   std::pair<double, double> valueExtent(size_t axis, double first, double last) const override;
@@ -53,6 +54,7 @@ class PhaseStackView : public StackView {
 
  protected:
   QColor colourOf(size_t layer) const override;
+  bool isHatched(size_t layer) const override;
 };
 
 /// What heat has come from where since the start, in J, and how much matter holds more: both are measured, and where

@@ -2,6 +2,7 @@
 #include "ui/library/mixpreview.h"
 
 #include "ui/library/materialcard.h"
+#include "ui/library/swatches.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
@@ -17,7 +18,8 @@ namespace {
 
 constexpr double kPressure = 101325;  // Pa
 constexpr double kAround = 40;        // K on either side of the first and the last change of phase
-constexpr int kBar = 13, kLine = 20, kGap = 8, kNames = 96, kLeft = 64, kBelow = 18;
+constexpr float kShades = 24;         // a share that is dragged asks for few pictures
+constexpr int kBar = 13, kSwatch = 32, kLine = 36, kGap = 8, kNames = 132, kLeft = 64, kBelow = 18;
 
 struct Range {
   double cold, hot;  ///< K
@@ -33,7 +35,8 @@ Range rangeOf(const api::Caloric& caloric) {
 
 }  // namespace
 
-MixPreview::MixPreview(QWidget* parent) : QWidget(parent) {
+MixPreview::MixPreview(Swatches& swatches, QWidget* parent) : QWidget(parent), m_swatches(swatches) {
+  connect(&swatches, &Swatches::arrived, this, qOverload<>(&QWidget::update));
   setAccessibleName(QStringLiteral("Phases and heating curves of the parts and of the mixture"));
 }
 
@@ -45,7 +48,12 @@ void MixPreview::showMaterials(const Material& first, const Material& second, co
     m_labels[k] = k == Mixed ? QStringLiteral("Mixture") : all[k] ? QString::fromStdString(all[k]->label) : QString();
     m_bands[k] = all[k] ? bandsOf(*all[k]) : std::vector<PhaseBand>{};
     m_curves[k].clear();
+    m_looks[k].reset();
     if (!all[k]) continue;
+    m_looks[k] = swatchOf(*all[k]);
+    if (k == Mixed) {
+      for (float& part : m_looks[k]->look) part = std::round(part * kShades) / kShades;
+    }
     calorics[k] = BakedMaterial(*all[k], kPressure).caloric();
     const Range own = rangeOf(calorics[k]);
     range = {std::min(range.cold, own.cold), std::max(range.hot, own.hot)};
@@ -66,9 +74,12 @@ QColor MixPreview::colourOf(int which) const {
 void MixPreview::paintBars(QPainter& painter) const {
   for (int k = 0; k < kCount; ++k) {
     if (m_bands[static_cast<size_t>(k)].empty()) continue;
-    const QRectF row(0, k * kLine, width(), kBar);
-    paintText(painter, QRectF(0, row.top() - 2, kNames - 6, kBar + 4), Qt::AlignLeft | Qt::AlignVCenter,
-              m_labels[static_cast<size_t>(k)], Theme::font(TextRole::Small), colourOf(k));
+    const QRectF row(0, k * kLine + (kSwatch - kBar) / 2.0, width(), kBar);
+    if (const auto& look = m_looks[static_cast<size_t>(k)])
+      paintSwatch(painter, QRectF(0, k * kLine, kSwatch, kSwatch), *look, m_swatches);
+    paintText(painter, QRectF(kSwatch + 6, row.top() - 2, kNames - kSwatch - 12, kBar + 4),
+              Qt::AlignLeft | Qt::AlignVCenter, m_labels[static_cast<size_t>(k)], Theme::font(TextRole::Small),
+              colourOf(k));
     paintBands(painter, row.adjusted(kNames, 0, 0, 0), m_bands[static_cast<size_t>(k)]);
   }
 }

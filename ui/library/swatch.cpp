@@ -60,18 +60,22 @@ SnapshotPtr sampleOf(const Swatch& swatch) {
   return sample;
 }
 
-}  // namespace
-
-Swatch swatchOf(const LibraryEntry& entry) {
+Swatch swatchOf(const Material& material, const std::vector<PhaseBand>& bands) {
   Swatch swatch;
   constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue", "clearness"};
   for (size_t k = 0; k < swatch.look.size(); ++k)
-    swatch.look[k] = static_cast<float>(std::clamp(valueOf(entry.values, kKeys[k], kRoom), 0.0, 1.0));
-  for (const PhaseBand& band : entry.bands) {
+    swatch.look[k] = static_cast<float>(std::clamp(valueOf(material, kKeys[k], kRoom), 0.0, 1.0));
+  for (const PhaseBand& band : bands) {
     if (kRoom >= band.from && kRoom < band.to) swatch.phase = band.phase;
   }
   return swatch;
 }
+
+}  // namespace
+
+Swatch swatchOf(const LibraryEntry& entry) { return swatchOf(entry.values, entry.bands); }
+
+Swatch swatchOf(const Material& material) { return swatchOf(material, bandsOf(material)); }
 
 SceneShot shotOf(const Swatch& swatch) {
   SceneShot shot{sampleOf(swatch), {}, {}, {}};

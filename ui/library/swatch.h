@@ -7,6 +7,7 @@
 namespace ps {
 
 struct LibraryEntry;
+struct Material;
 struct SceneShot;
 
 /// A sample of a material as it is in a room: all that its picture depends on.
@@ -17,6 +18,7 @@ struct Swatch {
 };
 
 Swatch swatchOf(const LibraryEntry& entry);
+Swatch swatchOf(const Material& material);
 /// A lump of it, a drop or a cloud. Its particles are put where they are: for a picture as small as this no plugin has
 /// to run, and what scene is open does not matter.
 SceneShot shotOf(const Swatch& swatch);

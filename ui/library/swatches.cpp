@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "ui/film/sceneshot.h"
+#include "ui/session/cachefolder.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QCoreApplication>
@@ -37,10 +38,19 @@ void keep(const QImage& picture, const QString& path) {
 
 QImage kept(const QString& path, int side) {
   const QImage picture(path);
+  if (!picture.isNull()) useCached(path);
   return picture.size() == QSize(side, side) ? picture.convertToFormat(QImage::Format_ARGB32_Premultiplied) : QImage();
 }
 
+QString swatchFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/swatches");
+}
+
 }  // namespace
+
+Swatches::Swatches(QObject* parent) : QObject(parent) {
+  m_worker.run([folder = swatchFolder()] { tidyCache(folder); });
+}
 
 QString swatchPath(const Swatch& swatch, int side) {
   QString content = QStringLiteral("%1 %2 %3 %4")
@@ -50,8 +60,7 @@ QString swatchPath(const Swatch& swatch, int side) {
                         .arg(static_cast<int>(swatch.phase));
   for (const float value : swatch.look) content += QStringLiteral(" %1").arg(static_cast<double>(value), 0, 'g', 9);
   const QByteArray hash = QCryptographicHash::hash(content.toUtf8(), QCryptographicHash::Sha1).toHex();
-  return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/swatches/") +
-         QString::fromLatin1(hash) + QStringLiteral(".png");
+  return swatchFolder() + QLatin1Char('/') + QString::fromLatin1(hash) + QStringLiteral(".png");
 }
 
 Swatches::~Swatches() {

@@ -24,7 +24,8 @@ QString swatchPath(const Swatch& swatch, int side);
 class Swatches : public QObject {
   Q_OBJECT
  public:
-  explicit Swatches(QObject* parent = nullptr) : QObject(parent) {}
+  /// Older pictures that nobody asked for any more go, see tidyCache().
+  explicit Swatches(QObject* parent = nullptr);
   ~Swatches() override;
   /// `side` in device pixels. Null while it is not there: it is read or drawn, and arrived() follows.
   QImage of(const Swatch& swatch, int side);

@@ -32,6 +32,7 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     : QObject(parent),
       m_session(session),
       m_document(session.document()),
+      m_selection(selection),
       m_body(new ParameterPanel),
       m_material(new ParameterPanel),
       m_scene(new ParameterPanel),
@@ -47,7 +48,10 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   connect(&session, &Session::valuesDue, this, [this] {
     if (now() != m_shownAt) showTracks();
   });
-  connect(&session, &Session::happened, this, [this](const EngineEvent& event) { m_notes.hear(event); });
+  connect(&session, &Session::happened, this, [this](const EngineEvent& event) {
+    m_notes.setNothingWaits(m_session.appliesAtOnce());
+    m_notes.hear(event);
+  });
   connect(&selection, &Selection::changed, this, [this, &selection] {
     if (selection.kind() == OutlineKind::Probe)
       setProbe(selection.id());
@@ -375,6 +379,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
+    m_notes.setNothingWaits(m_session.appliesAtOnce());
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
@@ -427,23 +432,8 @@ void Inspector::refreshProperties(const std::string& material) {
 
 void Inspector::setSnapshot(const Snapshot& snapshot) {
   showTemperatures(snapshot);
+  m_notes.setNothingWaits(m_session.appliesAtOnce());
   m_notes.setSnapshot(snapshot);
-}
-
-ParameterPanel* Inspector::panelFor(const Address& address) {
-  if (address.owner == Owner::Material) {
-    setMaterial(address.id);
-    return m_material;
-  }
-  if (address.owner == Owner::Probe) {
-    setProbe(address.id);
-    return m_body;
-  }
-  if (address.owner == Owner::Body || address.owner == Owner::Constraint || address.owner == Owner::Shape) {
-    setBody(address.id);
-    return m_body;
-  }
-  return m_solver->row(QString::fromStdString(address.text())) ? m_solver : m_scene;
 }
 
 }  // namespace ps

@@ -17,6 +17,7 @@ namespace ps {
 
 class Document;
 class Selection;
+enum class OutlineKind;
 class Session;
 
 /// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
@@ -36,7 +37,7 @@ class Inspector : public QObject {
   void setProbe(const std::string& id);  ///< in the place of a body
   void setMaterial(const std::string& id);
   const std::string& material() const { return m_materialId; }
-  /// The panel that shows an address, after choosing its owner; nullptr when there is none.
+  /// The panel that shows an address, after selecting its owner alone; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
   /// How often the value of one body was compared with another's so far, for rows of several.
@@ -54,6 +55,7 @@ class Inspector : public QObject {
 
  private:
   void onChanged(const ChangeEvent& event);
+  bool selectAlone(OutlineKind kind, const std::string& id);
   void refreshIdle(const Address& changed);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
@@ -101,6 +103,7 @@ class Inspector : public QObject {
 
   Session& m_session;
   Document& m_document;
+  Selection& m_selection;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
   std::string m_bodyId, m_materialId;

@@ -4,6 +4,7 @@
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/rowmodels.h"
+#include "ui/session/selection.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
@@ -143,6 +144,32 @@ void Inspector::showPlace(const std::string& id) {
       panel->setValue(QString::fromStdString(address.text()), m_document.value(address));
     refreshMixed(address);
   }
+}
+
+/// What rows edit is what is selected: of several bodies nobody would see which one it is. False: it is already.
+bool Inspector::selectAlone(OutlineKind kind, const std::string& id) {
+  if (m_selection.items() == std::vector<SelectedItem>{{kind, id}}) return false;
+  if (kind == OutlineKind::Body && !m_document.body(id)) return false;
+  if (kind == OutlineKind::Probe && !m_document.probe(id)) return false;
+  m_selection.select(kind, id);
+  return true;
+}
+
+ParameterPanel* Inspector::panelFor(const Address& address) {
+  if (address.owner == Owner::Material) {
+    m_selection.setMaterial(address.id);
+    setMaterial(address.id);
+    return m_material;
+  }
+  if (address.owner == Owner::Probe) {
+    if (!selectAlone(OutlineKind::Probe, address.id)) setProbe(address.id);
+    return m_body;
+  }
+  if (address.owner == Owner::Body || address.owner == Owner::Constraint || address.owner == Owner::Shape) {
+    if (!selectAlone(OutlineKind::Body, address.id)) setBody(address.id);
+    return m_body;
+  }
+  return m_solver->row(QString::fromStdString(address.text())) ? m_solver : m_scene;
 }
 
 }  // namespace ps

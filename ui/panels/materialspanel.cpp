@@ -79,10 +79,35 @@ MaterialsPanel::MaterialsPanel(Document& document, Selection& selection, QWidget
   connect(&selection, &Selection::materialChanged, this, &MaterialsPanel::showCurrent);
   connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
     const auto* parameter = std::get_if<ParameterChanged>(&event);
+    const std::vector<std::string> before = ownIds();
     if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event) ||
         (parameter && parameter->address.owner == Owner::Material))
       rebuild();
+    if (std::holds_alternative<MaterialsChanged>(event)) revealJoined(before);
   });
+}
+
+std::vector<std::string> MaterialsPanel::ownIds() const {
+  std::vector<std::string> ids;
+  for (size_t i = 0; i < m_own; ++i) ids.push_back(m_tiles[i].id);
+  return ids;
+}
+
+/// One that was dropped on a body, say, somewhere else in the window.
+void MaterialsPanel::revealJoined(const std::vector<std::string>& before) {
+  for (const std::string& id : ownIds()) {
+    if (std::find(before.begin(), before.end(), id) == before.end()) revealSoon(id);
+  }
+}
+
+/// When what scrolls the panel knows its present height.
+void MaterialsPanel::revealSoon(const std::string& id) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, id] {
+        if (const QRect tile = tileOf(id); !tile.isEmpty()) Q_EMIT revealed(tile);
+      },
+      Qt::QueuedConnection);
 }
 
 void MaterialsPanel::rebuild() {
@@ -112,6 +137,7 @@ void MaterialsPanel::rebuild() {
 
 void MaterialsPanel::showCurrent() {
   update();
+  revealSoon(m_selection.material());
   if (!QAccessible::isActive()) return;
   QAccessibleValueChangeEvent event(this, currentLabel());
   QAccessible::updateAccessibility(&event);

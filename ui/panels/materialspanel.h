@@ -34,7 +34,8 @@ class MaterialsPanel : public QWidget {
   int heightForWidth(int width) const override;
 
  Q_SIGNALS:
-  void revealed(const QRect& tile);  ///< the keyboard has moved to it
+  /// The keyboard has moved to it, it became the current one, or it has joined the scene.
+  void revealed(const QRect& tile);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -48,6 +49,9 @@ class MaterialsPanel : public QWidget {
 
  private:
   void showCurrent();
+  void revealJoined(const std::vector<std::string>& before);
+  void revealSoon(const std::string& id);
+  std::vector<std::string> ownIds() const;
   struct Tile {
     std::string id;  ///< of one that can be added: its base
     QString label;

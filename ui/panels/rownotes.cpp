@@ -62,13 +62,7 @@ void RowNotes::onChanged(const ParameterChanged& change) {
 
 void RowNotes::noteWaiting(const ParameterChanged& change) {
   const Address& address = change.address;
-  const api::ParameterDeclaration* declaration = m_document.declaration(address);
-  if (!declaration || declaration->actsAt == api::ActsAt::NextFrame ||
-      declaration->actsAt == api::ActsAt::WithItsMatter)
-    return;
-  const Body* body = m_document.body(address.id);
-  const bool fixed = body && toggleOf(body->parameters, bodyParameters(), "fixed");
-  if (declaration->actsAt == api::ActsAt::NextFrameIfFixed && fixed) return;
+  if (!m_document.actsAtReset(address)) return;
   const auto [made, first] = m_made.try_emplace(address.text(), change.before);
   if (!first && made->second == m_document.value(address)) m_made.erase(made);
 }
@@ -142,6 +136,7 @@ QString RowNotes::costOf(const std::string& address) const {
 }
 
 void RowNotes::addWaiting(std::map<QString, Note>& notes) const {
+  if (m_nothingWaits) return;
   for (const auto& [address, value] : m_made)
     add(notes, QString::fromStdString(address), {waitingText(costOf(address)), kNone});
 }

@@ -22,6 +22,8 @@ class RowNotes {
   RowNotes(const Document& document, std::vector<ParameterPanel*> panels);
 
   void clear();  ///< another project
+  /// Whether the scene is made anew by itself, so that no value waits for a reset. Rows are told by what comes next.
+  void setNothingWaits(bool nothing) { m_nothingWaits = nothing; }
   void setSnapshot(const Snapshot& snapshot);
   void onChanged(const ParameterChanged& change);
   /// What keeps the scene from being made stands under its row until there is a scene.
@@ -50,8 +52,9 @@ class RowNotes {
   std::vector<Limit> m_limits;  ///< of the last snapshot: a paused scene publishes none when rows are made anew
   std::shared_ptr<const std::vector<std::string>> m_bodies;
   uint64_t m_revision = 0;
-  size_t m_particles = 0;               ///< that there are now
-  bool m_knowsStart = true;             ///< see Snapshot::knowsStart
+  size_t m_particles = 0;    ///< that there are now
+  bool m_knowsStart = true;  ///< see Snapshot::knowsStart
+  bool m_nothingWaits = false;
   std::map<std::string, Value> m_made;  ///< by address: with what the present matter was made, where that has changed
   std::map<QString, Note> m_shown;
   QString m_culprit, m_problem;  ///< key of the row, and the sentence under it

@@ -6,6 +6,7 @@
 #include "ui/rows/groupheading.h"
 #include "ui/rows/panelheader.h"
 #include "ui/rows/parameterrow_p.h"
+#include "ui/rows/steadyrows.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QCoreApplication>
@@ -361,10 +362,10 @@ void ParameterPanel::setPinned(const QStringList& keys) {
   for (ParameterRow* row : rows()) row->setIsPinned(d->pinned.contains(row->key()));
 }
 void ParameterPanel::setLimit(const QString& key, const QString& text, double delivered) {
-  d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); });
+  changeSteadily(*d->scroll, rows(), [&] { d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); }); });
 }
 void ParameterPanel::setError(const QString& key, const QString& text) {
-  d->each(key, [&](ParameterRow* row) { row->setError(text); });
+  changeSteadily(*d->scroll, rows(), [&] { d->each(key, [&](ParameterRow* row) { row->setError(text); }); });
 }
 
 ParameterRow* ParameterPanel::row(const QString& key) const {

@@ -10,6 +10,7 @@
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QDir>
+#include <QtCore/QFile>
 
 #include <algorithm>
 #include <limits>
@@ -67,6 +68,7 @@ void Autosave::discard(const AutosavedSession& session) { notes::removeAll(sessi
 
 void Autosave::takeOver(const AutosavedSession& session) {
   m_takenOver.push_back(session.stem);
+  if (session.look.hasRun) QFile::rename(notes::runPath(session.stem), runPath());
   write(SessionEnd::None);
 }
 
@@ -76,10 +78,14 @@ void Autosave::saveNow() {
   if (m_writing == 0 && (m_moved || m_written != m_document.changeCount())) write(SessionEnd::None);
 }
 
-QString Autosave::close() {
+QString Autosave::runPath() const { return notes::runPath(m_stem); }
+
+QString Autosave::close(bool hasRun) {
   if (m_document.changeCount() == 0) return {};  // nothing was open yet: the session before this one stands
+  AutosavedSession session = present(SessionEnd::Closed);
+  session.look.hasRun = hasRun;
   QString problem;
-  m_worker.run([&problem, job = copyJob(present(SessionEnd::Closed))] { problem = job(); });
+  m_worker.run([&problem, job = copyJob(session)] { problem = job(); });
   m_worker.wait();
   if (!problem.isEmpty()) return problem;
   m_timer.stop();
@@ -108,6 +114,7 @@ AutosavedSession Autosave::present(SessionEnd end) const {
   session.time = QDateTime::currentDateTime();
   session.end = end;
   session.view = m_document.project().view;
+  if (m_look) session.look = m_look();
   return session;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/io/filestamp.h"
 #include "core/scene/project.h"
+#include "ui/session/selection.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QObject>
@@ -10,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace ps {
@@ -24,6 +26,15 @@ enum class SessionEnd {
   Closed,    ///< with the window
 };
 
+/// What a window showed at its end beside the project.
+struct LastLook {
+  std::vector<SelectedItem> selected;
+  std::string material;           ///< the current one; "": none was said
+  bool playing = true;            ///< whether the run went on
+  std::optional<double> shownAt;  ///< s, of a recorded frame that was shown instead of the newest
+  bool hasRun = false;            ///< whether notes::runPath() is of this end
+};
+
 /// What an earlier session left behind.
 struct AutosavedSession {
   QString stem;         ///< of its files: see autosavenote.h
@@ -35,6 +46,7 @@ struct AutosavedSession {
   QDateTime time;
   SessionEnd end = SessionEnd::None;
   ViewState view;  ///< camera, section and colour at the end, without pins
+  LastLook look;
 };
 
 /// Unsaved work whose place another project took, as it was: the way back needs no file.
@@ -60,8 +72,14 @@ class Autosave : public QObject {
   /// Sessions that run no longer and that this one has not taken over, newest first.
   std::vector<AutosavedSession> leftBehind() const;
   static void discard(const AutosavedSession& session);
-  /// The document goes on with what `session` left: its files go as soon as this session has written its own.
+  /// The document goes on with what `session` left: its run is at runPath() from here on, its other files go as soon as
+  /// this session has written its own.
   void takeOver(const AutosavedSession& session);
+
+  /// Where the run is kept when this session closes, and that of a session that was taken over waits to be read.
+  QString runPath() const;
+  /// Who knows what the window shows; {}: nobody does any more.
+  void setLook(std::function<LastLook()> look) { m_look = std::move(look); }
 
   /// What the worker does around the replacement of a file by the document as it is now, so that no copy is ever
   /// offered that is older than the file: `before` with size and hash of the new bytes, `after` when they are there.
@@ -73,9 +91,9 @@ class Autosave : public QObject {
 
   void start();    ///< the timer
   void saveNow();  ///< when something changed since the last copy, were it only the file that the work belongs to
-  /// Last copy, with the note that the session ended in order; blocks until it is written. Returns "", or why it could
-  /// not be: the session then goes on.
-  QString close();
+  /// Last copy, with the note that the session ended in order, `hasRun`: whether its run is kept; blocks until it is
+  /// written. Returns "", or why it could not be: the session then goes on.
+  QString close(bool hasRun = false);
 
  Q_SIGNALS:
   void autosaved(const QDateTime& time);  ///< a copy of unsaved work is there
@@ -94,6 +112,7 @@ class Autosave : public QObject {
   Document& m_document;
   Worker& m_worker;
   QString m_directory, m_stem, m_problem;
+  std::function<LastLook()> m_look;
   std::unique_ptr<FileLock> m_lock;
   QTimer m_timer, m_rest;
   QStringList m_takenOver;  ///< stems

@@ -4,6 +4,7 @@
 #include "core/base/hash.h"
 #include "core/io/filelock.h"
 #include "core/io/outputfile.h"
+#include "core/io/recording.h"
 #include "ui/session/savejob.h"
 
 #include <QtCore/QDir>
@@ -13,6 +14,8 @@
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace ps::notes {
@@ -64,6 +67,39 @@ ViewState viewOf(const QJsonObject& json) {
   number("azimuth", camera.azimuth);
   number("elevation", camera.elevation);
   return view;
+}
+
+constexpr const char* kKinds[] = {"scene", "group",  "body",  "emitter",     "sink",
+                                  "wall",  "probes", "probe", "environment", "pin"};  // by OutlineKind
+
+QJsonObject toJson(const LastLook& look) {
+  QJsonArray selected;
+  for (const SelectedItem& item : look.selected)
+    selected.append(QJsonObject{{QStringLiteral("kind"), QLatin1String(kKinds[static_cast<size_t>(item.kind)])},
+                                {QStringLiteral("id"), QString::fromStdString(item.id)}});
+  QJsonObject json{{QStringLiteral("selected"), selected},
+                   {QStringLiteral("material"), QString::fromStdString(look.material)},
+                   {QStringLiteral("playing"), look.playing},
+                   {QStringLiteral("run"), look.hasRun}};
+  if (look.shownAt) json.insert(QStringLiteral("shownAt"), *look.shownAt);
+  return json;
+}
+
+LastLook lookOf(const QJsonObject& json) {
+  LastLook look;
+  for (const QJsonValue& value : json.value(QStringLiteral("selected")).toArray()) {
+    const QString name = value[QStringLiteral("kind")].toString();
+    const auto kind = std::find(std::begin(kKinds), std::end(kKinds), name);
+    if (kind == std::end(kKinds)) continue;
+    look.selected.push_back({static_cast<OutlineKind>(std::distance(std::begin(kKinds), kind)),
+                             value[QStringLiteral("id")].toString().toStdString()});
+  }
+  look.material = json.value(QStringLiteral("material")).toString().toStdString();
+  look.playing = json.value(QStringLiteral("playing")).toBool(look.playing);
+  look.hasRun = json.value(QStringLiteral("run")).toBool();
+  const QJsonValue at = json.value(QStringLiteral("shownAt"));
+  if (at.isDouble()) look.shownAt = at.toDouble();
+  return look;
 }
 
 // Numbers of 64 bits as text: JSON's are doubles.
@@ -123,11 +159,23 @@ bool isSaved(uint64_t change, const QJsonObject& note) {
                       {true, number(saving[QStringLiteral("size")]), 0, 0, number(saving[QStringLiteral("hash")])});
 }
 
+/// Of sessions that were killed between writing a run and its note, or that were taken over since.
+void removeStrayRuns(const QString& directory) {
+  const QDir dir(directory);
+  for (const QString& name : dir.entryList({QLatin1Char('*') + QLatin1String(kRecordingEnding)}, QDir::Files)) {
+    const QString stem = dir.filePath(name).chopped(static_cast<int>(qstrlen(kRecordingEnding)));
+    if (!QFile::exists(stem + kNote) && !FileLock::isHeld((stem + QStringLiteral(".lock")).toStdString()))
+      QFile::remove(dir.filePath(name));
+  }
+}
+
 }  // namespace
 
 QString copyPath(const QString& stem, uint64_t change) {
   return stem + QLatin1Char('.') + QString::number(change) + kJson;
 }
+
+QString runPath(const QString& stem) { return stem + QLatin1String(kRecordingEnding); }
 
 std::map<QString, Copies> sessions(const QString& directory) {
   std::map<QString, Copies> found;
@@ -154,6 +202,7 @@ AutosavedSession read(const QString& stem, const Copies& all) {
   if (!session.time.isValid()) session.time = QFileInfo(copy.isEmpty() ? stem + kNote : copy).lastModified();
   session.file = stampOf(note.value(QStringLiteral("file")));
   session.view = viewOf(note.value(QStringLiteral("view")).toObject());
+  session.look = lookOf(note.value(QStringLiteral("look")).toObject());
   const QString ended = note.value(QStringLiteral("ended")).toString();
   for (const SessionEnd end : {SessionEnd::Replaced, SessionEnd::Closed}) {
     if (ended == QLatin1String(kEnds[static_cast<size_t>(end)])) session.end = end;
@@ -170,6 +219,7 @@ void write(const AutosavedSession& session) {
                      {QStringLiteral("change"), text(session.change)},
                      {QStringLiteral("file"), toJson(session.file)},
                      {QStringLiteral("view"), toJson(session.view)},
+                     {QStringLiteral("look"), toJson(session.look)},
                      {kSaving, noteOf(session.stem).value(kSaving)}});
 }
 
@@ -191,7 +241,7 @@ void removeCopies(const QString& stem, uint64_t upTo) {
 
 void removeAll(const QString& stem) {
   removeCopies(stem, std::numeric_limits<uint64_t>::max());
-  for (const char* ending : {".note", ".lock"}) QFile::remove(stem + QLatin1String(ending));
+  for (const char* ending : {".note", ".lock", kRecordingEnding}) QFile::remove(stem + QLatin1String(ending));
 }
 
 void tidy(const QString& directory) {
@@ -205,6 +255,7 @@ void tidy(const QString& directory) {
     paths << note.value(QStringLiteral("path")).toString()
           << note.value(kSaving).toObject().value(QStringLiteral("path")).toString();
   }
+  removeStrayRuns(directory);
   paths.removeDuplicates();
   for (const QString& path : paths) {
     if (path.isEmpty()) continue;

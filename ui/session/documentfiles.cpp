@@ -172,8 +172,10 @@ void DocumentFiles::adopt(const Source& source, Read& read) {
     for (const ProjectMessage& message : *messages) warnings << QString::fromStdString(message.text);
   }
   m_lock = read.lock;
-  // A run that was recorded stands at its end.
-  const bool play = !isRecording(RecordingFiles::beside(source.documentPath).toStdString());
+  // A run that was recorded stands at its end, one that was left where it was left.
+  const LastLook look = source.session ? source.session->look : LastLook();
+  const bool play =
+      look.playing && !look.hasRun && !isRecording(RecordingFiles::beside(source.documentPath).toStdString());
   m_document.open(std::move(project), source.documentPath, source.dirty, play, own ? read.file : source.file);
   if (!source.documentPath.isEmpty()) addRecent(source.documentPath);
   if (source.session) Q_EMIT reopened(*source.session);
@@ -183,7 +185,7 @@ void DocumentFiles::adopt(const Source& source, Read& read) {
 
 void DocumentFiles::bringBack(const ReplacedWork& work) {
   ++m_request;
-  m_document.open(work.project, work.session.path, true, true, work.session.file);
+  m_document.open(work.project, work.session.path, true, work.session.look.playing, work.session.file);
   lockLater();
   Q_EMIT reopened(work.session);
   Q_EMIT opened(work.session.path, {}, 0);

@@ -1,26 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/recordingfiles.h"
 
+#include "core/base/log.h"
 #include "core/base/progress.h"
 #include "core/io/projectio.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/keptrun.h"
 #include "core/simulation/packedframe.h"
 #include "core/simulation/runrecord.h"
 #include "ui/document/document.h"
+#include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
 
+#include <QtCore/QFile>
 #include <QtCore/QFileInfo>
 #include <QtCore/QPointer>
 
+#include <chrono>
+#include <future>
+#include <iterator>
 #include <utility>
 
 namespace ps {
 namespace {
-constexpr int kClockInterval = 200;  // ms
+constexpr int kClockInterval = 200;           // ms
+constexpr std::chrono::seconds kPatience(3);  // with an engine that is amid a frame, while a window closes
 const QString kNoScene = QStringLiteral("there is no scene that runs");
+
+/// What can be gone on from, and nothing of before.
+RunContent endOf(RunContent content) {
+  KeptRun& run = content.present;
+  content.earlier.clear();
+  if (run.states.empty()) return content;
+  run.states.erase(run.states.begin(), std::prev(run.states.end()));
+  KeptRun::State& state = run.states.front();
+  run.edits.erase(run.edits.begin(), run.edits.begin() + static_cast<std::ptrdiff_t>(state.edits));
+  state.edits = 0;
+  while (!run.frames.empty() && run.frames.begin()->first < state.frame) run.eraseFrame(run.frames.begin());
+  return content;
+}
 }  // namespace
 
 /// What was read, and of what project.
@@ -55,16 +77,28 @@ RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
     m_told = true;
     Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done);
   });
-  connect(&session.files(), &DocumentFiles::opened, this, [this](const QString& path) {
-    if (m_reading) m_reading->cancel();
-    const QString recording = beside(path);
-    if (isRecording(recording.toStdString())) attach(recording);
-  });
+  connect(&session.files(), &DocumentFiles::reopened, this,
+          [this](const AutosavedSession& left) { m_comesBack = left.look.hasRun; });
+  connect(&session.files(), &DocumentFiles::opened, this, &RecordingFiles::onOpened);
 }
 
 RecordingFiles::~RecordingFiles() {
   if (m_reading) m_reading->cancel();
   for (Waiting& one : m_waiting) m_worker.run([write = std::move(one.write), begun = one.begun] { write(begun); });
+}
+
+void RecordingFiles::onOpened(const QString& project) {
+  if (m_reading) m_reading->cancel();
+  const bool comesBack = std::exchange(m_comesBack, false);
+  if (comesBack && m_session.autosave())
+    read(m_session.autosave()->runPath(), Way::Kept);
+  else
+    attachBeside(project);
+}
+
+void RecordingFiles::attachBeside(const QString& project) {
+  const QString recording = beside(project);
+  if (isRecording(recording.toStdString())) read(recording, Way::Beside);
 }
 
 QString RecordingFiles::beside(const QString& project) {
@@ -131,6 +165,37 @@ void RecordingFiles::save(const QString& path) {
   m_session.engine()->ask([answer = std::move(answer), record](const Engine&) { answer->begun = record->begun(); });
 }
 
+bool RecordingFiles::keep(const QString& path, size_t most) {
+  QFile::remove(path);
+  if (m_reading) m_reading->cancel();
+  const SnapshotPtr newest = m_session.newest();
+  EngineThread* engine = m_session.engine();
+  if (!newest || engine->making() || m_session.isBroken()) return false;
+  if (newest->stats.frame == 0 && !m_session.document().project().state) return false;  // it opens there anyway
+  const RunRecord& record = engine->recording();
+  const auto asked = std::make_shared<std::promise<uint64_t>>();
+  const std::future<uint64_t> answer = asked->get_future();
+  engine->keepState();
+  engine->ask([asked, &record](const Engine&) { asked->set_value(record.begun()); });
+  if (answer.wait_for(kPatience) != std::future_status::ready) return false;
+  bool kept = false;
+  m_worker.run([&] {
+    try {
+      record.settle();
+      RunContent content = record.content();
+      if (const RunRecord::Cost cost = record.cost(); cost.bytes + cost.disk > most) content = endOf(content);
+      RecordingWriter writer(path.toStdString(), m_session.document().project());
+      writer.add(content);
+      writer.finish();
+      kept = true;
+    } catch (const std::exception& problem) {
+      log(LogLevel::Warning, "The run is not kept: " + std::string(problem.what()));
+    }
+  });
+  m_worker.wait();
+  return kept;
+}
+
 void RecordingFiles::onAnswer(std::optional<uint64_t> begun) {
   Waiting one = std::move(m_waiting.front());
   m_waiting.pop_front();
@@ -148,26 +213,25 @@ void RecordingFiles::open(const QString& path) {
   if (QFileInfo(project).isFile() && beside(project) == info.absoluteFilePath())
     m_session.files().open(project);
   else
-    read(info.absoluteFilePath(), false);
+    read(info.absoluteFilePath(), Way::Alone);
 }
 
-void RecordingFiles::attach(const QString& path) { read(path, true); }
-
-void RecordingFiles::read(const QString& path, bool attaching) {
+void RecordingFiles::read(const QString& path, Way way) {
   if (!m_session.isReady()) return;
   begin();
   m_reading = m_progress;
-  m_worker.run([this, path, attaching, project = m_session.document().project(), plugins = m_session.registry(),
+  m_worker.run([this, path, way, project = m_session.document().project(), plugins = m_session.registry(),
                 count = m_session.document().changeCount(), progress = m_progress] {
     const ProgressScope scope(progress.get());
     auto read = std::make_shared<Read>();
     try {
       const RecordingReader reader(path.toStdString(), *plugins);
+      if (way == Way::Kept) QFile::remove(path);  // it stays open for as long as anything of it is looked at
       if (!reader.whyNoStates().empty())
         throw InputError("nothing can go on from it, and so it is not shown here: " + reader.whyNoStates());
       auto own = std::make_shared<Project>(readProject(reader.projectText(), path.toStdString(), *plugins).project);
       read->content = std::make_shared<const RunContent>(reader.content());
-      read->same = !attaching || sameScene(*own, project);
+      read->same = way == Way::Alone || sameScene(*own, project);
       read->project = std::move(own);
       read->damage = QString::fromStdString(reader.damage());
     } catch (const Cancelled&) {
@@ -175,16 +239,33 @@ void RecordingFiles::read(const QString& path, bool attaching) {
     } catch (const std::exception& error) {
       read->problem = QString::fromUtf8(error.what());
     }
-    QMetaObject::invokeMethod(this, [this, path, attaching, read, count] {
+    QMetaObject::invokeMethod(this, [this, path, way, read, count] {
       end();
-      if (!read->problem.isEmpty()) {
+      if (way == Way::Kept) {
+        if (takeKept(*read, count)) return;
+        Q_EMIT cameBack(false);
+        attachBeside(m_session.document().path());
+      } else if (!read->problem.isEmpty()) {
         Q_EMIT openFailed(path, read->problem);
       } else if (!read->cancelled) {
-        if (!attaching) m_session.files().openRecorded(*read->project);
-        take(path, *read, attaching ? count : m_session.document().changeCount());
+        if (way == Way::Alone) m_session.files().openRecorded(*read->project);
+        take(path, *read, way == Way::Beside ? count : m_session.document().changeCount());
       }
     });
   });
+}
+
+/// Nobody asked for it, so it is taken as it was or not at all. True where another project has taken its place, too.
+bool RecordingFiles::takeKept(const Read& read, uint64_t count) {
+  Document& document = m_session.document();
+  if (!document.had(count) || !m_session.engine()) return true;
+  if (!read.content || !read.same || document.changeCount() != count) return false;
+  m_session.engine()->adopt(read.content, true, [session = &m_session, files = QPointer<RecordingFiles>(this)] {
+    QMetaObject::invokeMethod(session, [files] {
+      if (files) Q_EMIT files->cameBack(true);
+    });
+  });
+  return true;
 }
 
 void RecordingFiles::take(const QString& path, const Read& read, uint64_t count) {

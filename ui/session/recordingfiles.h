@@ -33,6 +33,11 @@ class RecordingFiles : public QObject {
   void open(const QString& path);
   /// Gives up what is being written or read: files stay as they were.
   void cancel();
+  /// All that is recorded, for when the window is opened again, with a state of now; of a run of more than `most` bytes
+  /// its end alone. Blocks until it is written, but for no longer than the engine may take for a few frames. False:
+  /// there is nothing to keep, or it could not be.
+  bool keep(const QString& path, size_t most = kMostKept);
+  static constexpr size_t kMostKept = size_t{64} << 20;
 
  Q_SIGNALS:
   void working(const QString& stage, double done);  ///< for a while already; `done` 0..1; often
@@ -43,6 +48,9 @@ class RecordingFiles : public QObject {
   /// What was recorded, in s, and what is to be said of it, or "".
   void opened(const QString& path, double from, double to, const QString& remark);
   void openFailed(const QString& path, const QString& problem);
+  /// The run of a project that was reopened stands where it was left; or it could not be, and one beside the project is
+  /// opened where there is one.
+  void cameBack(bool whole);
 
  private:
   struct Read;
@@ -53,17 +61,23 @@ class RecordingFiles : public QObject {
     std::function<void(uint64_t begun)> write;  ///< the run that this many others came before
   };
   void onAnswer(std::optional<uint64_t> begun);
-  void attach(const QString& path);  ///< to the project that is open
+  /// Whose run is read: that of a project which comes with it, of the one that is open, or of that one when its window
+  /// was closed.
+  enum class Way { Alone, Beside, Kept };
+  void onOpened(const QString& project);
+  void attachBeside(const QString& project);
   void begin();
   void end();
-  void read(const QString& path, bool attaching);
+  void read(const QString& path, Way way);
   void take(const QString& path, const Read& read, uint64_t count);
+  bool takeKept(const Read& read, uint64_t count);
 
   Session& m_session;
   std::shared_ptr<Progress> m_progress, m_reading;  ///< of the newest job, and of the newest that reads
   int m_jobs = 0;
   QTimer m_clock;  ///< runs while there are any
   bool m_told = false;
+  bool m_comesBack = false;       ///< the project that is being reopened has its run
   std::deque<Waiting> m_waiting;  ///< for the engine's newest state, in their order
   Worker m_worker;                // ends first, with what is to be written
 };

@@ -12,6 +12,8 @@
 namespace ps {
 namespace {
 
+constexpr int kDragRest = 150;  // ms without another value, after which the scene is made anew
+
 /// The cells of an erased piece of each body and palette entry, back in their places. `bodies`: as they are without it.
 std::vector<AddCells> refill(const StrokeRecord& stroke, const Document& document) {
   std::vector<AddCells> cells;
@@ -33,6 +35,14 @@ std::vector<AddCells> refill(const StrokeRecord& stroke, const Document& documen
 SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
     : QObject(parent), m_document(document), m_engine(engine) {
   connect(&document, &Document::changed, this, &SceneLink::onChanged);
+  m_soon.setSingleShot(true);
+  m_soon.setInterval(kDragRest);
+  connect(&m_soon, &QTimer::timeout, this, [this] {
+    if (m_engine.making())
+      m_soon.start();
+    else
+      applyWaiting();
+  });
 }
 SceneLink::~SceneLink() = default;
 
@@ -45,6 +55,7 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     Q_EMIT matterEdited();
   if (const auto* opened = std::get_if<ProjectOpened>(&event)) {
     m_strokes.clear();
+    nothingWaits();
     ++m_run;
     m_play = opened->play;
     m_builtAt = m_document.changeCount();
@@ -52,6 +63,7 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     if (m_document.project().graphs) showFields();
   } else if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     // What a parameter falls back to is the engine's to work out, from the plugins: it may be a curve of another value.
+    if (m_document.actsAtReset(parameter->address)) resetSoon();
     if (isBroken()) {
       rebuild(m_play);
     } else if (parameter->value || parameter->address.owner == Owner::Shape) {  // a place is moved from: never a curve
@@ -185,7 +197,29 @@ std::vector<NameMatter> SceneLink::namedMatter() {
   return named;
 }
 
+bool SceneLink::appliesAtOnce() const {
+  const SnapshotPtr snapshot = m_engine.snapshot();
+  return !m_givenUp && snapshot && snapshot->bodyIds && snapshot->stats.frame == 0 && !m_engine.playing();
+}
+
+void SceneLink::resetSoon() {
+  m_givenUp = false;
+  if (!appliesAtOnce()) return;
+  m_waits = true;
+  m_soon.start();
+}
+
+void SceneLink::applyWaiting() {
+  if (m_waits) reset();
+}
+
+void SceneLink::nothingWaits() {
+  m_soon.stop();
+  m_waits = m_givenUp = false;
+}
+
 void SceneLink::reset() {
+  nothingWaits();
   if (isBroken()) {
     rebuild(m_play);
   } else {
@@ -228,6 +262,7 @@ void SceneLink::rebuild(bool play) {
 }
 
 void SceneLink::hear(const EngineEvent& event) {
+  if (event.kind == EngineEvent::Kind::Cancelled || event.kind == EngineEvent::Kind::Refused) m_givenUp = true;
   // Edits that came while the engine tried met no scene.
   if (event.kind == EngineEvent::Kind::NotOpened && isBroken() && m_builtAt != m_document.changeCount())
     rebuild(m_play);

@@ -4,6 +4,7 @@
 #include "ui/document/strokerecord.h"
 
 #include <QtCore/QObject>
+#include <QtCore/QTimer>
 
 #include <map>
 #include <memory>
@@ -27,6 +28,10 @@ class SceneLink : public QObject {
 
   /// Back to the start, edits kept. Undoing an earlier stroke still removes exactly its particles.
   void reset();
+  /// Paused at the start nothing is lost by a reset: what acts at the next one is followed by it, after the last value
+  /// of a drag. Not when making the scene was given up, or failed, until the next such value.
+  bool appliesAtOnce() const;
+  void applyWaiting();  ///< now, where it is still to come
   /// To the state that the project holds, edits kept; the engine refuses one that no longer fits.
   void returnToState();
   /// What strokes had made when a state was kept: after a return to it, undoing them takes just that.
@@ -60,6 +65,8 @@ class SceneLink : public QObject {
   void showFields();
   void onBody(const BodyChanged& event);
   void pushProject();
+  void resetSoon();
+  void nothingWaits();
   void onPort(const PortChanged& event);
   std::vector<std::string> lockedBodies() const;
   MatterKey keyOf(const MatterRef& matter);  ///< for a command of this run
@@ -72,6 +79,9 @@ class SceneLink : public QObject {
   EngineThread& m_engine;
   bool m_play = false;     ///< once there is a scene: what the opened project asks for
   uint64_t m_builtAt = 0;  ///< Document::changeCount() of what the engine was given as a whole last
+  QTimer m_soon;
+  bool m_waits = false;    ///< a reset, for the last value of a drag
+  bool m_givenUp = false;  ///< the scene was not made as the last values have it
   bool m_taking = false;   ///< a refused value out of the document: the engine has the other one
   struct KnownMatter {
     std::weak_ptr<const MatterKey> matter;

@@ -51,6 +51,20 @@ void Selection::selectAll(std::vector<SelectedItem> items) {
   Q_EMIT changed();
 }
 
+void Selection::restore(const std::vector<SelectedItem>& items, const std::string& material) {
+  std::vector<SelectedItem> left;
+  std::copy_if(items.begin(), items.end(), std::back_inserter(left),
+               [this](const SelectedItem& item) { return isThere(item); });
+  selectAll(std::move(left));
+  if (hasMaterial(material)) setMaterial(material);
+}
+
+bool Selection::hasMaterial(const std::string& id) const {
+  const std::vector<SceneMaterial>& materials = m_document.project().materials;
+  return std::any_of(materials.begin(), materials.end(),
+                     [&](const SceneMaterial& material) { return material.id == id; });
+}
+
 void Selection::selectBody(const std::string& id) {
   if (id.empty()) {
     clear();
@@ -109,9 +123,7 @@ void Selection::onChanged(const ChangeEvent& event) {
   if (opened || left.size() < m_items.size()) selectAll(std::move(left));
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
   const std::vector<SceneMaterial>& materials = m_document.project().materials;
-  const bool known = std::any_of(materials.begin(), materials.end(),
-                                 [&](const SceneMaterial& material) { return material.id == m_material; });
-  if (opened || !known) setMaterial(materials.empty() ? std::string() : materials.front().id);
+  if (opened || !hasMaterial(m_material)) setMaterial(materials.empty() ? std::string() : materials.front().id);
 }
 
 }  // namespace ps

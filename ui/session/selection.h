@@ -50,6 +50,8 @@ class Selection : public QObject {
   /// Adds something to what is selected, as the last, or takes it out.
   void toggle(OutlineKind kind, const std::string& id);
   void selectAll(std::vector<SelectedItem> items);
+  /// What was selected when the project was open last, as far as it is still there; "": the material stays.
+  void restore(const std::vector<SelectedItem>& items, const std::string& material);
   void select(const Port& port) { select(port.sink ? OutlineKind::Sink : OutlineKind::Emitter, port.id); }
   void selectBody(const std::string& id);  ///< "": nothing
   void clear();
@@ -71,6 +73,7 @@ class Selection : public QObject {
  private:
   void onChanged(const ChangeEvent& event);
   bool isThere(const SelectedItem& item) const;
+  bool hasMaterial(const std::string& id) const;
   Document& m_document;
   std::vector<SelectedItem> m_items;
   std::string m_material;

@@ -210,6 +210,8 @@ void Session::setSpeed(double speed) {
   if (m_engine) m_engine->setSpeed(speed);
 }
 
+bool Session::appliesAtOnce() const { return m_link && m_link->appliesAtOnce(); }
+
 bool Session::isBroken() const { return m_link && m_link->isBroken(); }
 
 void Session::play() {
@@ -223,6 +225,7 @@ void Session::play() {
     return;
   }
   m_recorded->showNewest();
+  m_link->applyWaiting();
   m_engine->play();
   tellPlaying();
 }
@@ -249,6 +252,7 @@ void Session::step() {
     return;
   }
   if (isBroken()) m_link->rebuild(false);
+  m_link->applyWaiting();
   m_engine->stepOnce();
   m_wasPlaying = false;
   Q_EMIT playingChanged();
@@ -306,7 +310,8 @@ void Session::applyAutosave() {
 
 QString Session::close() {
   if (m_closed || !m_autosave) return {};
-  const QString problem = m_autosave->close();
+  const bool hasRun = m_recordings->keep(m_autosave->runPath());
+  const QString problem = m_autosave->close(hasRun);
   m_closed = problem.isEmpty();
   return problem;
 }

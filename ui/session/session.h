@@ -81,6 +81,8 @@ class Session : public QObject {
   /// Takes matter as it stands into the project, between two frames: stateKept() or stateNotKept() follows.
   void keepState();
   bool playing() const;
+  /// What acts at the next reset acts at once: the scene stands paused at its start, where nothing is lost by that.
+  bool appliesAtOnce() const;
   /// Gives up the scene that is being made.
   void cancelMaking();
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).

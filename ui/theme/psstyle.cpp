@@ -42,6 +42,48 @@ void drawArrow(QPainter& painter, const QStyleOption& option, const char* name) 
   paintIcon(painter, square, QLatin1String(name), theme[enabled ? Token::Text2 : Token::Disabled]);
 }
 
+/// "": as Qt has it.
+QString iconOf(QStyle::StandardPixmap what) {
+  switch (what) {
+    case QStyle::SP_DirIcon:
+    case QStyle::SP_DirOpenIcon:
+    case QStyle::SP_DirClosedIcon:
+    case QStyle::SP_DirLinkIcon:
+    case QStyle::SP_DirHomeIcon:
+    case QStyle::SP_DesktopIcon:
+    case QStyle::SP_ComputerIcon:
+    case QStyle::SP_DriveHDIcon:
+    case QStyle::SP_DriveCDIcon:
+    case QStyle::SP_DriveNetIcon:
+      return QStringLiteral("folder");
+    case QStyle::SP_FileIcon:
+    case QStyle::SP_FileLinkIcon:
+      return QStringLiteral("new");
+    case QStyle::SP_FileDialogNewFolder:
+      return QStringLiteral("plus");
+    case QStyle::SP_FileDialogToParent:
+      return QStringLiteral("chevron-up");
+    case QStyle::SP_FileDialogBack:
+    case QStyle::SP_ArrowBack:
+      return QStringLiteral("chevron-left");
+    case QStyle::SP_ArrowForward:
+      return QStringLiteral("chevron-right");
+    case QStyle::SP_FileDialogListView:
+      return QStringLiteral("grid");
+    case QStyle::SP_FileDialogDetailedView:
+      return QStringLiteral("list");
+    case QStyle::SP_MessageBoxWarning:
+    case QStyle::SP_MessageBoxQuestion:
+      return QStringLiteral("warning");
+    case QStyle::SP_MessageBoxCritical:
+      return QStringLiteral("error");
+    case QStyle::SP_MessageBoxInformation:
+      return QStringLiteral("info");
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 PsStyle::PsStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
@@ -188,6 +230,17 @@ void PsStyle::drawComplexControl(ComplexControl control, const QStyleOptionCompl
   const QRectF rect = option->rect;
   paintIcon(*painter, QRectF(rect.right() - 20, rect.center().y() - 7, 14, 14), QStringLiteral("chevron-down"),
             theme[enabled ? Token::Text2 : Token::Disabled]);
+}
+
+QIcon PsStyle::standardIcon(StandardPixmap what, const QStyleOption* option, const QWidget* widget) const {
+  const QString name = iconOf(what);
+  return name.isEmpty() ? QProxyStyle::standardIcon(what, option, widget) : icon(name, false);
+}
+
+QPixmap PsStyle::standardPixmap(StandardPixmap what, const QStyleOption* option, const QWidget* widget) const {
+  const QString name = iconOf(what);
+  if (name.isEmpty()) return QProxyStyle::standardPixmap(what, option, widget);
+  return iconPixmap(name, Theme::current()[Token::Text2]);
 }
 
 QSize PsStyle::sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,

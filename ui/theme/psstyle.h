@@ -25,6 +25,9 @@ class PsStyle : public QProxyStyle {
                    const QWidget* widget) const override;
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
                           const QWidget* widget) const override;
+  /// What Qt's own dialogs show: as few pictures as ours, and in the theme's colours.
+  QIcon standardIcon(StandardPixmap what, const QStyleOption* option, const QWidget* widget) const override;
+  QPixmap standardPixmap(StandardPixmap what, const QStyleOption* option, const QWidget* widget) const override;
   QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
                          const QWidget* widget) const override;
 

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "ui/document/document.h"
+#include "ui/session/cachefolder.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
 
@@ -34,21 +35,29 @@ bool keep(const SceneShot& shot, const QString& path) {
   }
 }
 
+QString thumbnailFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/thumbnails");
+}
+
 }  // namespace
 
 QString thumbnailPath(const QString& project) {
   const QByteArray hash = QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha1).toHex();
-  return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/thumbnails/") +
-         QString::fromLatin1(hash) + QStringLiteral(".jpg");
+  return thumbnailFolder() + QLatin1Char('/') + QString::fromLatin1(hash) + QStringLiteral(".jpg");
 }
 
 Thumbnails::Thumbnails(Session& session, std::function<std::optional<SceneShot>()> shot, QObject* parent)
     : QObject(parent), m_session(session), m_shot(std::move(shot)) {
+  m_worker.run([folder = thumbnailFolder()] { tidyCache(folder); });
   m_settle.setSingleShot(true);
   m_settle.setInterval(kSettle);
   connect(&session, &Session::projectShown, &m_settle, qOverload<>(&QTimer::start));
   connect(&m_settle, &QTimer::timeout, this, [this] {
-    if (!QFileInfo::exists(thumbnailPath(m_session.document().path()))) take();
+    const QString kept = thumbnailPath(m_session.document().path());
+    if (!QFileInfo::exists(kept))
+      take();
+    else
+      m_worker.run([kept] { useCached(kept); });
   });
   connect(&session.files(), &DocumentFiles::saved, this, [this](const QString&, bool present) {
     if (present) take();

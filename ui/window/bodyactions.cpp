@@ -15,6 +15,7 @@
 #include "ui/session/worker.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
+#include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
@@ -22,7 +23,6 @@
 
 #include <QtCore/QFileInfo>
 #include <QtCore/QTimer>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
@@ -189,10 +189,10 @@ bool BodyActions::isMesh(const QString& path) {
 }
 
 void BodyActions::chooseMesh(MeshUse use) {
-  const QString path = QFileDialog::getOpenFileName(
-      &m_actions.window(),
-      use == MeshUse::Wall ? QStringLiteral("A wall from a mesh") : QStringLiteral("Import a mesh"),
-      QFileInfo(m_session.document().path()).path(), QString::fromLatin1(kMeshes));
+  const QString path =
+      fileToRead(&m_actions.window(),
+                 use == MeshUse::Wall ? QStringLiteral("A wall from a mesh") : QStringLiteral("Import a mesh"),
+                 folderBeside(m_session), QString::fromLatin1(kMeshes));
   if (!path.isEmpty()) importMesh(path, use);
 }
 

@@ -98,7 +98,10 @@ QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
   button->setToolTip(tip);
   button->setAccessibleName(tip);
   button->setFocusPolicy(Qt::TabFocus);
+  QWidget* before = m_tabs;
+  if (m_actions->count() > 0) before = m_actions->itemAt(m_actions->count() - 1)->widget();
   m_actions->addWidget(button);
+  setTabOrder(before, button);  // as it is read, and not behind the pages, which were made first
   return button;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/exportdialog.h"
+#include "ui/window/filenames.h"
 
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
@@ -11,7 +12,6 @@
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtWidgets/QComboBox>
-#include <QtWidgets/QFileDialog>
 
 namespace ps {
 
@@ -31,7 +31,7 @@ QString ExportDialog::suggestedPlace() const {
 }
 
 QString ExportDialog::choosePlace() {
-  return QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for the files"), QFileInfo(place()).path());
+  return folderToUse(this, QStringLiteral("Folder for the files"), QFileInfo(place()).path());
 }
 
 QString ExportDialog::summary() const {

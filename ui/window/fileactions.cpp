@@ -28,7 +28,6 @@
 #include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
@@ -202,8 +201,7 @@ void FileActions::open(const QString& path) {
 void FileActions::saveTo(const QString& path) { m_session.files().save(path); }
 
 void FileActions::chooseOpen() {
-  const QString path =
-      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a project"), folderToOpen(), kOpenFilter);
+  const QString path = fileToRead(&m_actions.window(), QStringLiteral("Open a project"), folderToOpen(), kOpenFilter);
   if (!path.isEmpty()) open(path);
 }
 
@@ -213,6 +211,10 @@ QString FileActions::folderToOpen() const {
     if (!path.isEmpty() && !m_session.files().isSample(path)) return QFileInfo(path).path();
   }
   return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+}
+
+QString FileActions::besideProject(const QString& name) const {
+  return folderBeside(m_session) + QLatin1Char('/') + name;
 }
 
 void FileActions::save() {
@@ -329,7 +331,9 @@ void FileActions::writeFile(const QString& path, std::function<QByteArray()> con
     }
     QMetaObject::invokeMethod(&m_session, [this, path, what, problem] {
       if (problem.isEmpty()) {
-        m_session.log().add(MessageLevel::Ok, what, QStringLiteral("Written to %1.").arg(path));
+        const QString text = QStringLiteral("Written to %1.").arg(path);
+        m_session.log().add(MessageLevel::Ok, what, text);
+        m_notices.bar().show(QStringLiteral("written"), MessageLevel::Ok, what, text);
       } else {
         m_notices.message(MessageLevel::Error, what, problem);
       }
@@ -340,7 +344,7 @@ void FileActions::writeFile(const QString& path, std::function<QByteArray()> con
 void FileActions::exportCsv() {
   if (!m_session.engine()) return;
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Export all frames"),
-                                   QStringLiteral("frames.csv"), QStringLiteral("CSV (*.csv)"));
+                                   besideProject(QStringLiteral("frames.csv")), QStringLiteral("CSV (*.csv)"));
   if (path.isEmpty()) return;
   writeFile(
       path,
@@ -350,8 +354,9 @@ void FileActions::exportCsv() {
 }
 
 void FileActions::exportGraph(const GraphsPanel& graphs, const std::string& id, const QString& ending) {
-  const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Export the graph"), graphs.fileName(id, ending),
-                                   QStringLiteral("%1 (*.%2)").arg(ending.toUpper(), ending));
+  const QString path =
+      fileToWrite(&m_actions.window(), QStringLiteral("Export the graph"), besideProject(graphs.fileName(id, ending)),
+                  QStringLiteral("%1 (*.%2)").arg(ending.toUpper(), ending));
   if (path.isEmpty()) return;
   writeFile(
       path, [bytes = graphs.exported(id, ending)] { return bytes; }, QStringLiteral("Graph"));
@@ -360,7 +365,7 @@ void FileActions::exportGraph(const GraphsPanel& graphs, const std::string& id, 
 void FileActions::exportPicture() {
   if (!m_view) return;
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save a picture of the scene"),
-                                   QStringLiteral("scene.png"), QStringLiteral("PNG (*.png)"));
+                                   besideProject(QStringLiteral("scene.png")), QStringLiteral("PNG (*.png)"));
   if (path.isEmpty()) return;
   writeFile(
       path,

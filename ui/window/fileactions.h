@@ -55,6 +55,7 @@ class FileActions : public QObject {
   void setEnabled(bool on);  ///< what needs plugins
   void chooseOpen();
   QString folderToOpen() const;
+  QString besideProject(const QString& name) const;
   void save();
   void chooseSave();
   QString chooseFile();       ///< to save to; "" when given up

@@ -1,11 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/filenames.h"
 
+#include "ui/document/document.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/session.h"
+
+#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QRegularExpression>
+#include <QtCore/QStandardPaths>
 #include <QtWidgets/QFileDialog>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QTreeView>
 
 namespace ps {
+namespace {
+
+/// "" when given up. Where the desktop has no dialog of its own, Qt's has its columns as wide as their texts.
+QString chosenIn(QFileDialog& dialog) {
+  if (auto* list = dialog.findChild<QTreeView*>(QStringLiteral("treeView"))) {
+    dialog.resize(760, 480);
+    QHeaderView* header = list->header();
+    header->setStretchLastSection(false);
+    for (int column = 0; column < header->count(); ++column)
+      header->setSectionResizeMode(column, column == 0 ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+  }
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
+}
+
+/// Of a folder that is not there Qt would make a file's name.
+QString present(const QString& folder) { return QDir(folder).exists() ? folder : QDir::homePath(); }
+
+}  // namespace
 
 QString nameOf(const QString& path) {
   return path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(path).fileName();
@@ -16,11 +42,31 @@ QString fileNameFor(QString title) {
 }
 
 QString fileToWrite(QWidget* parent, const QString& title, const QString& suggestion, const QString& filter) {
-  QFileDialog dialog(parent, title, QFileInfo(suggestion).path(), filter);
+  QFileDialog dialog(parent, title, present(QFileInfo(suggestion).path()), filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(QFileInfo(suggestion).suffix());
   dialog.selectFile(QFileInfo(suggestion).fileName());
-  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
+  return chosenIn(dialog);
+}
+
+QString fileToRead(QWidget* parent, const QString& title, const QString& folder, const QString& filter) {
+  QFileDialog dialog(parent, title, present(folder), filter);
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  return chosenIn(dialog);
+}
+
+QString folderToUse(QWidget* parent, const QString& title, const QString& folder) {
+  QFileDialog dialog(parent, title, present(folder));
+  dialog.setFileMode(QFileDialog::Directory);
+  dialog.setOption(QFileDialog::ShowDirsOnly);
+  return chosenIn(dialog);
+}
+
+QString folderBeside(Session& session) {
+  const QString& own = session.document().path();
+  return own.isEmpty() || session.files().isSample(own)
+             ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
+             : QFileInfo(own).path();
 }
 
 }  // namespace ps

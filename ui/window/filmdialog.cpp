@@ -19,7 +19,6 @@
 #include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
 #include <QtWidgets/QComboBox>
-#include <QtWidgets/QFileDialog>
 
 #include <set>
 #include <utility>
@@ -77,7 +76,7 @@ QString FilmDialog::suggestedPlace() const {
 
 QString FilmDialog::choosePlace() {
   if (film()) return fileToWrite(this, QStringLiteral("Save the film"), place(), QStringLiteral("Films (*.mp4)"));
-  return QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for the pictures"), QFileInfo(place()).path());
+  return folderToUse(this, QStringLiteral("Folder for the pictures"), QFileInfo(place()).path());
 }
 
 QString FilmDialog::summary() const {

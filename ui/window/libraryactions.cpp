@@ -10,7 +10,6 @@
 #include "ui/window/notices.h"
 
 #include <QtGui/QAction>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QStackedWidget>
@@ -20,6 +19,7 @@ namespace ps {
 LibraryActions::LibraryActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
                                QStackedWidget& centre, QWidget& scene, const QString& presets, QObject* parent)
     : QObject(parent),
+      m_session(session),
       m_actions(actions),
       m_centre(centre),
       m_library(session, presets),
@@ -61,9 +61,8 @@ void LibraryActions::offerWaiting(NoticeBar& bar) {
 }
 
 void LibraryActions::chooseImport() {
-  const QString path =
-      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Import the materials of a preset or a project"),
-                                   m_library.folder(), QStringLiteral("Presets and projects (*.json);;All files (*)"));
+  const QString path = fileToRead(&m_actions.window(), QStringLiteral("Import the materials of a preset or a project"),
+                                  m_library.folder(), QStringLiteral("Presets and projects (*.json);;All files (*)"));
   if (!path.isEmpty()) m_library.importFrom(path);
 }
 
@@ -71,7 +70,8 @@ void LibraryActions::chooseExport(const LibraryEntry& entry) {
   const LibraryEntry kept = entry;  // the list may be read again meanwhile
   const QString path =
       fileToWrite(&m_actions.window(), QStringLiteral("Export the material"),
-                  fileNameFor(kept.label) + QStringLiteral(".json"), QStringLiteral("PhaseSketch projects (*.json)"));
+                  folderBeside(m_session) + QLatin1Char('/') + fileNameFor(kept.label) + QStringLiteral(".json"),
+                  QStringLiteral("PhaseSketch projects (*.json)"));
   if (!path.isEmpty()) m_library.exportTo(kept, path);
 }
 

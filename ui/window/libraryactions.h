@@ -30,6 +30,7 @@ class LibraryActions : public QObject {
   void offerWaiting(NoticeBar& bar);
   void chooseImport();
   void chooseExport(const LibraryEntry& entry);
+  Session& m_session;
   const Actions& m_actions;
   QStackedWidget& m_centre;
   MaterialLibrary m_library;

@@ -14,6 +14,7 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
+#include "ui/session/resuming.h"
 #include "ui/session/runwork.h"
 #include "ui/session/selection.h"
 #include "ui/theme/plaintext.h"
@@ -71,6 +72,7 @@ MainWindow::MainWindow(const Options& options)
     : m_options(options),
       m_session(std::make_unique<Session>(options.session)),
       m_selection(std::make_unique<Selection>(m_session->document())),
+      m_resuming(std::make_unique<Resuming>(*m_session, *m_selection)),
       m_tools(std::make_unique<Toolbox>(m_session->document(), *m_selection)) {
   setObjectName(QStringLiteral("psWindow"));
   if (options.restore) setTemperatureUnit(preferences::temperatures());

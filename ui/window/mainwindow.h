@@ -28,6 +28,7 @@ class Outliner;
 class PageChooser;
 class PluginPage;
 class RestoreOffer;
+class Resuming;
 class Selection;
 class SketchActions;
 class StatusLine;
@@ -124,6 +125,7 @@ class MainWindow : public QMainWindow {
   const Options m_options;
   std::unique_ptr<Session> m_session;
   std::unique_ptr<Selection> m_selection;
+  std::unique_ptr<Resuming> m_resuming;
   std::unique_ptr<Toolbox> m_tools;
   Actions m_actions{*this};
   TopBar* m_top = nullptr;

@@ -14,6 +14,7 @@
 #include "ui/theme/units.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/dialogrow.h"
+#include "ui/window/filenames.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/mainwindow.h"
 
@@ -22,7 +23,6 @@
 #include <QtGui/QAction>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QPushButton>
@@ -213,8 +213,7 @@ void Preferences::addRecording() {
 }
 
 void Preferences::chooseFolder() {
-  const QString folder =
-      QFileDialog::getExistingDirectory(this, QStringLiteral("Folder for recordings"), preferences::recordFolder());
+  const QString folder = folderToUse(this, QStringLiteral("Folder for recordings"), preferences::recordFolder());
   if (folder.isEmpty()) return;
   preferences::setRecordFolder(folder);
   m_window.session().applyRecordBudget();

@@ -13,10 +13,8 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
-#include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
@@ -90,12 +88,8 @@ void RecordingActions::chooseSave() {
 }
 
 void RecordingActions::chooseOpen() {
-  const QString& own = m_session.document().path();
-  const QString folder = own.isEmpty() || m_session.files().isSample(own)
-                             ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
-                             : QFileInfo(own).path();
   const QString path =
-      QFileDialog::getOpenFileName(&m_actions.window(), QStringLiteral("Open a recording"), folder, kFilter);
+      fileToRead(&m_actions.window(), QStringLiteral("Open a recording"), folderBeside(m_session), kFilter);
   if (!path.isEmpty()) m_session.recordings().open(path);
 }
 

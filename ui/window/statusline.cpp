@@ -28,6 +28,18 @@ constexpr int kHeight = 24;
 constexpr double kSilent = 5;     // s without a frame while playing, after which that is said
 constexpr double kClearly = 1.2;  // times as slow as the stage that is named, to be named instead
 constexpr double kSmooth = 0.08;  // share of a new frame in the shown mean, so that digits can be read
+
+/// That whose name takes most room.
+size_t widestStage() {
+  size_t widest = 0;
+  double most = 0;
+  for (size_t stage = 0; stage < static_cast<size_t>(Stage::Count); ++stage) {
+    const double width =
+        textWidth(QString::fromLatin1(stageName(static_cast<Stage>(stage))), Theme::font(TextRole::Small));
+    if (width > most) widest = stage, most = width;
+  }
+  return widest;
+}
 }  // namespace
 
 StatusLine::StatusLine(Session& session, Viewport* view, QWidget* parent)
@@ -157,27 +169,33 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
                             ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
-  parts.push_back({state, {}});
-  if (m_state.working >= 0) parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work});
+  parts.push_back({state, {}, QStringLiteral("Running")});
+  if (m_state.working >= 0)
+    parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work, QStringLiteral("100 %")});
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
   parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
                    m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")});
-  QString detail = QStringLiteral("/frame");
-  if (m_stages[m_slowest] > 0) {
-    detail +=
-        QStringLiteral(" · %1 %2")
-            .arg(QString::fromLatin1(stageName(static_cast<Stage>(m_slowest))), formatFixed(m_stages[m_slowest], 1));
-  }
-  if (m_state.drawMilliseconds > 0)
-    detail += QStringLiteral(" · draw %1").arg(formatFixed(m_state.drawMilliseconds, 1));
-  parts.push_back({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail});
-  parts.push_back({formatFixed(m_state.realTime, 2) + QStringLiteral("×"), QStringLiteral("real time")});
-  if (!m_state.graphics.isEmpty()) parts.push_back({{}, m_state.graphics});
+  parts.push_back({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail(m_slowest),
+                   QStringLiteral("000.0 ms"), detail(widestStage())});
   parts.push_back(
-      {formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error")});
-  parts.push_back({formatError(drift()), QStringLiteral("energy drift")});
+      {formatFixed(m_state.realTime, 2) + QStringLiteral("×"), QStringLiteral("real time"), QStringLiteral("00.00×")});
+  if (!m_state.graphics.isEmpty()) parts.push_back({{}, m_state.graphics});
+  parts.push_back({formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error"),
+                   QStringLiteral("00.0 %")});
+  parts.push_back({formatError(drift()), QStringLiteral("energy drift"), formatError(-1.5e-8)});
   return parts;
+}
+
+/// "/frame · contact 3.1 · draw 0.8", with the name of a stage.
+QString StatusLine::detail(size_t stage) const {
+  QString text = QStringLiteral("/frame");
+  if (m_stages[m_slowest] > 0) {
+    text += QStringLiteral(" · %1 %2")
+                .arg(QString::fromLatin1(stageName(static_cast<Stage>(stage))), formatFixed(m_stages[m_slowest], 1));
+  }
+  if (m_state.drawMilliseconds > 0) text += QStringLiteral(" · draw %1").arg(formatFixed(m_state.drawMilliseconds, 1));
+  return text;
 }
 
 QStringList StatusLine::parts() const {
@@ -227,8 +245,11 @@ void StatusLine::paintEvent(QPaintEvent*) {
     const Part& part = parts[i];
     // As wide as they have been: a digit less must not move what stands beside it.
     Width& known = m_widths[i];
-    if (!part.strong.isEmpty()) known.strong = std::max(known.strong, textWidth(part.strong, font) + 4);
-    known.whole = std::max(known.whole, known.strong + textWidth(part.weak, font) + 2);
+    const auto room = [&](const QString& a, const QString& b) {
+      return std::max(textWidth(a, font), textWidth(b, font));
+    };
+    if (!part.strong.isEmpty()) known.strong = std::max(known.strong, room(part.strong, part.strongRoom) + 4);
+    known.whole = std::max(known.whole, known.strong + room(part.weak, part.weakRoom) + 2);
     const double strong = known.strong, w = known.whole;
     if (x + w + 12 > right) break;  // no half words: what does not fit is left out
     if (!first) paintVerticalLine(painter, x - 8, 6, height() - 6, theme[Token::Line2]);

@@ -51,11 +51,13 @@ class StatusLine : public QWidget {
  private:
   struct Part {
     QString strong, weak;
+    QString strongRoom{}, weakRoom{};  ///< the widest that usually stands there: the place is as wide from the start
   };
   void follow();
   void refresh();
   void addNote(State& state);
   std::vector<Part> leftParts() const;
+  QString detail(size_t stage) const;
   Session& m_session;
   Viewport* m_view;
   QString m_fileText, m_noteAddress, m_late;

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window that is closed and opened again shows what it showed: selection, run, moment, and whether it goes on.
+#include "core/io/projectio.h"
+#include "core/io/recording.h"
+#include "core/plugin_host/registry.h"
+#include "samplewindow.h"
+#include "tests/shared/scenes.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/recordingfiles.h"
+#include "ui/session/selection.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QTemporaryDir>
+
+using namespace ps;
+
+namespace {
+
+constexpr uint64_t kLeft = 24;  // frames
+
+uint64_t frameOf(Session& session) {
+  return onEngine<uint64_t>(session, [](Engine& engine) { return engine.solver().frame(); });
+}
+
+uint64_t hashAfter(Session& session, uint64_t frames) {
+  return onEngine<uint64_t>(session, [frames](Engine& engine) {
+    for (uint64_t frame = 0; frame < frames; ++frame) engine.step();
+    return engine.stateHash();
+  });
+}
+
+}  // namespace
+
+class TestResuming : public QObject {
+  Q_OBJECT
+ private Q_SLOTS:
+  void init() {
+    preferences::setWelcomeAtStart(false);
+    preferences::setTourDone();
+    m_directory = std::make_unique<QTemporaryDir>();
+    m_path = m_directory->filePath(QStringLiteral("scene.json"));
+    saveProject(scenes::iceOnPlate(4, 370), m_path.toStdString());
+    open(m_path);
+    session().pause();
+    toTheStart();
+  }
+  void cleanup() { m_window.reset(); }
+
+  void aPausedRunStandsWhereItWasLeft() {
+    run(kLeft);
+    const uint64_t expected = hashAfter(session(), 0);
+    session().engine()->recording().settle();
+    const RunRecord::Extent before = session().recorded().extent();
+    reopen();
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kLeft, kLong);
+    QVERIFY(!session().playing());
+    QVERIFY(!document().isDirty());
+    QCOMPARE(hashAfter(session(), 0), expected);
+    session().engine()->recording().settle();
+    const RunRecord::Extent now = session().recorded().extent();
+    QCOMPARE(now.first, before.first);
+    QCOMPARE(now.last, before.last);
+    QCOMPARE(now.frames, before.frames);
+    QCOMPARE(QDir(copies()).entryList({QStringLiteral("*.psrec")}), QStringList());  // it was read
+    QCOMPARE(session().recorded().earlier().size(), size_t{0});
+  }
+
+  /// Unsaved work too, which the run has gone through.
+  void anEditedRunStandsWhereItWasLeft() {
+    run(kLeft / 2);
+    QCOMPARE(document().setParameter({Owner::Wall, "floor", "temperature"}, 420.0), QString());
+    run(kLeft / 2);
+    const uint64_t expected = hashAfter(session(), 0);
+    reopen();
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, kLeft, kLong);
+    QVERIFY(document().isDirty());
+    QCOMPARE(hashAfter(session(), 0), expected);
+  }
+
+  void aRunThatPlayedGoesOn() {
+    run(kLeft);
+    session().play();
+    reopen();
+    QTRY_VERIFY_WITH_TIMEOUT(session().playing() && session().newest()->stats.frame > kLeft, kLong);
+  }
+
+  void theRecordedMomentIsShownAgain() {
+    run(kLeft);
+    session().engine()->recording().settle();
+    session().recorded().showAt(10.0 / 60);
+    QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
+    const double moment = session().now();  // of the frame next to that: some may be left out
+    reopen();
+    QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
+    QCOMPARE(session().now(), moment);
+    QCOMPARE(session().newest()->stats.frame, kLeft);
+    QVERIFY(!session().playing());
+  }
+
+  void theSelectionComesBack() {
+    const std::vector<SelectedItem> items{{OutlineKind::Wall, "floor"}, {OutlineKind::Body, "ice"}};
+    m_window->selection().selectAll(items);
+    reopen();
+    QVERIFY(m_window->selection().items() == items);
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    QVERIFY(!session().playing());
+    QCOMPARE(frameOf(session()), uint64_t{0});
+  }
+
+  void whatIsNotThereAnyMoreIsNotSelected() {
+    m_window->selection().selectAll({{OutlineKind::Wall, "floor"}, {OutlineKind::Body, "ice"}});
+    QVERIFY(m_window->close());
+    Project other = scenes::iceOnPlate(4, 370);
+    other.bodies.clear();
+    saveProject(other, m_path.toStdString());
+    m_window.reset();
+    open();
+    QVERIFY(m_window->selection().items() == std::vector<SelectedItem>({{OutlineKind::Wall, "floor"}}));
+  }
+
+  /// Somebody else wrote the file meanwhile: its run is another one.
+  void theRunOfAnotherProjectDoesNotComeBack() {
+    run(kLeft);
+    session().play();
+    QVERIFY(m_window->close());
+    saveProject(scenes::iceOnPlate(4, 300), m_path.toStdString());
+    m_window.reset();
+    open();
+    QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+    session().pause();
+    const auto point = session().engine()->recording().restorePoint(0);
+    QVERIFY(point && point->from == 0);
+    QCOMPARE(session().recorded().extent().first, uint64_t{0});
+    QCOMPARE(std::get<double>(document().value({Owner::Wall, "floor", "temperature"})), 300.0);
+  }
+
+  /// What comes from a closed window is no work of another one that is opened with a project of its own.
+  void aProjectThatIsAskedForStartsAsItDoes() {
+    run(kLeft);
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    QVERIFY(m_window->close());
+    m_window.reset();
+    QFile stray(QDir(copies()).filePath(QStringLiteral("20200101-000000-1-0.psrec")));  // that no note tells of
+    QVERIFY(stray.open(QIODevice::WriteOnly) && stray.write("PSRECORD") == 8);
+    stray.close();
+    open(m_path);
+    QVERIFY(session().playing());
+    QVERIFY(!m_window->selection().has(OutlineKind::Wall, "floor"));
+    QTRY_COMPARE(QDir(copies()).entryList({QStringLiteral("*.psrec")}), QStringList());  // nobody can ask for them
+  }
+
+  /// Of a long run its end alone, which can be gone on from.
+  void ofALongRunItsEndIsKept() {
+    run(kLeft);
+    const uint64_t expected = hashAfter(session(), 0);
+    const QString path = m_directory->filePath(QStringLiteral("end.psrec"));
+    QVERIFY(session().recordings().keep(path, 1));
+    const RecordingReader reader(path.toStdString(), *session().plugins());
+    QCOMPARE(reader.content().present.states.size(), size_t{1});
+    QCOMPARE(reader.content().present.states.front().frame, kLeft);
+    QVERIFY(reader.frameCount() <= 2);
+    const auto point = reader.content().present.restorePoint(kLeft);
+    QVERIFY(point);
+    QCOMPARE(replayed(*point, *session().plugins())->stateHash(), expected);
+  }
+
+ private:
+  QString copies() const { return m_directory->filePath(QStringLiteral("copies")); }
+  Session& session() { return m_window->session(); }
+  Document& document() { return session().document(); }
+  /// `project`: "": what was open last.
+  void open(const QString& project = {}) {
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = project;
+    options.sample = m_path;
+    options.session.autosaveDirectory = copies();
+    m_window = shownWindow(options, {1280, 800});
+    QVERIFY(m_window);
+  }
+  void reopen() {
+    QVERIFY(m_window->close());
+    m_window.reset();
+    open();
+  }
+  void toTheStart() {
+    const uint64_t revision = session().snapshot()->revision;
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->revision != revision, kLong);
+  }
+  /// Frame by frame, as the step button does.
+  void run(uint64_t frames) {
+    const uint64_t last = frameOf(session()) + frames;
+    for (uint64_t frame = 0; frame < frames; ++frame) session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame == last, kLong);
+  }
+
+  std::unique_ptr<QTemporaryDir> m_directory;
+  QString m_path;
+  std::unique_ptr<MainWindow> m_window;
+};
+
+int main(int argc, char** argv) {
+  requestViewFormat();
+  QApplication application(argc, argv);
+  TestResuming test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_resuming.moc"
