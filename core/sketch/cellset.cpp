@@ -152,7 +152,8 @@ Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::st
     if (found == palette.end()) result.added.push_back(palette.emplace_back(VoxelShape::Paint{material, temperature}));
     return entry;
   };
-  for (const VoxelCanvas::Entry& entry : VoxelCanvas(shape.runs).erase(cells).entries()) {
+  const VoxelCanvas hit = VoxelCanvas(shape.runs).erase(cells);
+  for (const VoxelCanvas::Entry& entry : hit.entries()) {
     const VoxelShape::Paint paint = palette.at(static_cast<size_t>(entry.palette));
     if (paint.material == material) continue;
     extend(result.before, entry.cell, entry.palette);

@@ -209,7 +209,7 @@ class TestTouchTools : public QObject {
     QCOMPARE(voxels.palette[1].temperature, 263.15);
     size_t cells = 0;
     for (const VoxelShape::Run& run : voxels.runs) cells += run.palette == 1 ? static_cast<size_t>(run.length) : 0;
-    QVERIFY(cells > 10 && cells < 125);
+    QVERIFY(cells > 4 && cells < 125);
     QCOMPARE(iron(), cells);
     const std::string text = writeProject(m_document->project());
     QCOMPARE(writeProject(parseProject(text, "what was written", *m_plugins).project), text);
@@ -238,6 +238,7 @@ class TestTouchTools : public QObject {
     paintAt(beside);
     QCOMPARE(m_document->project().bodies.size(), size_t{2});
     takePaint();
+    QCOMPARE(iron(), size_t{0});  // and what is drawn is to be seen
     paintAt(beside + Vector3(0, 0.07, 0));
     const auto& voxels = std::get<VoxelShape>(m_document->project().bodies[1].shape);
     QCOMPARE(voxels.strokes.size(), size_t{2});
@@ -257,12 +258,12 @@ class TestTouchTools : public QObject {
     m_engine->stepOnce();
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
     paintAt(kTop);
-    QVERIFY(iron() > 10);
+    QVERIFY(iron() > 4);
     QCOMPARE(writeProject(m_document->project()), before);
     m_document->undoStack().undo();
     QCOMPARE(iron(), size_t{0});
     m_document->undoStack().redo();
-    QVERIFY(iron() > 10);
+    QVERIFY(iron() > 4);
     m_link->reset();
     QCOMPARE(iron(), size_t{0});
     m_document->undoStack().undo();

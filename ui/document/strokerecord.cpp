@@ -187,7 +187,8 @@ CellSet cellsWithin(const VoxelShape& voxels, const VoxelShape& lattice, const s
   const SketchGrid wide{lattice.origin - Vector3::Constant(hair), lattice.spacing}, grid{voxels.origin, voxels.spacing};
   const CellSet wanted = cellSet(cells);
   std::vector<api::Cell> hit;
-  for (const VoxelCanvas::Entry& entry : VoxelCanvas(voxels.runs).entries()) {
+  const VoxelCanvas canvas(voxels.runs);
+  for (const VoxelCanvas::Entry& entry : canvas.entries()) {
     const auto centre = grid.centreOf(entry.cell);
     if (bounds.holds(centre) && wanted.contains(wide.cellAt(centre))) hit.push_back(entry.cell);
   }
