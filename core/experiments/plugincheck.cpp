@@ -78,8 +78,11 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
       return "a hand of 5 cm radius that stays in matter does nothing";
     return {};
   }
-  const StrokeEdits edits = applyBrush(brush, setup, api::EditKind::Add, samples);
-  if (edits.added.empty()) return "a stroke of two samples and 5 cm radius draws nothing";
+  const bool paints = plugins.needs(info.id, api::kPaintsMatter);
+  const api::EditKind kind = paints ? api::EditKind::Paint : api::EditKind::Add;
+  StrokeEdits edits = applyBrush(brush, setup, kind, samples);
+  if (edits.of(kind).empty())
+    return std::string("a stroke of two samples and 5 cm radius ") + (paints ? "paints" : "draws") + " nothing";
   return {};
 }
 

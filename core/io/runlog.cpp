@@ -28,8 +28,8 @@ struct SetTogether {
   std::vector<SetParameter> values;
 };
 using LoggedEdit =
-    std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, MoveBody,
-                 NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
+    std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, PaintCells,
+                 MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
 struct LogEntry {
   uint64_t frame = 0;
   LoggedEdit edit;
@@ -138,6 +138,14 @@ const FieldTable<PutBack>& putBackFields() {
       .rows = {field("key", &PutBack::key, Key{}, ""), field("cells", &PutBack::cells, List{Object{addFields()}}, "")}};
   return table;
 }
+const FieldTable<PaintCells>& paintCellsFields() {
+  static const FieldTable<PaintCells> table{
+      .rows = {field("lattice", &PaintCells::lattice, Object{voxelFields()}, "").required(),
+               field("cells", &PaintCells::cells, Cells{}, "").required(),
+               field("material", &PaintCells::material, Id{}, "").required(),
+               field("spared", &PaintCells::spared, List{Id{}}, ""), field("key", &PaintCells::key, Key{}, "")}};
+  return table;
+}
 struct Turn : Plain {
   Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
   void read(Json& value, Quaternion& out, const PluginRegistry&) const {
@@ -161,7 +169,10 @@ const FieldTable<NameMatter>& nameFields() {
   static const FieldTable<NameMatter> table{
       .rows = {field("key", &NameMatter::key, Key{}, ""), field("body", &NameMatter::body, Id{}, "").required(),
                field("lattice", &NameMatter::lattice, Object{voxelFields()}, "").required(),
-               field("cells", &NameMatter::cells, Cells{}, "").required()}};
+               field("cells", &NameMatter::cells, Cells{}, "").required(),
+               field("painted_from", &NameMatter::paintedFrom, Id{}, "").omittedWhen([](const NameMatter& named) {
+                 return named.paintedFrom.empty();
+               })}};
   return table;
 }
 const FieldTable<ReturnBody>& returnFields() {
@@ -231,10 +242,11 @@ struct AnyEdit : EditKind<LoggedEdit> {
       : EditKind({"set", "", &togetherFields()}, {"update", "", &updateFields()}, {"tracks", "", &tracksFields()},
                  {"add_cells", "", &addFields()}, {"take_cells", "", &takeCellsFields()},
                  {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
-                 {"put_back", "", &putBackFields()}, {"move_body", "", &moveFields()},
-                 {"name_matter", "", &nameFields()}, {"return_body", "", &returnFields()},
-                 {"forget_matter", "", &forgetFields()}, {"touch_matter", "", &touchMatterFields()},
-                 {"undo_touch", "", &keyFields<UndoTouch>()}, {"redo_touch", "", &keyFields<RedoTouch>()}) {}
+                 {"put_back", "", &putBackFields()}, {"paint_cells", "", &paintCellsFields()},
+                 {"move_body", "", &moveFields()}, {"name_matter", "", &nameFields()},
+                 {"return_body", "", &returnFields()}, {"forget_matter", "", &forgetFields()},
+                 {"touch_matter", "", &touchMatterFields()}, {"undo_touch", "", &keyFields<UndoTouch>()},
+                 {"redo_touch", "", &keyFields<RedoTouch>()}) {}
 };
 
 const FieldTable<LogEntry>& entryFields() {
@@ -265,6 +277,7 @@ void require(const MoveBody& command) {
   if (const auto* shape = std::get_if<VoxelShape>(&command.body->shape)) requireLattice(*shape);
 }
 void require(const TakeCells& command) { requireLattice(command.lattice); }
+void require(const PaintCells& command) { requireLattice(command.lattice); }
 void require(const TakeMatter& command) { requireLattice(command.lattice); }
 void require(const NameMatter& command) { requireLattice(command.lattice); }
 

@@ -47,9 +47,10 @@ constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH
 ///   holds_lines   structure may say, likewise, that it makes ropes of lines one particle thick
 ///   box_stamp     a brush may say, likewise, that its stamp is a box
 ///   touches_matter  a brush may work on the matter that is there, instead of drawing cells
-constexpr std::array<std::string_view, 10> kCapabilities{
-    "opens_energy", "pair_rates",   "holds_frozen", "structure_count", "spring_ties",
-    "group_poses",  "holds_sheets", "holds_lines",  "box_stamp",       "touches_matter"};
+///   paints_matter   a brush may make that matter of another material
+constexpr std::array<std::string_view, 11> kCapabilities{
+    "opens_energy", "pair_rates",  "holds_frozen", "structure_count", "spring_ties",  "group_poses",
+    "holds_sheets", "holds_lines", "box_stamp",    "touches_matter",  "paints_matter"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }

@@ -72,6 +72,15 @@ struct PutBack {
   MatterKey key = 0;
   std::vector<AddCells> cells{};
 };
+/// What stands in cells of a lattice becomes of a material, except matter of some bodies: see Engine::paint(). Refused
+/// where the scene has no such material.
+struct PaintCells {
+  VoxelShape lattice;  ///< origin and spacing only
+  CellIndices cells;
+  std::string material;               ///< SceneMaterial::id
+  std::vector<std::string> spared{};  ///< Body::id
+  MatterKey key = 0;                  ///< notes what each particle was
+};
 /// A body is at another pose from now on, and its matter is carried by as much: see Engine::moveBody().
 struct MoveBody {
   std::shared_ptr<const Body> body;  ///< as it is there
@@ -83,6 +92,9 @@ struct NameMatter {
   std::string body;    ///< Body::id
   VoxelShape lattice;  ///< origin and spacing only
   CellIndices cells;
+  /// "": the key made it; else the key painted it, and UndoTouch makes it of this material again. Matter of several
+  /// materials is named one after the other.
+  std::string paintedFrom{};
 };
 /// Puts the matter that was taken with a body back; where the key names nothing, the body comes as it is at the start,
 /// and `named` are named in it.
@@ -120,11 +132,11 @@ struct TouchMatter {
   MatterKey key = 0;                  ///< notes what each particle got
 };
 /// Lets go, and takes from each particle the heat that it got by a key, wherever it is by now, but leaves it at 1 K at
-/// least; what has gone gives nothing back.
+/// least; what has gone gives nothing back. What a key painted is of its own material again: see Solver::unpaint().
 struct UndoTouch {
   MatterKey key = 0;
 };
-/// Gives again what was taken so.
+/// Gives again what was taken so, and paints again.
 struct RedoTouch {
   MatterKey key = 0;
 };
@@ -135,7 +147,7 @@ struct ShowFields {
 };
 
 using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch, Reset,
-                             ReturnToState, ShowFields, SetProbes>;
+                             PaintCells, MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch,
+                             RedoTouch, Reset, ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

@@ -69,6 +69,9 @@ class Engine {
   /// emitter holds stays.
   ExtractedMatter extractParticles(const std::vector<uint32_t>& ids);
   void putBack(const ExtractedMatter& matter);
+  /// Makes particles of another material, a SceneMaterial::id: see Solver::paint(). What an emitter holds stays.
+  PaintedMatter paint(const std::vector<uint32_t>& ids, const std::string& material);
+  void unpaint(const PaintedMatter& painted);
   /// Gives particles heat between two frames: see Solver::addHeat().
   bool addHeat(std::span<double> joules);
   /// Changes their velocities: see Solver::addVelocities().

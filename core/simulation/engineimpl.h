@@ -63,6 +63,8 @@ struct Engine::Impl {
   void lead();
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
+  /// Without those that an emitter holds.
+  std::vector<uint32_t> notHeld(const std::vector<uint32_t>& ids) const;
   /// Throws SceneError where the memory does not hold so many particles more of a body.
   void requireRoomFor(double more, const Body& body) const;
   void measurePouring();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What comes into a scene that runs, goes out of it, and is carried about in it.
+#include "core/base/error.h"
 #include "core/scene/pose.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
@@ -82,11 +83,23 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   return ids;
 }
 
-ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
+std::vector<uint32_t> Engine::Impl::notHeld(const std::vector<uint32_t>& ids) const {
   std::vector<uint32_t> some;
-  std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !m->flow.holds(id); });
-  return m->solver->extract(some);
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(some), [&](uint32_t id) { return !flow.holds(id); });
+  return some;
 }
+
+ExtractedMatter Engine::extractParticles(const std::vector<uint32_t>& ids) {
+  return m->solver->extract(m->notHeld(ids));
+}
+PaintedMatter Engine::paint(const std::vector<uint32_t>& ids, const std::string& material) {
+  const std::vector<std::string> known = idsOf(m->project.materials);
+  const auto index = static_cast<size_t>(std::find(known.begin(), known.end(), material) - known.begin());
+  if (index >= m->solver->materials().size())
+    throw InputError("Matter cannot be painted: the scene has no material '" + material + "'");
+  return m->solver->paint(m->notHeld(ids), static_cast<uint32_t>(index));
+}
+void Engine::unpaint(const PaintedMatter& painted) { m->solver->unpaint(painted); }
 bool Engine::addHeat(std::span<double> joules) { return m->solver->addHeat(joules); }
 void Engine::addVelocities(std::span<const Vector3> change) { m->solver->addVelocities(change); }
 void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }

@@ -18,6 +18,7 @@ size_t bytesOf(const FrameEdit& edit) {
   if (command && std::holds_alternative<UpdateProject>(*command)) bytes += kProject;
   if (const auto* cells = command ? std::get_if<AddCells>(command) : nullptr) bytes += kCell * cells->cells.size();
   if (const auto* cells = command ? std::get_if<TakeCells>(command) : nullptr) bytes += kCell * cells->cells.size();
+  if (const auto* cells = command ? std::get_if<PaintCells>(command) : nullptr) bytes += kCell * cells->cells.size();
   if (const auto* touch = command ? std::get_if<TouchMatter>(command) : nullptr)
     bytes += sizeof(api::Touch) * (touch->path.size() + touch->still.size());
   return bytes;

@@ -5,6 +5,7 @@
 #include "core/solver/solver.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ps {
 namespace {
@@ -120,9 +121,43 @@ void NamedMatter::apply(Engine& engine, const PutBack& command) {
   for (const AddCells& cells : command.cells) apply(engine, cells);
 }
 
+/// In their order; what has been done moves over.
+void NamedMatter::paint(Engine& engine, std::vector<Coat>& coats, std::vector<Coat>& painted) {
+  for (Coat& coat : coats) {
+    coat.was = engine.paint(coat.ids, coat.material);
+    painted.push_back(std::move(coat));
+  }
+  coats.clear();
+}
+
+/// The last one first.
+void NamedMatter::unpaint(Engine& engine, std::vector<Coat>& painted, std::vector<Coat>& coats) {
+  for (auto coat = painted.rbegin(); coat != painted.rend(); ++coat) {
+    engine.unpaint(coat->was);
+    coat->was = {};
+  }
+  std::move(painted.begin(), painted.end(), std::back_inserter(coats));
+  painted.clear();
+}
+
+void NamedMatter::apply(Engine& engine, const PaintCells& command) {
+  std::vector<Coat> coats{
+      {sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared), command.material}};
+  std::vector<Coat> painted;
+  paint(engine, coats, painted);
+  if (command.key == 0 || painted[0].was.before.id.empty()) return;
+  m_entries[command.key].painted.push_back(std::move(painted[0]));
+}
+
 void NamedMatter::apply(Engine& engine, const NameMatter& command) {
-  Entry& entry = m_entries[command.key] = {};
-  entry.ids = ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body);
+  std::vector<uint32_t> ids = ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body);
+  Entry& entry = m_entries[command.key];
+  if (!command.paintedFrom.empty()) {
+    entry.before.push_back({std::move(ids), command.paintedFrom});
+    return;
+  }
+  entry = {};
+  entry.ids = std::move(ids);
 }
 
 void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
@@ -156,6 +191,8 @@ void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
   entry.hand.reset();
   entry.taken = negated(giveHeat(engine, negated(entry.heat)));
   entry.heat.clear();
+  unpaint(engine, entry.painted, entry.bare);
+  paint(engine, entry.before, entry.stripped);
 }
 
 void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
@@ -163,6 +200,8 @@ void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
   if (found == m_entries.end()) return;
   found->second.heat = giveHeat(engine, found->second.taken);
   found->second.taken.clear();
+  unpaint(engine, found->second.stripped, found->second.before);
+  paint(engine, found->second.bare, found->second.painted);
 }
 
 }  // namespace ps

@@ -31,6 +31,7 @@ class NamedMatter {
   void apply(Engine& engine, const TakeBody& command);
   void apply(Engine& engine, const TakeMatter& command);
   void apply(Engine& engine, const PutBack& command);
+  void apply(Engine& engine, const PaintCells& command);
   void apply(Engine& engine, const NameMatter& command);
   void apply(Engine& engine, const ReturnBody& command);
   void apply(Engine& engine, const ForgetMatter& command);
@@ -39,15 +40,29 @@ class NamedMatter {
   void apply(Engine& engine, const RedoTouch& command);
 
  private:
+  /// Particles, the material that they become, and what they were while they are of it.
+  struct Coat {
+    std::vector<uint32_t> ids;
+    std::string material;
+    PaintedMatter was{};
+  };
   struct Entry {
     std::vector<uint32_t> ids;               ///< born by the edit, or taken by it
     std::vector<ExtractedMatter> extracted;  ///< what is out of the scene now
     std::optional<Hand> hand;
-    HeatById heat, taken;  ///< what it gave, and what of it was taken back
-    bool isPresent() const { return extracted.empty() && heat.empty() && taken.empty() && !hand; }
+    HeatById heat, taken;             ///< what it gave, and what of it was taken back
+    std::vector<Coat> painted, bare;  ///< one after the other: what it painted, and what of it was taken back
+    /// What it had painted before a reset, with the material that undo gives, and what undo has given it.
+    std::vector<Coat> before, stripped;
+    bool isPresent() const {
+      return extracted.empty() && heat.empty() && taken.empty() && !hand && painted.empty() && bare.empty() &&
+             before.empty() && stripped.empty();
+    }
   };
   static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);
+  static void paint(Engine& engine, std::vector<Coat>& coats, std::vector<Coat>& painted);
+  static void unpaint(Engine& engine, std::vector<Coat>& painted, std::vector<Coat>& coats);
   std::map<MatterKey, Entry> m_entries;
 };
 

@@ -141,6 +141,35 @@ CellSet VoxelCanvas::cells() const {
   return CellSet(result);
 }
 
+Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& material) {
+  Repainted result;
+  std::vector<VoxelShape::Paint> palette = shape.palette;
+  const auto entryOf = [&](double temperature) {
+    const auto found = std::find_if(palette.begin(), palette.end(), [&](const VoxelShape::Paint& paint) {
+      return paint.material == material && paint.temperature == temperature;
+    });
+    const auto entry = static_cast<int>(found - palette.begin());
+    if (found == palette.end()) result.added.push_back(palette.emplace_back(VoxelShape::Paint{material, temperature}));
+    return entry;
+  };
+  const VoxelCanvas hit = VoxelCanvas(shape.runs).erase(cells);
+  for (const VoxelCanvas::Entry& entry : hit.entries()) {
+    const VoxelShape::Paint paint = palette.at(static_cast<size_t>(entry.palette));
+    if (paint.material == material) continue;
+    extend(result.before, entry.cell, entry.palette);
+    extend(result.after, entry.cell, entryOf(paint.temperature));
+  }
+  return result;
+}
+
+void replaceRuns(VoxelShape& shape, std::span<const VoxelShape::Run> runs) {
+  VoxelCanvas canvas(shape.runs);
+  const VoxelCanvas changed(runs);
+  canvas.erase(changed.cells());
+  canvas.restore(changed);
+  shape.runs = canvas.runs();
+}
+
 std::vector<VoxelShape::Run> encodeRuns(const CellSet& cells, int palette) {
   std::vector<VoxelShape::Run> result;
   for (const api::Cell& cell : cells.cells()) extend(result, cell, palette);

@@ -64,6 +64,16 @@ class VoxelCanvas {
   std::vector<Entry> m_entries;
 };
 
+/// Of a sketch in which cells become of a material.
+struct Repainted {
+  std::vector<VoxelShape::Run> before, after;  ///< of the cells that change
+  std::vector<VoxelShape::Paint> added;        ///< that its palette needs beyond its own
+};
+/// Those of some cells that are there become of a material, each as warm as it is.
+Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& material);
+/// Puts runs in the place of what their cells hold.
+void replaceRuns(VoxelShape& shape, std::span<const VoxelShape::Run> runs);
+
 /// Runs of one palette entry.
 std::vector<VoxelShape::Run> encodeRuns(const CellSet& cells, int palette);
 

@@ -18,6 +18,13 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf
     const StrokeEdits edits = replayStroke(*brush, stroke, grid);
     canvas.erase(edits.removed);
     canvas.paint(freeOf(grid, edits.added), stroke.palette);
+    if (edits.painted.empty()) continue;
+    out.runs = canvas.runs();
+    const Repainted painted =
+        repainted(out, edits.painted, out.palette.at(static_cast<size_t>(stroke.palette)).material);
+    out.palette.insert(out.palette.end(), painted.added.begin(), painted.added.end());
+    replaceRuns(out, painted.after);
+    canvas = VoxelCanvas(out.runs);
   }
   out.runs = canvas.runs();
   return out;

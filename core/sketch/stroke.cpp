@@ -43,6 +43,7 @@ class Collector final : public api::EditSink {
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
     if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
+    if (kind > api::EditKind::Paint) throw BrushFault("it submitted cells for an edit that there is not");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());
@@ -56,12 +57,15 @@ class Collector final : public api::EditSink {
 
  private:
   void flush() {
-    const bool add = m_kind == api::EditKind::Add;
-    (add ? m_edits.added : m_edits.removed).add(m_pending);
-    CellSet& other = add ? m_edits.removed : m_edits.added;
-    if (!other.empty()) other.remove(m_pending);
+    m_edits.of(m_kind).add(m_pending);
+    size_t all = 0;
+    for (const api::EditKind kind : {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint}) {
+      CellSet& cells = m_edits.of(kind);
+      if (kind != m_kind && !cells.empty()) cells.remove(m_pending);
+      all += cells.size();
+    }
     m_pending.clear();
-    if (m_edits.added.size() + m_edits.removed.size() > kMaxStrokeCells) refuse();
+    if (all > kMaxStrokeCells) refuse();
   }
   [[noreturn]] static void refuse() {
     throw InputError("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
@@ -184,14 +188,18 @@ bool isInScene(const Environment& environment, const SketchGrid& grid, const api
   });
 }
 
+api::EditKind kindOf(const api::BrushPlugin& brush, bool erase) {
+  if (erase) return api::EditKind::Remove;
+  return brush.extension(api::kPaintsMatter) ? api::EditKind::Paint : api::EditKind::Add;
+}
+
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());
   for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4], {}});
   const StrokeSetup setup{grid, stroke.radius, stroke.up, numbersOf(stroke.parameters, brush.parameters()),
                           stroke.symmetry};
-  return applyBrush(brush, setup, stroke.erase ? api::EditKind::Remove : api::EditKind::Add,
-                    resampleStroke(raw, grid.spacing));
+  return applyBrush(brush, setup, kindOf(brush, stroke.erase), resampleStroke(raw, grid.spacing));
 }
 
 }  // namespace ps

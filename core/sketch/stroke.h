@@ -38,10 +38,13 @@ class StrokeResampler {
 /// All dense samples of a finished stroke.
 std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample> raw, double spacing);
 
-/// What a stroke asks for: two sets without a common cell (the later edit of a cell wins).
+/// What a stroke asks for: sets without a common cell (the later edit of a cell wins).
 struct StrokeEdits {
-  CellSet added, removed;
-  bool empty() const { return added.empty() && removed.empty(); }
+  CellSet added, removed, painted;
+  bool empty() const { return added.empty() && removed.empty() && painted.empty(); }
+  CellSet& of(api::EditKind kind) {
+    return kind == api::EditKind::Add ? added : kind == api::EditKind::Remove ? removed : painted;
+  }
 };
 
 /// How a stroke is drawn.
@@ -70,12 +73,14 @@ api::StrokeContext contextOf(const StrokeSetup& setup);
 /// kMaxStrokeCells, and BrushFault for what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
-/// The same into a set of cells: Add puts cells in, Remove takes them out.
+/// The same into a set of cells: Add puts cells in, Remove takes them out, Paint leaves them.
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                 std::span<const api::StrokeSample> samples, CellSet& cells);
 /// Whether a cell's particle has room within the scene's bounds and before its walls.
 bool isInScene(const Environment& environment, const SketchGrid& grid, const api::Cell& cell);
 
+/// What a stroke asks a brush for.
+api::EditKind kindOf(const api::BrushPlugin& brush, bool erase);
 /// Draws a saved stroke again (its samples are the raw ones).
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/particles/particlestore.h"
+#include "core/solver/report.h"
 
 #include <memory>
 #include <vector>
@@ -36,6 +37,16 @@ struct CopiedConstraints;
 struct ExtractedMatter {
   CopiedParticles particles;
   std::shared_ptr<const CopiedConstraints> constraints;
+};
+
+/// What particles were before they were made of another material, and after; opaque to its keeper.
+struct PaintedMatter {
+  CopiedParticles before, after;
+  uint32_t material = 0;  ///< that they became
+  struct Books {
+    HeatLedger ledger;
+    double offset = 0;  ///< J, of the energy balance
+  } booksBefore, booksAfter;
 };
 
 }  // namespace ps

@@ -91,6 +91,17 @@ class Solver {
   /// throws Error when one of the ids is alive.
   void putBack(const ExtractedMatter& matter);
 
+  /// Makes particles of another material, in the places and at the velocities that they have: each keeps its
+  /// temperature, and is in the phase in which its material is in balance there. It fills as much room as before, what
+  /// was a gas that of a cell, so that its mass is another one; what is fixed or held stays so. Energy is booked as a
+  /// source. What ties it to others stays as long as it is solid. Ids already gone are skipped, and what is of the
+  /// material already.
+  PaintedMatter paint(std::span<const uint32_t> ids, uint32_t material);
+  /// Takes that back, wherever they are by now: what has neither been warmed nor changed since is as it was to the bit,
+  /// books too where nothing else came into them; all else keeps the temperature that it has by now, and has its mass
+  /// of before. Those that are gone, or of another material again, are skipped.
+  void unpaint(const PaintedMatter& painted);
+
   /// Carries all particles of a body to another place: turns them about their centre of mass, which goes by `way` m.
   /// What structure ties to them comes along, but for what is fixed of other bodies. Each keeps its temperature and its
   /// velocity against the others; their mean velocity stays, so that kinetic energy and momentum do. What ties them to

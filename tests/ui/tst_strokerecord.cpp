@@ -134,6 +134,29 @@ class TestStrokeRecord : public QObject {
     QCOMPARE(cellCount(*std::get<BodyEdit>(*edit).after), 15);
   }
 
+  /// A box becomes cells first; undo makes it a box again. Of what is of the material already there is nothing to do.
+  void paintIsTakenBackToTheLetter() {
+    Project project = smallScene();
+    const std::string before = writeProject(project);
+    const auto edits = repaintEdits(project.bodies[0], 0, lattice(), cube(3, -1, 0, -1), "iron");
+    QCOMPARE(edits.size(), size_t{2});
+    QVERIFY(std::holds_alternative<BodyEdit>(edits[0]) && std::holds_alternative<RepaintEdit>(edits[1]));
+    applyEdits(project, edits, true);
+    QCOMPARE(cellCount(project.bodies[0]), 125);
+    const std::string once = writeProject(project);
+    QVERIFY(repaintEdits(project.bodies[0], 0, lattice(), cube(3, -1, 0, -1), "iron").empty());
+    const auto more = repaintEdits(project.bodies[0], 0, lattice(), cube(3, -1, 1, -1), "water");
+    QCOMPARE(more.size(), size_t{1});
+    QVERIFY(std::get<RepaintEdit>(more[0]).cells.added.empty());  // that entry is there
+    QVERIFY(takenCells(more[0], 0.03).empty());
+    applyEdits(project, more, true);
+    applyEdits(project, more, false);
+    QCOMPARE(QString::fromStdString(writeProject(project)), QString::fromStdString(once));
+    applyEdits(project, edits, false);
+    QCOMPARE(QString::fromStdString(writeProject(project)), QString::fromStdString(before));
+    QVERIFY(repaintEdits(project.bodies[0], 0, lattice(), cube(3, 200, 0, 0), "iron").empty());
+  }
+
   void sketchedMatterLeavesRoomForBodies() {
     const Project project = smallScene();
     const auto inside = freeAtStart(project, "new", lattice(), cube(3, -1, 0, -1));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Brushes that work on the matter that is there, driven by rays, without a widget, in a scene that runs.
+#include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
+#include "core/sketch/redraw.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
@@ -14,6 +16,7 @@
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -191,8 +194,137 @@ class TestTouchTools : public QObject {
     QVERIFY(!m_tools->tool(kBrushTool).words().contains(QStringLiteral("water")));
   }
 
+  /// The block becomes cells of two materials, each as warm as before; a reset makes just that matter, and undo knows
+  /// then as well which of it was painted.
+  void paintingAtTheStartChangesTheScene() {
+    const Project before = m_document->project();
+    takePaint();
+    const int steps = m_document->undoStack().count();
+    paintAt(kTop);
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("painting stroke"));
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies.at(0).shape);
+    QCOMPARE(voxels.palette.size(), size_t{2});
+    QCOMPARE(voxels.palette[1].material, std::string("iron"));
+    QCOMPARE(voxels.palette[1].temperature, 263.15);
+    size_t cells = 0;
+    for (const VoxelShape::Run& run : voxels.runs) cells += run.palette == 1 ? static_cast<size_t>(run.length) : 0;
+    QVERIFY(cells > 4 && cells < 125);
+    QCOMPARE(iron(), cells);
+    const std::string text = writeProject(m_document->project());
+    QCOMPARE(writeProject(parseProject(text, "what was written", *m_plugins).project), text);
+    m_document->undoStack().undo();
+    QCOMPARE(iron(), size_t{0});
+    QVERIFY(m_document->project().bodies[0].shape == before.bodies[0].shape);
+    m_document->undoStack().redo();
+    QCOMPARE(iron(), cells);
+    m_link->reset();
+    QCOMPARE(iron(), cells);
+    m_engine->stepOnce();
+    m_document->undoStack().undo();
+    QCOMPARE(iron(), size_t{0});
+    m_link->reset();
+    QCOMPARE(iron(), size_t{0});
+    m_document->undoStack().redo();
+    QCOMPARE(iron(), cells);
+    QCOMPARE(writeProject(m_document->project()), text);
+  }
+
+  /// A stroke of a sketched body is noted with it, and drawn again with the others.
+  void aSketchKeepsTheStrokeThatPaintedIt() {
+    m_tools->activate(kBrushTool);
+    take("sphere", 0.04);
+    const Vector3 beside(0.3, 0, 0);
+    paintAt(beside);
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    takePaint();
+    QCOMPARE(iron(), size_t{0});  // and what is drawn is to be seen
+    paintAt(beside + Vector3(0, 0.07, 0));
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies[1].shape);
+    QCOMPARE(voxels.strokes.size(), size_t{2});
+    QCOMPARE(voxels.strokes[1].brush, std::string("paint"));
+    QCOMPARE(voxels.palette.at(static_cast<size_t>(voxels.strokes[1].palette)).material, std::string("iron"));
+    const FreeOf all = [](const SketchGrid&, const CellSet& some) { return some; };
+    const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
+    const VoxelShape again = redrawn(voxels, kSpacing, all, brushOf);
+    QVERIFY(again.palette == voxels.palette);
+    QVERIFY(again.runs == voxels.runs);
+  }
+
+  /// Of the matter as it stands, which no body's start can say.
+  void paintingInARunChangesMatterAlone() {
+    takePaint();
+    const std::string before = writeProject(m_document->project());
+    m_engine->stepOnce();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
+    paintAt(kTop);
+    QVERIFY(iron() > 4);
+    QCOMPARE(writeProject(m_document->project()), before);
+    m_document->undoStack().undo();
+    QCOMPARE(iron(), size_t{0});
+    m_document->undoStack().redo();
+    QVERIFY(iron() > 4);
+    m_link->reset();
+    QCOMPARE(iron(), size_t{0});
+    m_document->undoStack().undo();
+    m_document->undoStack().redo();
+    QCOMPARE(iron(), size_t{0});
+  }
+
+  void whatIsLockedIsNotPainted() {
+    takePaint();
+    m_document->setBodiesLocked({"ice"}, true);
+    const std::string before = writeProject(m_document->project());
+    paintAt(kTop);
+    QCOMPARE(iron(), size_t{0});
+    QCOMPARE(writeProject(m_document->project()), before);
+  }
+
+  /// It meets the surface instead of standing on it, erases with Control, and is put aside for what draws.
+  void thePaintBrushIsAToolLikeTheOthers() {
+    takePaint();
+    Tool& tool = m_tools->tool();
+    tool.hover(at(kTop));
+    QVERIFY((tool.picture().cursor->centre - kTop).norm() < kSpacing);
+    QVERIFY(!tool.picture().cursor->erase);
+    QVERIFY(tool.words().contains(QStringLiteral("paint")) && tool.words().contains(QStringLiteral("ron")));
+    Pointer pointer = at(kTop);
+    pointer.control = true;
+    tool.hover(pointer);
+    QVERIFY(tool.picture().cursor->erase);
+    const int steps = m_document->undoStack().count();
+    tool.press(at(kTop));
+    QVERIFY(iron() > 0);
+    QVERIFY(tool.cancel());
+    QCOMPARE(iron(), size_t{0});
+    tool.release(at(kTop));
+    QCOMPARE(m_document->undoStack().count(), steps);
+    m_tools->activate("erase");
+    QVERIFY(!m_tools->paints());
+    m_tools->takeBrush("paint");
+    QCOMPARE(m_tools->active(), std::string(kBrushTool));
+  }
+
  private:
   static const Vector3 kTop;
+
+  void takePaint() {
+    take("paint");
+    BrushSettings brush = m_tools->brush();
+    brush.material = m_document->addMaterial("iron");
+    m_tools->setBrush(brush);
+  }
+  void paintAt(const Vector3& place) {
+    m_tools->tool().press(at(place));
+    m_tools->tool().release(at(place));
+  }
+  /// Particles of the second material.
+  size_t iron() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {
+      const uint32_t* first = engine.particles().material();
+      return static_cast<size_t>(std::count(first, first + engine.particles().size(), 1U));
+    });
+  }
 
   Pointer at(const Vector3& place) const {
     Pointer pointer;

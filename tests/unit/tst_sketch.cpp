@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 using namespace ps;
 using api::Cell;
@@ -372,6 +373,51 @@ class TestSketch : public QObject {
     QVERIFY2(std::abs(fine / coarse - 8) < 0.8, qPrintable(QString::number(fine / coarse)));  // the rim's cells: 1 / 12
     shape.strokes[0].brush = "gone";
     QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, all, brushOf), InputError);
+  }
+
+  /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.
+  void cellsArePainted() {
+    VoxelShape shape;
+    shape.palette = {{"ice", 260, {}}, {"ice", 250, {}}, {"tin", 250, {}}};
+    shape.runs = {{0, 0, 0, 4, 0}, {0, 1, 0, 2, 1}, {2, 1, 0, 1, 2}};
+    const Repainted painted = repainted(shape, cellsOf({{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 0}, {9, 9, 9}}), "tin");
+    QVERIFY(painted.added == (std::vector<VoxelShape::Paint>{{"tin", 260, {}}}));
+    QVERIFY(painted.before == (std::vector<VoxelShape::Run>{{1, 0, 0, 2, 0}, {1, 1, 0, 1, 1}}));
+    QVERIFY(painted.after == (std::vector<VoxelShape::Run>{{1, 0, 0, 2, 3}, {1, 1, 0, 1, 2}}));
+    const std::vector<VoxelShape::Run> before = shape.runs;
+    replaceRuns(shape, painted.after);
+    QVERIFY(shape.runs == (std::vector<VoxelShape::Run>{
+                              {0, 0, 0, 1, 0}, {1, 0, 0, 2, 3}, {3, 0, 0, 1, 0}, {0, 1, 0, 1, 1}, {1, 1, 0, 2, 2}}));
+    replaceRuns(shape, painted.before);
+    QVERIFY(shape.runs == before);
+  }
+
+  void theLaterEditOfACellWins() {
+    class Painter final : public api::BrushPlugin {
+     public:
+      const char* label() const override { return "Painter"; }
+      const char* help() const override { return ""; }
+      api::ParameterList parameters() const override { return {}; }
+      void stroke(const api::StrokeContext&, EditKind kind, const api::List<StrokeSample>&,
+                  api::EditSink& sink) const override {
+        const Cell cells[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+        sink.submit(EditKind::Add, {cells, 3});
+        sink.submit(kind, {cells + 1, 2});
+        sink.submit(EditKind::Remove, {cells + 2, 1});
+      }
+      api::Double3 extent(const api::StrokeContext&) const noexcept override { return {0, 0, 0}; }
+      const void* extension(const char* name) const noexcept override {
+        return std::string_view(name) == api::kPaintsMatter ? this : nullptr;
+      }
+    };
+    const Painter painter;
+    VoxelShape::Stroke stroke;
+    stroke.samples = {{0, 0, 0, 1, 0}};
+    StrokeEdits edits = replayStroke(painter, stroke, {{0, 0, 0}, 1.0});
+    QVERIFY(edits.added == cellsOf({{0, 0, 0}}));
+    QVERIFY(edits.painted == cellsOf({{1, 0, 0}}));
+    QVERIFY(edits.of(EditKind::Remove) == cellsOf({{2, 0, 0}}));
+    QVERIFY(kindOf(painter, true) == EditKind::Remove && kindOf(BallBrush(), false) == EditKind::Add);
   }
 
   void rayMeetsThePlane_data() {

@@ -240,9 +240,10 @@ std::string Document::freeBodyId(const std::string& stem) {
 }
 
 void Document::addStroke(std::shared_ptr<StrokeRecord> stroke) {
-  const QString text = !stroke->deed.empty() ? QString::fromStdString(stroke->deed)
-                       : stroke->erase       ? QStringLiteral("erasing stroke")
-                                             : QStringLiteral("brush stroke");
+  const QString text = !stroke->deed.empty()      ? QString::fromStdString(stroke->deed)
+                       : stroke->erase            ? QStringLiteral("erasing stroke")
+                       : stroke->material.empty() ? QStringLiteral("brush stroke")
+                                                  : QStringLiteral("painting stroke");
   m_undo.push(new StrokeCommand(*this, std::move(stroke), text));
 }
 

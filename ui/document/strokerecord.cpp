@@ -100,6 +100,23 @@ void apply(Project& project, const CellsEdit& edit, bool forward) {
   }
 }
 
+void apply(Project& project, const RepaintEdit& edit, bool forward) {
+  Body* body = find(project, edit.id);
+  auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+  if (!voxels) return;
+  const auto& [before, after, added] = edit.cells;
+  std::vector<VoxelShape::Paint>& palette = voxels->palette;
+  std::vector<VoxelShape::Stroke>& strokes = voxels->strokes;
+  replaceRuns(*voxels, forward ? after : before);
+  if (forward) {
+    palette.insert(palette.end(), added.begin(), added.end());
+    strokes.insert(strokes.end(), edit.strokes.begin(), edit.strokes.end());
+  } else {
+    palette.resize(palette.size() - std::min(palette.size(), added.size()));
+    strokes.resize(strokes.size() - std::min(strokes.size(), edit.strokes.size()));
+  }
+}
+
 /// Where cells lie, with a rim of one cell.
 struct CellBounds {
   CellBounds(const VoxelShape& lattice, const std::vector<CellIndex>& cells) {
@@ -163,6 +180,21 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
   return centres;
 }
 
+/// Those of a sketch's cells whose centres lie in cells of another lattice, as idsInCells() has it.
+CellSet cellsWithin(const VoxelShape& voxels, const VoxelShape& lattice, const std::vector<CellIndex>& cells,
+                    const CellBounds& bounds) {
+  const double hair = kOnFace * lattice.spacing;
+  const SketchGrid wide{lattice.origin - Vector3::Constant(hair), lattice.spacing}, grid{voxels.origin, voxels.spacing};
+  const CellSet wanted = cellSet(cells);
+  std::vector<api::Cell> hit;
+  const VoxelCanvas canvas(voxels.runs);
+  for (const VoxelCanvas::Entry& entry : canvas.entries()) {
+    const auto centre = grid.centreOf(entry.cell);
+    if (bounds.holds(centre) && wanted.contains(wide.cellAt(centre))) hit.push_back(entry.cell);
+  }
+  return CellSet(hit);
+}
+
 }  // namespace
 
 void applyEdits(Project& project, const std::vector<SceneEdit>& edits, bool forward) {
@@ -205,18 +237,10 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   std::optional<Body> rest;
   if (!stays) rest = asVoxels(body, lattice.spacing);
   const VoxelShape& voxels = stays ? *own : std::get<VoxelShape>(rest->shape);
-  const double hair = kOnFace * lattice.spacing;  // as idsInCells() has it
-  const SketchGrid eraser{lattice.origin - Vector3::Constant(hair), lattice.spacing},
-      grid{voxels.origin, voxels.spacing};
-  const CellSet wanted = cellSet(cells);
-  VoxelCanvas canvas(voxels.runs);
-  std::vector<api::Cell> hit;
-  for (const VoxelCanvas::Entry& entry : canvas.entries()) {
-    const auto centre = grid.centreOf(entry.cell);
-    if (bounds.holds(centre) && wanted.contains(eraser.cellAt(centre))) hit.push_back(entry.cell);
-  }
+  const CellSet hit = cellsWithin(voxels, lattice, cells, bounds);
   if (hit.empty()) return std::nullopt;
-  const VoxelCanvas erased = canvas.erase(CellSet(hit));
+  VoxelCanvas canvas(voxels.runs);
+  const VoxelCanvas erased = canvas.erase(hit);
   if (canvas.empty()) return BodyEdit{body.id, body, std::nullopt, index};
   const bool drawn = !voxels.strokes.empty();
   if (stays) return CellsEdit{body.id, true, erased.runs(), drawn ? strokes : std::vector<VoxelShape::Stroke>{}};
@@ -226,15 +250,32 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   return BodyEdit{body.id, body, std::move(rest), index};
 }
 
+std::vector<SceneEdit> repaintEdits(const Body& body, size_t index, const VoxelShape& lattice,
+                                    const std::vector<CellIndex>& cells, const std::string& material,
+                                    const std::vector<VoxelShape::Stroke>& strokes) {
+  const CellBounds bounds(lattice, cells);
+  if (centresWithin(body, lattice.spacing, bounds).empty()) return {};
+  const auto* own = std::get_if<VoxelShape>(&body.shape);
+  std::optional<Body> whole;
+  if (!own || own->spacing != lattice.spacing) whole = asVoxels(body, lattice.spacing);
+  const VoxelShape& voxels = whole ? std::get<VoxelShape>(whole->shape) : *own;
+  RepaintEdit edit{body.id, repainted(voxels, cellsWithin(voxels, lattice, cells, bounds), material), {}};
+  if (edit.cells.after.empty()) return {};
+  if (!voxels.strokes.empty()) edit.strokes = strokes;
+  for (VoxelShape::Stroke& stroke : edit.strokes) stroke.palette = edit.cells.after.front().palette;
+  std::vector<SceneEdit> edits;
+  if (whole) edits.emplace_back(BodyEdit{body.id, body, std::move(whole), index});
+  edits.emplace_back(std::move(edit));
+  return edits;
+}
+
 std::vector<std::vector<CellIndex>> takenCells(const SceneEdit& edit, double spacing) {
   VoxelCanvas taken;
   if (const auto* cells = std::get_if<CellsEdit>(&edit)) {
     if (cells->erase) taken = VoxelCanvas(cells->cells);
-  } else {
-    const auto& bodies = std::get<BodyEdit>(edit);
-    if (!bodies.before) return {};
-    taken = VoxelCanvas(std::get<VoxelShape>(asVoxels(*bodies.before, spacing).shape).runs);
-    if (bodies.after) taken.erase(VoxelCanvas(std::get<VoxelShape>(bodies.after->shape).runs).cells());
+  } else if (const auto* bodies = std::get_if<BodyEdit>(&edit); bodies && bodies->before) {
+    taken = VoxelCanvas(std::get<VoxelShape>(asVoxels(*bodies->before, spacing).shape).runs);
+    if (bodies->after) taken.erase(VoxelCanvas(std::get<VoxelShape>(bodies->after->shape).runs).cells());
   }
   std::vector<std::vector<CellIndex>> byPalette;
   for (const VoxelCanvas::Entry& entry : taken.entries()) {

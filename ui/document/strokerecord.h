@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "core/sketch/cellset.h"
 #include "ui/document/matterref.h"
 
 #include <array>
@@ -27,12 +28,19 @@ struct CellsEdit {
   std::vector<VoxelShape::Run> cells;       ///< added, or erased
   std::vector<VoxelShape::Stroke> strokes;  ///< that did it, noted with the body's earlier ones
 };
-using SceneEdit = std::variant<BodyEdit, CellsEdit>;
+/// Cells of a sketched body that become of another material.
+struct RepaintEdit {
+  std::string id;
+  Repainted cells;
+  std::vector<VoxelShape::Stroke> strokes;  ///< that did it, noted with the body's earlier ones
+};
+using SceneEdit = std::variant<BodyEdit, CellsEdit, RepaintEdit>;
 
 /// One finished stroke.
 struct StrokeRecord {
   bool erase = false;
-  std::string body;  ///< that an adding stroke paints
+  std::string material{};  ///< SceneMaterial::id that matter becomes; "": the stroke makes none of another material
+  std::string body;        ///< that an adding stroke paints
   int palette = 0;
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
   VoxelShape lattice;                     ///< origin and spacing only
@@ -56,6 +64,12 @@ SceneEdit paintEdit(const Project& project, const Body& painted, const std::vect
 std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,
                                    const std::vector<std::array<int, 3>>& cells,
                                    const std::vector<VoxelShape::Stroke>& strokes = {});
+/// Makes the cells of `lattice` of a material in a body, the project's at `index`; boxes become cells first, by an edit
+/// before. None where it has none of them that are of another material. A body that was drawn by strokes keeps those
+/// that paint as well.
+std::vector<SceneEdit> repaintEdits(const Body& body, size_t index, const VoxelShape& lattice,
+                                    const std::vector<std::array<int, 3>>& cells, const std::string& material,
+                                    const std::vector<VoxelShape::Stroke>& strokes = {});
 /// Cells by palette entry that an erasing edit took, on the lattice of asVoxels(body, spacing); `spacing`: of the
 /// lattice that erased.
 std::vector<std::vector<std::array<int, 3>>> takenCells(const SceneEdit& edit, double spacing);

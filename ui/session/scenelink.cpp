@@ -2,6 +2,7 @@
 #include "ui/session/scenelink.h"
 
 #include "core/simulation/enginethread.h"
+#include "core/simulation/lattice.h"
 #include "ui/document/document.h"
 
 #include <algorithm>
@@ -28,6 +29,28 @@ std::vector<AddCells> refill(const StrokeRecord& stroke, const Document& documen
     }
   }
   return cells;
+}
+
+/// What a stroke has painted in the document, by what it was painted from.
+std::vector<NameMatter> paintedMatter(const StrokeRecord& stroke, const Document& document) {
+  std::vector<NameMatter> named;
+  for (const SceneEdit& edit : stroke.edits) {
+    const auto* painted = std::get_if<RepaintEdit>(&edit);
+    const Body* body = painted ? document.body(painted->id) : nullptr;
+    const auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+    if (!voxels) continue;
+    VoxelShape lattice;
+    lattice.origin = voxels->origin;
+    lattice.spacing = voxels->spacing;
+    for (size_t palette = 0; palette < voxels->palette.size(); ++palette) {
+      VoxelShape part;
+      part.runs = painted->cells.before;
+      CellIndices cells = cellsOf(part, static_cast<int>(palette));
+      if (!cells.empty())
+        named.push_back({*stroke.matter, body->id, lattice, std::move(cells), voxels->palette[palette].material});
+    }
+  }
+  return named;
 }
 
 }  // namespace
@@ -191,6 +214,12 @@ std::vector<NameMatter> SceneLink::namedMatter() {
   for (const auto& [weak, done, way] : m_strokes) {
     const auto stroke = weak.lock();
     if (!stroke || !done || stroke->erase || !stroke->deed.empty()) continue;
+    if (!stroke->material.empty()) {
+      const std::vector<NameMatter> painted = paintedMatter(*stroke, m_document);
+      if (!painted.empty()) keyOf(stroke->matter);
+      named.insert(named.end(), painted.begin(), painted.end());
+      continue;
+    }
     named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
     named.back().lattice.origin += way;
   }
@@ -278,6 +307,11 @@ void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> bo
   Q_EMIT matterEdited();
 }
 
+void SceneLink::repaint(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
+  m_engine.apply(PaintCells{stroke.lattice, std::move(cells), stroke.material, lockedBodies(), keyOf(stroke.matter)});
+  Q_EMIT matterEdited();
+}
+
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
   m_engine.apply(TakeCells{stroke.lattice, std::move(cells), lockedBodies(), keyOf(stroke.matter)});
   Q_EMIT matterEdited();
@@ -307,7 +341,9 @@ void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
     m_engine.apply(UndoTouch{keyOf(stroke->matter)});
     return;
   }
-  if (stroke->erase) {
+  if (!stroke->material.empty()) {
+    m_engine.apply(UndoTouch{keyOf(stroke->matter)});
+  } else if (stroke->erase) {
     std::vector<AddCells> cells;
     if (!isOfThisRun(stroke->matter)) cells = refill(*stroke, m_document);
     m_engine.apply(PutBack{keyOf(stroke->matter), std::move(cells)});
@@ -323,7 +359,16 @@ void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
     return;
   }
   pushProject();
+  const bool known = isOfThisRun(stroke->matter);
   const MatterKey key = keyOf(stroke->matter);
+  if (!stroke->material.empty()) {
+    // After a reset only its cells say what it painted, and only at the start, where the document has it too.
+    if (known)
+      m_engine.apply(RedoTouch{key});
+    else if (!stroke->edits.empty())
+      m_engine.apply(PaintCells{stroke->lattice, stroke->cells, stroke->material, lockedBodies(), key});
+    return;
+  }
   if (stroke->erase) {
     m_engine.apply(TakeMatter{key, stroke->lattice, stroke->cells});
     return;

@@ -44,6 +44,8 @@ class SceneLink : public QObject {
   void hear(const EngineEvent& event);
   /// A piece of a stroke in the making: `body` is the painted body as it was before, `cells` are new.
   void paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body, std::vector<std::array<int, 3>> cells);
+  /// What is in the cells now becomes of the stroke's material, except matter of locked bodies.
+  void repaint(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells);
   /// Removes what is in the cells now, except matter of locked bodies.
   void erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells);
   /// A hand that touches matter is there now; matter of locked bodies is spared. See TouchMatter.

@@ -17,6 +17,7 @@ constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes 
 DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {}
 
 bool DrawTool::touches() const { return box().touchesMatter(); }
+bool DrawTool::meetsMatter() const { return touches() || box().paints(); }
 
 void DrawTool::hover(const Pointer& pointer) {
   if (m_stroke.active() || m_touch.active()) return;
@@ -25,7 +26,7 @@ void DrawTool::hover(const Pointer& pointer) {
   BrushCursor cursor;
   cursor.erase = !touches() && m_erases != pointer.control;
   cursor.floor = floorHeight(environment);
-  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !touches()) {
+  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !meetsMatter()) {
     m_plane = *plane;
     const auto point = placeOf(pointer);
     if (!point) return;
@@ -37,7 +38,7 @@ void DrawTool::hover(const Pointer& pointer) {
     cursor.centre = surface->point;
   }
   std::tie(cursor.extent, cursor.box) = box().stamp(m_plane.normal);
-  if (!cursor.erase && !touches() && box().brush().drawOn == DrawOn::Surface) {
+  if (!cursor.erase && !meetsMatter() && box().brush().drawOn == DrawOn::Surface) {
     // A brush stands on the surface instead of half inside it.
     cursor.centre += m_plane.normal.cwiseProduct(cursor.extent);
     m_plane.point = cursor.centre;
@@ -143,7 +144,7 @@ bool DrawTool::isJoined(const Vector3& point, const Pointer& pointer) const {
 void DrawTool::drag(const Pointer& pointer) {
   if (m_touch.active() && m_cursor) return dragTouch(pointer);
   if (!m_stroke.active() || !m_cursor) return;
-  if (m_cursor->erase) {
+  if (m_cursor->erase || box().paints()) {
     if (const auto matter = matterUnder(pointer)) {
       if (!isJoined(*matter, pointer)) {
         if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return endAsItIs(problem);
@@ -192,7 +193,8 @@ bool DrawTool::cancel() {
 }
 
 void DrawTool::refuse(const QString& why) {
-  box().refuse(touches() ? QStringLiteral("The matter stays as it is.") : QStringLiteral("Nothing was drawn."), why);
+  box().refuse(meetsMatter() ? QStringLiteral("The matter stays as it is.") : QStringLiteral("Nothing was drawn."),
+               why);
 }
 
 QString DrawTool::brushLabel() const {
@@ -226,18 +228,19 @@ std::vector<Gesture> DrawTool::gestures() const {
     return {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
             {QStringLiteral("Ctrl+Drag"), QStringLiteral("The opposite"), QStringLiteral("the opposite")}};
   }
-  const Gesture draw{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
+  const Gesture draw = box().paints() ? Gesture{{}, brushLabel(), QStringLiteral("paints")}
+                                      : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
   const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
   std::vector<Gesture> list{m_erases ? erase : draw, m_erases ? draw : erase};
   list[0].keys = QStringLiteral("Drag");
   list[1].keys = QStringLiteral("Ctrl+Drag");
-  if (!m_erases)
+  if (!m_erases && !box().paints())
     list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
   return list;
 }
 
 QString DrawTool::invitation() const {
-  return m_erases || touches() || m_stroke.active() ? QString() : QStringLiteral("Draw with the left button");
+  return m_erases || meetsMatter() || m_stroke.active() ? QString() : QStringLiteral("Draw with the left button");
 }
 
 }  // namespace ps

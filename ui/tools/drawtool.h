@@ -40,6 +40,7 @@ class DrawTool : public Tool {
   void dragTouch(const Pointer& pointer);
   void touchAt(const Vector3& point);
   bool touches() const;
+  bool meetsMatter() const;  ///< instead of standing on it
   QString brushLabel() const;
   void endAsItIs(const QString& problem);
   void refuse(const QString& why);

@@ -163,7 +163,9 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_stroke.radius = m_brush.radius;
   m_stroke.up = up;
   m_stroke.symmetry = m_setup.symmetry;
-  if (!erase) {
+  if (!erase && m_box.paints()) {
+    m_record->material = sceneMaterial(m_box.document().project(), m_brush.material)->id;
+  } else if (!erase) {
     m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
@@ -197,30 +199,46 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   if (samples.empty() || !plugin) return;
   if (m_fed) samples.insert(samples.begin(), *m_fed);
   m_fed = samples.back();
-  const bool erase = m_record->erase;
-  const api::EditKind kind = erase ? api::EditKind::Remove : api::EditKind::Add;
-  const std::optional<StrokeEdits> edits = inTime(
+  const api::EditKind kind = kindOf(*plugin, m_record->erase);
+  std::optional<StrokeEdits> edits = inTime(
       m_brush.shape, [plugin, kind, setup = m_setup, samples] { return applyBrush(*plugin, setup, kind, samples); });
   if (!edits) throw BrushFault(kNotBack);
   const Environment& environment = m_box.document().project().environment;
   std::vector<api::Cell> fresh;
-  for (const api::Cell& cell : (erase ? edits->removed : edits->added).cells()) {
-    if (!m_cells.contains(cell) && (erase || isInScene(environment, m_setup.grid, cell))) fresh.push_back(cell);
+  const bool draws = kind == api::EditKind::Add;
+  for (const api::Cell& cell : edits->of(kind).cells()) {
+    if (!m_cells.contains(cell) && (!draws || isInScene(environment, m_setup.grid, cell))) fresh.push_back(cell);
   }
   if (fresh.empty()) return;
   m_cells.add(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
     m_box.link()->erase(*m_record, cells);
+  } else if (!draws) {
+    m_box.link()->repaint(*m_record, cells);
   } else {
     m_box.link()->paint(*m_record, m_body, cells);
   }
 }
 
-void LiveStroke::collectErasure(StrokeRecord& record) const {
-  const Project& project = m_box.document().project();
+std::vector<VoxelShape::Stroke> LiveStroke::pieces() const {
   std::vector<VoxelShape::Stroke> strokes = m_pieces;
   if (!m_stroke.samples.empty()) strokes.push_back(m_stroke);
+  return strokes;
+}
+
+void LiveStroke::collectPaint(StrokeRecord& record) const {
+  const Project& project = m_box.document().project();
+  for (size_t i = 0; i < project.bodies.size(); ++i) {
+    if (project.bodies[i].locked) continue;
+    for (SceneEdit& edit : repaintEdits(project.bodies[i], i, record.lattice, record.cells, record.material, pieces()))
+      record.edits.push_back(std::move(edit));
+  }
+}
+
+void LiveStroke::collectErasure(StrokeRecord& record) const {
+  const Project& project = m_box.document().project();
+  const std::vector<VoxelShape::Stroke> strokes = pieces();
   for (size_t i = 0; i < project.bodies.size(); ++i) {
     if (project.bodies[i].locked) continue;
     auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells, strokes);
@@ -250,7 +268,9 @@ void LiveStroke::keep() {
   if (m_cells.empty()) return;
   record->cells = m_cells.indices();
   const Project& project = m_box.document().project();
-  if (!record->erase) {
+  if (!record->material.empty()) {
+    if (m_atStart) collectPaint(*record);
+  } else if (!record->erase) {
     const auto free = freeAtStart(project, m_body->id, record->lattice, record->cells);
     record->edits.push_back(paintEdit(project, *m_body, free, record->palette, m_stroke));
   } else if (m_atStart) {

@@ -52,7 +52,9 @@ class LiveStroke {
   void feed(std::vector<api::StrokeSample> samples);
   template <class Work>
   QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
+  std::vector<VoxelShape::Stroke> pieces() const;
   void collectErasure(StrokeRecord& record) const;
+  void collectPaint(StrokeRecord& record) const;
 
   Toolbox& m_box;
   BrushSettings m_brush;  ///< as it was when the stroke began

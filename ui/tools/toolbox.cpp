@@ -42,6 +42,11 @@ bool Toolbox::touchesMatter(const std::string& brush) const {
   return plugins && plugins->needs(brush, api::kTouchesMatter);
 }
 
+bool Toolbox::paints(const std::string& brush) const {
+  const PluginRegistry* plugins = m_document.plugins();
+  return plugins && plugins->needs(brush, api::kPaintsMatter);
+}
+
 /// Or the first one that draws where that cannot be had.
 void Toolbox::takeInstalled(const std::string& wanted) {
   const PluginRegistry& plugins = *m_document.plugins();
@@ -49,9 +54,9 @@ void Toolbox::takeInstalled(const std::string& wanted) {
   brush.shape = wanted;
   const std::vector<std::string> installed = plugins.ids(PluginKind::Brush);
   if (!plugins.brush(brush.shape) && !installed.empty()) {
-    const auto draws =
-        std::find_if(installed.begin(), installed.end(), [this](const std::string& id) { return !touchesMatter(id); });
-    brush.shape = draws == installed.end() ? installed.front() : *draws;
+    const auto found =
+        std::find_if(installed.begin(), installed.end(), [this](const std::string& id) { return draws(id); });
+    brush.shape = found == installed.end() ? installed.front() : *found;
   }
   setBrush(brush);
 }
@@ -63,7 +68,7 @@ void Toolbox::putAside(const std::string& brush, const std::string& problem) {
 
 void Toolbox::activate(const std::string& id) {
   if (!toolRow(id)) return;
-  if (tool(id).usesBrush() && touchesMatter() && !m_drawing.empty()) {
+  if (tool(id).usesBrush() && !draws(m_brush.shape) && !m_drawing.empty()) {
     BrushSettings brush = m_brush;
     brush.shape = m_drawing;
     setBrush(brush);
@@ -83,7 +88,7 @@ void Toolbox::setMouse(MousePreset preset) {
 }
 
 void Toolbox::takeBrush(const std::string& id) {
-  if (touchesMatter(id) && tool().usesBrush()) activate(kBrushTool);
+  if (!draws(id) && tool().usesBrush()) activate(kBrushTool);
   BrushSettings brush = m_brush;
   brush.shape = id;
   setBrush(brush);
@@ -92,7 +97,7 @@ void Toolbox::takeBrush(const std::string& id) {
 void Toolbox::setBrush(const BrushSettings& brush) {
   if (brush == m_brush) return;
   m_brush = brush;
-  if (!touchesMatter()) m_drawing = m_brush.shape;
+  if (draws(m_brush.shape)) m_drawing = m_brush.shape;
   Q_EMIT brushChanged();
 }
 

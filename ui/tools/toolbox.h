@@ -42,10 +42,12 @@ class Toolbox : public QObject {
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
   void nextShape();               ///< of those installed, by id
-  /// Takes a brush in hand; from the eraser, one that touches matter.
+  /// Takes a brush in hand; one that touches or paints matter puts the eraser aside.
   void takeBrush(const std::string& id);
   /// Whether the brush in hand works on the matter that is there, instead of drawing.
   bool touchesMatter() const { return touchesMatter(m_brush.shape); }
+  /// Whether it makes that matter of another material.
+  bool paints() const { return paints(m_brush.shape); }
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
   /// `up`: away from what it draws on.
@@ -80,6 +82,8 @@ class Toolbox : public QObject {
   };
   void takeInstalled(const std::string& wanted);
   bool touchesMatter(const std::string& brush) const;
+  bool paints(const std::string& brush) const;
+  bool draws(const std::string& brush) const { return !touchesMatter(brush) && !paints(brush); }
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;

@@ -69,6 +69,9 @@ class HeatStage {
   /// that range. Declares the model's fields in the store when they are new. False when the model threw.
   bool initialise(ParticleStore& store, size_t first, size_t last, std::span<const double> temperature,
                   std::span<const api::Phase> phase);
+  /// Of particles at these ascending indices, whose material is another one by now: from temperature and phase as the
+  /// store has them.
+  bool initialise(ParticleStore& store, std::span<const uint32_t> indices);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
   /// False when the model threw: particles are then half changed, the ledger is not.
   /// `frame`, its number, chooses the rays of radiation.
@@ -102,6 +105,8 @@ class HeatStage {
     m_ledger.sources += joules;
     m_ledger.exchanged += joules < 0 ? -joules : joules;
   }
+  /// The books as they were: of what has been taken back to the bit.
+  void setLedger(const HeatLedger& ledger) { m_ledger = ledger; }
   /// Plugins that warm or cool matter, whatever the model; one that throws is put aside for good.
   void setSources(std::vector<HeatSource> sources, ParticleStore& store) { m_sources.set(std::move(sources), store); }
   /// Those that threw since the last call.

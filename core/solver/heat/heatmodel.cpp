@@ -33,6 +33,19 @@ bool HeatStage::initialise(ParticleStore& store, size_t first, size_t last, std:
   });
 }
 
+bool HeatStage::initialise(ParticleStore& store, std::span<const uint32_t> indices) {
+  if (!works() || indices.empty()) return true;
+  return guarded([&] {
+    const CalleeScope callee(m_modelName.c_str());
+    for (size_t from = 0, to = 0; from < indices.size(); from = to) {
+      while (to < indices.size() && indices[to] == indices[from] + (to - from)) ++to;
+      const size_t first = indices[from], last = first + (to - from);
+      m_model->initialise(context(), store.view(), first, last, store.temperature(), store.phase());
+      deriveRange(store, first, last);
+    }
+  });
+}
+
 void HeatStage::startFields(ParticleStore& store) const {
   const auto fields = m_model->fields();
   for (size_t k = 0; k < fields.count; ++k) {

@@ -14,6 +14,11 @@ inline constexpr const char* kBoxStamp = "box_stamp";
 /// its MatterBrush, and its metadata list the name. Its stroke() is never called.
 inline constexpr const char* kTouchesMatter = "touches_matter";
 
+/// Capability of a brush that makes the matter that is there of another material, instead of drawing cells:
+/// extension(kPaintsMatter) is not nullptr, and its metadata list the name. Its stroke() gets and submits
+/// EditKind::Paint, or Remove where its user erases with it.
+inline constexpr const char* kPaintsMatter = "paints_matter";
+
 struct StrokeSample {
   Double3 position;           ///< m
   double pressure;            ///< 0 .. 1
@@ -37,7 +42,11 @@ struct Cell {
   int32_t x, y, z;
 };
 
-enum class EditKind : uint32_t { Add, Remove };
+enum class EditKind : uint32_t {
+  Add,     ///< free cells are filled with the material that is drawn with
+  Remove,  ///< what stands in cells goes
+  Paint,   ///< what stands in cells becomes that material, as warm as it is; free cells stay free
+};
 
 /// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.
 class EditSink {
