@@ -260,7 +260,6 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
 bool Neighbours::stale(const ParticleStore& store) const {
   const size_t n = store.size();
   if (m_built.size() != n) return true;
-  if (m_close) return false;
   const api::Float4* position = store.position();
   return anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
     float most = 0;

@@ -28,8 +28,8 @@ class Neighbours {
   /// Rebuilds the lists in the present order; close ones are for this substep alone.
   void build(const ParticleStore& store, bool close = false);
   bool close() const { return m_close; }
-  /// True when a particle has moved more than half the skin since the last build, or their number has changed. Close
-  /// lists serve until the next substep, however far one is moved in this: who asks then makes them anew.
+  /// True when a particle has moved more than half the skin since the last build, or their number has changed. Of close
+  /// lists, too: what goes that far within the substep that they were made for is looked for anew.
   bool stale(const ParticleStore& store) const;
   std::span<const uint32_t> lastOrder() const { return m_lastOrder; }
 
