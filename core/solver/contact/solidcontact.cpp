@@ -48,6 +48,7 @@ void SolidContact::configure(const SolverSettings& settings, std::span<const Bak
   m_faceReach = std::hypot(kFaceDistance, kFaceWidth) * m_spacing + kSkinSpacings * m_spacing;
   m_surface.configure(m_spacing);
   m_fixed.clear();
+  m_crowded = latticeNeighbours((settings.supportRatio + kSkinSpacings) / kCrowded);
   m_friction.clear();
   for (const BakedMaterial& m : materials) {
     m_friction.push_back({static_cast<float>(m.scalar(propertyIndex("friction_static"))),
@@ -101,7 +102,6 @@ void SolidContact::markRound(Chunk& chunk, std::span<const uint32_t> pieceOf) {
 void SolidContact::findKinds(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph,
                              std::span<const uint8_t> rigid) {
   const api::NeighbourView view = neighbours.view();
-  const uint32_t crowded = latticeNeighbours(neighbours.searchRadius() / (kCrowded * m_spacing));
   m_kinds.resize(store.size());
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
@@ -114,7 +114,7 @@ void SolidContact::findKinds(const ParticleStore& store, const Neighbours& neigh
       if (motion == api::Motion::Static || !free) kind |= kOfLattice;
       if (moves) kind |= kMoves;
       if (enclosed) kind |= kInside;
-      if (enclosed && view.last[i] - view.begin[i] <= crowded) kind |= kShut;
+      if (enclosed && view.last[i] - view.begin[i] <= m_crowded) kind |= kShut;
       m_kinds[i] = kind;
     }
   });

@@ -132,6 +132,7 @@ class SolidContact {
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_spacing = 0, m_diameter = 0, m_reach = 0, m_faceReach = 0;  ///< m
+  uint32_t m_crowded = 0;  ///< neighbours that a particle has when its lattice is squeezed
   double m_squeezedShare = 0;
   std::vector<Friction> m_friction;           ///< per material
   std::vector<Chunk> m_chunks;                ///< of m_solids, and behind them of those that are mirrored

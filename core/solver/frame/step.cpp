@@ -308,20 +308,6 @@ void Solver::Impl::iterate(uint32_t index, double dt) {
   }
 }
 
-/// Something goes farther in the next substep than lists allow.
-bool Solver::Impl::outrunsLists(double dt) const {
-  const double most = 0.5 * kSkinSpacings * settings.spacing / dt;
-  const api::Float4* velocity = store.velocity();
-  return anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    float fastest = 0;
-    for (size_t i = first; i < last; ++i) {
-      const api::Float4& v = velocity[i];
-      fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
-    }
-    return double{fastest} > most * most;
-  });
-}
-
 void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
@@ -334,8 +320,8 @@ void Solver::Impl::substep(uint32_t index) {
   });
   balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
-    if (neighbours.close() || neighbours.stale(store)) {
-      neighbours.build(store, outrunsLists(dt));
+    if (neighbours.stale(store)) {
+      neighbours.build(store);
       listsChanged(false);
     }
   });
