@@ -89,11 +89,14 @@ RecordingFiles::~RecordingFiles() {
 
 void RecordingFiles::onOpened(const QString& project) {
   if (m_reading) m_reading->cancel();
+  m_keptIsBack = true;
   const bool comesBack = std::exchange(m_comesBack, false);
-  if (comesBack && m_session.autosave())
+  if (comesBack && m_session.autosave()) {
+    m_keptIsBack = false;
     read(m_session.autosave()->runPath(), Way::Kept);
-  else
+  } else {
     attachBeside(project);
+  }
 }
 
 void RecordingFiles::attachBeside(const QString& project) {
@@ -166,10 +169,12 @@ void RecordingFiles::save(const QString& path) {
 }
 
 bool RecordingFiles::keep(const QString& path, size_t most) {
-  QFile::remove(path);
   if (m_reading) m_reading->cancel();
   const SnapshotPtr newest = m_session.newest();
   EngineThread* engine = m_session.engine();
+  // The one of last time, which has not come back yet, is there for the next time.
+  if (!m_keptIsBack && (!newest || engine->making() || newest->stats.frame == 0)) return QFile::exists(path);
+  QFile::remove(path);
   if (!newest || engine->making() || m_session.isBroken()) return false;
   if (newest->stats.frame == 0 && !m_session.document().project().state) return false;  // it opens there anyway
   const RunRecord& record = engine->recording();
@@ -226,7 +231,6 @@ void RecordingFiles::read(const QString& path, Way way) {
     auto read = std::make_shared<Read>();
     try {
       const RecordingReader reader(path.toStdString(), *plugins);
-      if (way == Way::Kept) QFile::remove(path);  // it stays open for as long as anything of it is looked at
       if (!reader.whyNoStates().empty())
         throw InputError("nothing can go on from it, and so it is not shown here: " + reader.whyNoStates());
       auto own = std::make_shared<Project>(readProject(reader.projectText(), path.toStdString(), *plugins).project);
@@ -243,6 +247,7 @@ void RecordingFiles::read(const QString& path, Way way) {
       end();
       if (way == Way::Kept) {
         if (takeKept(*read, count)) return;
+        m_keptIsBack = true;
         Q_EMIT cameBack(false);
         attachBeside(m_session.document().path());
       } else if (!read->problem.isEmpty()) {
@@ -262,10 +267,17 @@ bool RecordingFiles::takeKept(const Read& read, uint64_t count) {
   if (!read.content || !read.same || document.changeCount() != count) return false;
   m_session.engine()->adopt(read.content, true, [session = &m_session, files = QPointer<RecordingFiles>(this)] {
     QMetaObject::invokeMethod(session, [files] {
-      if (files) Q_EMIT files->cameBack(true);
+      if (files) files->isBack();
     });
   });
   return true;
+}
+
+/// Its file stays open for as long as anything of it is looked at.
+void RecordingFiles::isBack() {
+  m_keptIsBack = true;
+  if (m_session.autosave()) QFile::remove(m_session.autosave()->runPath());
+  Q_EMIT cameBack(true);
 }
 
 void RecordingFiles::take(const QString& path, const Read& read, uint64_t count) {

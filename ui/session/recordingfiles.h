@@ -71,6 +71,7 @@ class RecordingFiles : public QObject {
   void read(const QString& path, Way way);
   void take(const QString& path, const Read& read, uint64_t count);
   bool takeKept(const Read& read, uint64_t count);
+  void isBack();
 
   Session& m_session;
   std::shared_ptr<Progress> m_progress, m_reading;  ///< of the newest job, and of the newest that reads
@@ -78,6 +79,7 @@ class RecordingFiles : public QObject {
   QTimer m_clock;  ///< runs while there are any
   bool m_told = false;
   bool m_comesBack = false;       ///< the project that is being reopened has its run
+  bool m_keptIsBack = true;       ///< else that one is being read yet, or about to stand there
   std::deque<Waiting> m_waiting;  ///< for the engine's newest state, in their order
   Worker m_worker;                // ends first, with what is to be written
 };

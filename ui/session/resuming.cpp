@@ -29,6 +29,7 @@ LastLook Resuming::present() const {
   const RecordedView& recorded = m_session.recorded();
   LastLook look{m_selection.items(), m_selection.material(), m_session.playing() && !recorded.isActive(), {}, false};
   if (recorded.isActive()) look.shownAt = m_session.now();
+  if (m_waiting) look.playing = m_waiting->playing, look.shownAt = m_waiting->shownAt;  // its run has yet to come back
   return look;
 }
 
