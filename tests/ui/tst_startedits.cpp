@@ -60,7 +60,7 @@ class TestStartEdits : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame == 1, kLong);
     const uint64_t revision = session().newest()->revision;
     QCOMPARE(document().setParameter(kSpacing, 1.5 * std::get<double>(document().value(kSpacing))), QString());
-    QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset")), qPrintable(note()));
+    QTRY_VERIFY2_WITH_TIMEOUT(note().startsWith(QStringLiteral("Acts at the next reset")), qPrintable(note()), kLong);
     QVERIFY(!session().appliesAtOnce());
     session().link()->applyWaiting();
     QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
@@ -76,6 +76,9 @@ class TestStartEdits : public SampleWindowTest {
     session().link()->hear(cancelled);
     Q_EMIT session().happened(cancelled);
     QVERIFY(!session().appliesAtOnce());
+    const uint64_t revision = session().newest()->revision;
+    QTest::qWait(300);  // twice as long as a drag rests
+    QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
     session().reset();
     QVERIFY(session().appliesAtOnce());
   }

@@ -379,6 +379,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
+    // The panels may not have heard of the last reset yet: what is set from now on waits for another one.
+    if (const SnapshotPtr snapshot = m_session.snapshot()) m_notes.setSnapshot(*snapshot);
     m_notes.setNothingWaits(m_session.appliesAtOnce());
     m_notes.onChanged(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);

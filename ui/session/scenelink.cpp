@@ -63,8 +63,10 @@ SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
   connect(&m_soon, &QTimer::timeout, this, [this] {
     if (m_engine.making())
       m_soon.start();
-    else
+    else if (appliesAtOnce())
       applyWaiting();
+    else
+      nothingWaits();  // another moment stands there by now: a run came back, or a state
   });
 }
 SceneLink::~SceneLink() = default;
@@ -265,6 +267,7 @@ void SceneLink::keepNames(const std::shared_ptr<const ProjectState>& state, Matt
 void SceneLink::returnToState() {
   const std::shared_ptr<const ProjectState>& state = m_document.project().state;
   if (!state || isBroken()) return;
+  nothingWaits();
   forgetMatter();
   ++m_run;
   MatterIds named;
@@ -291,6 +294,7 @@ void SceneLink::rebuild(bool play) {
 }
 
 void SceneLink::hear(const EngineEvent& event) {
+  if (event.kind == EngineEvent::Kind::Cancelled) nothingWaits();
   if (event.kind == EngineEvent::Kind::Cancelled || event.kind == EngineEvent::Kind::Refused) m_givenUp = true;
   // Edits that came while the engine tried met no scene.
   if (event.kind == EngineEvent::Kind::NotOpened && isBroken() && m_builtAt != m_document.changeCount())
