@@ -21,7 +21,7 @@ LineList leftOf(const LineList& lines, const std::optional<Section>& section) {
   LineList left;
   for (const auto& [from, to] : lines) {
     const double a = section->plane.heightOf(from), b = section->plane.heightOf(to);
-    if (a < 0 && b < 0) continue;
+    if ((a < 0 && b <= 0) || (a <= 0 && b < 0)) continue;
     const Vector3 on = a * b < 0 ? Vector3(from + a / (a - b) * (to - from)) : from;
     left.emplace_back(a < 0 ? on : from, b < 0 ? on : to);
   }

@@ -163,7 +163,9 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_stroke.radius = m_brush.radius;
   m_stroke.up = up;
   m_stroke.symmetry = m_setup.symmetry;
-  if (!erase && m_box.paints()) {
+  // What the brush does decides, as in feed(), not what its metadata say.
+  const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
+  if (plugin && kindOf(*plugin, erase) == api::EditKind::Paint) {
     m_record->material = sceneMaterial(m_box.document().project(), m_brush.material)->id;
   } else if (!erase) {
     m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));

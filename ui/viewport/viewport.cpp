@@ -309,6 +309,7 @@ std::optional<SceneTag> Viewport::tag() const {
 }
 
 void Viewport::projectOpened() {
+  if (m_drag == Drag::Section) m_drag = Drag::None;  // what it would go back to was of the former project
   cancelGesture();
   m_unframed.reset();
   const ViewState& view = m_document.project().view;
