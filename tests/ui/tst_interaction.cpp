@@ -417,11 +417,16 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
     view()->frameAll();
     QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
-    view()->repaint();
-    const auto& axes = view()->overlayHits().axes;
-    const auto right = std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.azimuth == 90; });
-    QVERIFY(right != axes.end());
-    QTest::mouseClick(view(), Qt::LeftButton, {}, right->rect.center().toPoint());
+    view()->update();
+    const auto end = [this](double azimuth) {
+      for (const auto& axis : view()->overlayHits().axes) {
+        if (axis.azimuth == azimuth) return axis.rect;
+      }
+      return QRectF();
+    };
+    // Painted from above, where the ends of x lie apart.
+    QTRY_VERIFY_WITH_TIMEOUT(!end(90).isEmpty() && !end(90).intersects(end(-90)), kLong);
+    QTest::mouseClick(view(), Qt::LeftButton, {}, end(90).center().toPoint());
     QCOMPARE(view()->navigator().camera().azimuth, 90.0);
     QCOMPARE(view()->navigator().viewName(), QStringLiteral("Perspective"));
   }
