@@ -317,6 +317,16 @@ size_t ParticleStore::indexOf(uint32_t id) const {
   return id < m_indexOfId.size() && m_indexOfId[id] < m_size && m_id[m_indexOfId[id]] == id ? m_indexOfId[id] : m_size;
 }
 
+std::vector<uint32_t> ParticleStore::indicesOf(std::span<const uint32_t> ids) const {
+  std::vector<uint32_t> indices;
+  for (const uint32_t id : ids) {
+    if (const size_t i = indexOf(id); i < m_size) indices.push_back(static_cast<uint32_t>(i));
+  }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  return indices;
+}
+
 api::ParticleView ParticleStore::view() const {
   return {m_size,           m_position,    m_previous,    m_velocity,
           m_mass,           m_id,          m_material,    m_body,

@@ -131,6 +131,8 @@ class ParticleStore final : public api::FieldAccess {
   void permute(std::span<const uint32_t> order);
   /// Index of a particle by its id, or size() when it is gone.
   size_t indexOf(uint32_t id) const;
+  /// Ascending, each once, without those that are gone.
+  std::vector<uint32_t> indicesOf(std::span<const uint32_t> ids) const;
 
   api::ParticleView view() const;
   /// All fields in order of declaration, particles in the order that they stand in: sums depend on it.

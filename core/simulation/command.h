@@ -17,6 +17,8 @@
 // them with their frames, and the state at the start, say all that happened, and can be written down and repeated.
 namespace ps {
 
+class NamedMatter;
+
 /// Names matter that came or went by one edit, so that another one can take it away or bring it back. 0: nobody asks.
 using MatterKey = uint64_t;
 using CellIndices = std::vector<std::array<int, 3>>;
@@ -112,10 +114,10 @@ struct Reset {
   std::vector<NameMatter> named{};
 };
 /// To a state that a project of these bodies holds, with all other edits kept. Keys name nothing then, except `named`:
-/// what Engine::namedMatter() said when the state was kept.
+/// what Engine::names() said when the state was kept. What was out of the scene then, and hands, are nothing of a state.
 struct ReturnToState {
   std::shared_ptr<const ProjectState> state;
-  MatterIds named{};
+  std::shared_ptr<const NamedMatter> named{};
 };
 
 /// A hand is in matter, for as long as it stays: it acts at the start of each frame, until another one of its key says

@@ -369,7 +369,7 @@ void Engine::apply(const Command& command) {
     for (const NameMatter& named : start->named) m->named.apply(*this, named);
   } else if (const auto* back = std::get_if<ReturnToState>(&command)) {
     restore(*back->state);
-    m->named = NamedMatter(back->named);
+    m->named = back->named ? back->named->inScene() : NamedMatter();
   } else if (const auto* wanted = std::get_if<ShowFields>(&command)) {
     show(wanted->names);
   } else {
@@ -422,7 +422,6 @@ const Project& Engine::project() const { return m->project; }
 Project Engine::document() const { return m->document(); }
 void Engine::show(const std::vector<std::string>& names) { m->shown = names; }
 const Solver& Engine::solver() const { return *m->solver; }
-MatterIds Engine::namedMatter() const { return m->named.present(); }
 const ParticleStore& Engine::particles() const { return m->solver->particles(); }
 const ParticleFields& Engine::fields() const { return m->fields; }
 uint64_t Engine::bakedTables() const { return m->tables.baked(); }

@@ -79,8 +79,6 @@ class Engine {
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 
-  /// What keys of commands name and is in the scene, to be named again after a ReturnToState.
-  MatterIds namedMatter() const;
   /// All that keys name, with what is out of the scene: what a state does not say, and goes with it to where edits are
   /// repeated.
   std::shared_ptr<const NamedMatter> names() const;

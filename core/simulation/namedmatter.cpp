@@ -57,6 +57,20 @@ std::vector<MatterKey> NamedMatter::outside() const {
   return keys;
 }
 
+NamedMatter NamedMatter::inScene() const {
+  NamedMatter there;
+  for (const auto& [key, entry] : m_entries) {
+    if (entry.extracted.empty()) there.m_entries.emplace(key, entry).first->second.hand.reset();
+  }
+  return there;
+}
+
+std::vector<MatterKey> NamedMatter::keys() const {
+  std::vector<MatterKey> keys;
+  for (const auto& [key, entry] : m_entries) keys.push_back(key);
+  return keys;
+}
+
 std::vector<MatterKey> NamedMatter::hands() const {
   std::vector<MatterKey> keys;
   for (const auto& [key, entry] : m_entries) {

@@ -22,6 +22,9 @@ class NamedMatter {
   MatterIds present() const;
   /// The keys of those.
   std::vector<MatterKey> outside() const;
+  /// Without those of which something is out of the scene, and without hands: what holds of a state in this program.
+  NamedMatter inScene() const;
+  std::vector<MatterKey> keys() const;
   /// The keys of hands that are in matter: neither is that in a state.
   std::vector<MatterKey> hands() const;
   /// What hands do in a frame, before it.

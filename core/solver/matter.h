@@ -46,6 +46,7 @@ struct PaintedMatter {
   struct Books {
     HeatLedger ledger;
     double offset = 0;  ///< J, of the energy balance
+    bool operator==(const Books&) const = default;
   } booksBefore, booksAfter;
 };
 

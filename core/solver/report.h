@@ -63,6 +63,7 @@ struct HeatLedger {
   double walls = 0, air = 0, radiation = 0, heaters = 0, sources = 0, exchanged = 0;
   double airWarming = 0;  ///< K by which a finite lump of air is warmer than at the start
   double net() const { return walls + air + radiation + heaters + sources; }
+  bool operator==(const HeatLedger&) const = default;
 };
 
 /// Momentum of moving matter over one frame, kg m/s. What is open, end - start - external, is rounding: forces between

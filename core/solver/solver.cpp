@@ -171,10 +171,11 @@ void Solver::Impl::configure() {
 }
 
 /// Books the energy of matter that came or went while the clock runs, and renews what depends on who is there.
-void Solver::Impl::matterChanged(double energyBefore) {
+void Solver::Impl::matterChanged(double energyBefore, bool others) {
   if (frame > 0) heat.book(heat.energy(store) - energyBefore);
   settleEnergy();
-  reordered = structureChanged = true;
+  reordered = reordered || others;
+  structureChanged = true;
   lastGoodValid = false;
 }
 
@@ -278,13 +279,7 @@ void Solver::remove(std::span<const uint32_t> ids) { extract(ids); }
 ExtractedMatter Solver::extract(std::span<const uint32_t> ids) {
   m->configure();
   ParticleStore& store = m->store;
-  std::vector<uint32_t> indices;
-  for (const uint32_t id : ids) {
-    const size_t i = store.indexOf(id);
-    if (i < store.size()) indices.push_back(static_cast<uint32_t>(i));
-  }
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  const std::vector<uint32_t> indices = store.indicesOf(ids);
   if (indices.empty()) return {};
   ExtractedMatter extracted{store.copy(indices),
                             std::make_shared<const CopiedConstraints>(m->constraints.copy(store, indices))};

@@ -6,12 +6,13 @@
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/projectstate.h"
 #include "core/simulation/runrecord.h"
 #include "core/solver/solver.h"
 #include "tests/physics/onehash.h"
+#include "tests/shared/recordedrun.h"
 #include "tests/shared/scenes.h"
 
-#include <QTemporaryDir>
 #include <QTest>
 
 #include <algorithm>
@@ -108,6 +109,7 @@ class TestPaint : public QObject {
   void whatIsSolidHoldsTogether();
   void aRigidBodyStaysInItsPlace();
   void whatStaysAsItIs();
+  void aReturnToAStateKnowsWhatWasPainted();
   void aResetKnowsWhatWasPainted();
   void manyEditsLeaveNothingBehind();
   void theSameBitsEverywhere_data() { onehash::addRows(); }
@@ -272,6 +274,37 @@ void TestPaint::whatStaysAsItIs() {
   run(engine, 3);
 }
 
+/// Undo takes back what had been painted when the state was kept, wherever it is there, and nothing that came later.
+void TestPaint::aReturnToAStateKnowsWhatWasPainted() {
+  Project project = iceAndWater();
+  Engine engine(project, m_plugins);
+  const std::map<uint32_t, One> before = all(engine);
+  engine.apply(paint("iron", cube(3)));
+  run(engine, 4);
+  StateBuffer stream;
+  saveTo(stream, engine);
+  const auto state = projectState(stream.bytes(), project.bodies);
+  const auto names = engine.names();
+  engine.apply(paint("ethanol", cube(5), kPool, 6));
+  engine.apply(UndoTouch{kKey});
+  run(engine, 3);
+  engine.apply(ReturnToState{state, names});
+  const uint64_t painted = engine.stateHash();
+  QCOMPARE(count(engine, 1), size_t{27});
+  QCOMPARE(count(engine, 2), size_t{0});
+  engine.apply(UndoTouch{6});
+  QCOMPARE(engine.stateHash(), painted);
+  engine.apply(UndoTouch{kKey});
+  QCOMPARE(count(engine, 1), size_t{0});
+  for (const auto& [id, one] : all(engine)) QCOMPARE(one.mass, before.at(id).mass);
+  engine.apply(RedoTouch{kKey});
+  QCOMPARE(count(engine, 1), size_t{27});
+  // Without names, nothing is known of it.
+  engine.apply(ReturnToState{state});
+  engine.apply(UndoTouch{kKey});
+  QCOMPARE(engine.stateHash(), painted);
+}
+
 /// The document has what was painted at the start: undo makes it of what it was painted from.
 void TestPaint::aResetKnowsWhatWasPainted() {
   Engine engine(iceAndWater(), m_plugins);
@@ -372,33 +405,13 @@ void TestPaint::theSameBitsEverywhere() {
 /// From the states of a record, and from its file, where edits are written as JSON.
 void TestPaint::recordedFramesAreMadeAgain() {
   const Project project = iceAndWater();
-  Engine engine(project, m_plugins);
   RunRecord record(size_t{1} << 30);
-  record.begin(engine.revision());
-  record.keepState(engine);
-  std::map<uint64_t, uint64_t> hashes;
-  for (uint64_t frame = 0; frame <= 17; ++frame) {
-    for (const Command& command : strokesAfter(frame)) {
-      engine.apply(command);
-      record.add({frame, command});
-    }
-    record.add(engine.snapshot());
-    hashes[frame] = engine.stateHash();
-    engine.step();
-    if (engine.solver().frame() % 4 == 0) record.keepState(engine);
-    record.settle();
-  }
+  const std::map<uint64_t, uint64_t> hashes = recordedrun::recordInto(record, project, m_plugins, 17, strokesAfter);
   for (const uint64_t frame : {3, 7, 11, 15, 17})
     QCOMPARE(replayed(record.restorePoint(frame).value(), m_plugins)->stateHash(), hashes.at(frame));
-  const QTemporaryDir folder;
-  const std::string path = folder.filePath("run.psrec").toStdString();
-  RecordingWriter writer(path, project);
-  writer.add(record.content());
-  writer.finish();
-  const RecordingReader reader(path, m_plugins);
-  QCOMPARE(QString::fromStdString(reader.damage() + reader.whyNoStates()), QString());
   RunRecord again(size_t{1} << 30);
-  again.adopt(reader.content(), 3);
+  recordedrun::throughFile(record, project, m_plugins, again);
+  if (QTest::currentTestFailed()) return;
   for (const uint64_t frame : {1, 7, 11, 17})
     QCOMPARE(replayed(again.restorePoint(frame).value(), m_plugins)->stateHash(), hashes.at(frame));
 }

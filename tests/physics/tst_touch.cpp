@@ -7,13 +7,14 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/projectstate.h"
 #include "core/simulation/runrecord.h"
 #include "core/solver/solver.h"
 #include "tests/physics/onehash.h"
 #include "tests/shared/enginehands.h"
+#include "tests/shared/recordedrun.h"
 #include "tests/shared/scenes.h"
 
-#include <QTemporaryDir>
 #include <QTest>
 
 #include <algorithm>
@@ -115,6 +116,7 @@ class TestTouch : public QObject {
   void aHandThatStaysGivesItsPower();
   void aPathSharesTheFrame();
   void undoTakesBackFromEachWhatItGot();
+  void undoTakesBackAfterAReturnToAState();
   void whatIsGoneGivesNothingBack();
   void limitsHold();
   void nothingIsColderThanCanBe();
@@ -183,6 +185,28 @@ void TestTouch::undoTakesBackFromEachWhatItGot() {
   engine.apply(UndoTouch{kKey});  // there is nothing left
   QVERIFY(near(engine.solver().thermalEnergy(), before, given));
   run(engine, 2);
+}
+
+/// What it got until the state was kept, not what came later.
+void TestTouch::undoTakesBackAfterAReturnToAState() {
+  const Project project = twoBlocks();
+  Engine engine(project, m_plugins);
+  const double before = engine.solver().thermalEnergy();
+  engine.apply(still(heat(60000, 5000, 0.1)));
+  run(engine, 5);
+  const auto names = engine.names();
+  StateBuffer stream;
+  saveTo(stream, engine);
+  const double given = engine.solver().heatLedger().heaters;
+  run(engine, 5);
+  engine.apply(letGo());
+  engine.apply(ReturnToState{projectState(stream.bytes(), project.bodies), names});
+  QVERIFY(engine.hands().empty());
+  QCOMPARE(engine.solver().heatLedger().heaters, given);
+  engine.apply(UndoTouch{kKey});
+  QVERIFY(near(engine.solver().thermalEnergy(), before, given));
+  engine.apply(RedoTouch{kKey});
+  QVERIFY(near(engine.solver().heatLedger().heaters, given, given));
 }
 
 void TestTouch::whatIsGoneGivesNothingBack() {
@@ -391,36 +415,16 @@ void TestTouch::theSameBitsEverywhere() {
 /// From the states of a record, and from its file, which does without those in which a hand is at work.
 void TestTouch::recordedFramesAreMadeAgain() {
   const Project project = twoBlocks();
-  Engine engine(project, m_plugins);
   RunRecord record(size_t{1} << 30);
-  record.begin(engine.revision());
-  record.keepState(engine);
-  std::map<uint64_t, uint64_t> hashes;
-  for (uint64_t frame = 0; frame <= 24; ++frame) {
-    for (const Command& command : handsAfter(frame)) {
-      engine.apply(command);
-      record.add({frame, command});
-    }
-    record.add(engine.snapshot());
-    hashes[frame] = engine.stateHash();
-    engine.step();
-    if (engine.solver().frame() % 4 == 0) record.keepState(engine);
-    record.settle();
-  }
+  const std::map<uint64_t, uint64_t> hashes = recordedrun::recordInto(record, project, m_plugins, 24, handsAfter);
   for (const uint64_t frame : {3, 9, 13, 15, 19, 24}) {
     const RestorePoint point = record.restorePoint(frame).value();
     QCOMPARE(point.from, frame / 4 * 4);
     QCOMPARE(replayed(point, m_plugins)->stateHash(), hashes.at(frame));
   }
-  const QTemporaryDir folder;
-  const std::string path = folder.filePath("run.psrec").toStdString();
-  RecordingWriter writer(path, project);
-  writer.add(record.content());
-  writer.finish();
-  const RecordingReader reader(path, m_plugins);
-  QCOMPARE(QString::fromStdString(reader.damage() + reader.whyNoStates()), QString());
   RunRecord again(size_t{1} << 30);
-  again.adopt(reader.content(), 3);
+  recordedrun::throughFile(record, project, m_plugins, again);
+  if (QTest::currentTestFailed()) return;
   for (const uint64_t frame : {1, 9, 13, 17, 24}) {
     const RestorePoint point = again.restorePoint(frame).value();
     QCOMPARE(point.from, frame < 20 ? uint64_t{0} : frame / 4 * 4);

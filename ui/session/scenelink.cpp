@@ -3,6 +3,7 @@
 
 #include "core/simulation/enginethread.h"
 #include "core/simulation/lattice.h"
+#include "core/simulation/namedmatter.h"
 #include "ui/document/document.h"
 
 #include <algorithm>
@@ -259,7 +260,7 @@ void SceneLink::reset() {
   }
 }
 
-void SceneLink::keepNames(const std::shared_ptr<const ProjectState>& state, MatterIds named) {
+void SceneLink::keepNames(const std::shared_ptr<const ProjectState>& state, std::shared_ptr<const NamedMatter> named) {
   std::erase_if(m_kept, [](const auto& kept) { return kept.first.expired(); });
   m_kept.emplace_back(state, std::move(named));
 }
@@ -270,13 +271,20 @@ void SceneLink::returnToState() {
   nothingWaits();
   forgetMatter();
   ++m_run;
-  MatterIds named;
-  for (const auto& [kept, ids] : m_kept) {
-    if (kept.lock() == state) named = ids;
+  std::shared_ptr<const NamedMatter> named;
+  for (const auto& [kept, names] : m_kept) {
+    if (kept.lock() == state) named = names;
   }
-  std::erase_if(named, [this](const auto& entry) { return !m_matter.contains(entry.first); });  // nobody asks
-  for (const auto& [key, ids] : named) m_matter[key].run = m_run;
-  m_engine.apply(ReturnToState{state, std::move(named)});
+  m_engine.apply(ReturnToState{state, named});
+  if (!named) return;
+  ForgetMatter unasked;  // by any command that could still come
+  for (const MatterKey key : named->inScene().keys()) {
+    if (const auto known = m_matter.find(key); known != m_matter.end())
+      known->second.run = m_run;
+    else
+      unasked.keys.push_back(key);
+  }
+  if (!unasked.keys.empty()) m_engine.apply(std::move(unasked));
 }
 
 bool SceneLink::isBroken() const {
@@ -294,12 +302,16 @@ void SceneLink::rebuild(bool play) {
 }
 
 void SceneLink::hear(const EngineEvent& event) {
+  const bool refused = event.kind == EngineEvent::Kind::Refused;
   if (event.kind == EngineEvent::Kind::Cancelled) nothingWaits();
-  if (event.kind == EngineEvent::Kind::Cancelled || event.kind == EngineEvent::Kind::Refused) m_givenUp = true;
+  // What is refused of a value that acts at once says nothing of how the scene is made.
+  if (event.kind == EngineEvent::Kind::Cancelled ||
+      (refused && (!event.culprit || m_document.actsAtReset(*event.culprit))))
+    m_givenUp = true;
   // Edits that came while the engine tried met no scene.
   if (event.kind == EngineEvent::Kind::NotOpened && isBroken() && m_builtAt != m_document.changeCount())
     rebuild(m_play);
-  if (event.kind != EngineEvent::Kind::Refused || !event.culprit || !event.asked) return;
+  if (!refused || !event.culprit || !event.asked) return;
   m_taking = true;
   m_document.takeBack(*event.culprit, *event.asked, event.kept);
   m_taking = false;

@@ -35,7 +35,7 @@ class SceneLink : public QObject {
   /// To the state that the project holds, edits kept; the engine refuses one that no longer fits.
   void returnToState();
   /// What strokes had made when a state was kept: after a return to it, undoing them takes just that.
-  void keepNames(const std::shared_ptr<const ProjectState>& state, MatterIds named);
+  void keepNames(const std::shared_ptr<const ProjectState>& state, std::shared_ptr<const NamedMatter> named);
   /// The engine could not build the scene: its snapshot is empty, and an event says why. Each change of the scene,
   /// reset() and rebuild() try again; made by a change, it plays if the project was opened to play.
   bool isBroken() const;
@@ -89,7 +89,7 @@ class SceneLink : public QObject {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
-  std::vector<std::pair<std::weak_ptr<const ProjectState>, MatterIds>> m_kept;
+  std::vector<std::pair<std::weak_ptr<const ProjectState>, std::shared_ptr<const NamedMatter>>> m_kept;
   uint64_t m_run = 1;  ///< counts resets, and returns to a state: matter of another run is not known by its ids
   std::map<MatterKey, KnownMatter> m_matter;  ///< that the engine may know, and of which run
   struct KnownStroke {

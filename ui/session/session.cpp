@@ -275,7 +275,7 @@ void Session::keepState() {
   m_engine->ask([this, bodies = m_document->project().bodies, count = m_document->changeCount()](const Engine& engine) {
     auto stream = std::make_shared<StateBuffer>();
     saveTo(*stream, engine);
-    QMetaObject::invokeMethod(this, [this, stream, named = engine.namedMatter(), bodies, count] {
+    QMetaObject::invokeMethod(this, [this, stream, named = engine.names(), bodies, count] {
       packState({stream, named, bodies, count});
     });
   });

@@ -112,7 +112,7 @@ class Session : public QObject {
   /// What the engine's thread gives of a state that is to be kept.
   struct KeptState {
     std::shared_ptr<const StateBuffer> stream;
-    MatterIds named;
+    std::shared_ptr<const NamedMatter> named;
     std::vector<Body> bodies;
     uint64_t count = 0;  ///< Document::changeCount() when it was asked for
   };

@@ -11,19 +11,6 @@
 namespace ps {
 namespace {
 
-/// Those alive, in ascending order, for which `wanted(index)` holds.
-template <class Wanted>
-std::vector<uint32_t> indicesOf(const ParticleStore& store, std::span<const uint32_t> ids, Wanted&& wanted) {
-  std::vector<uint32_t> indices;
-  for (const uint32_t id : ids) {
-    const size_t i = store.indexOf(id);
-    if (i < store.size() && wanted(i)) indices.push_back(static_cast<uint32_t>(i));
-  }
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  return indices;
-}
-
 /// A field of the store beside what two copies of the same particles have of it.
 struct Difference {
   std::byte* now;
@@ -46,12 +33,6 @@ std::vector<Difference> differences(ParticleStore& store, const PaintedMatter& p
       list.push_back({now, before->second.data(), after->second.data(), bytes});
   }
   return list;
-}
-
-bool same(const PaintedMatter::Books& a, const PaintedMatter::Books& b) {
-  const HeatLedger &x = a.ledger, &y = b.ledger;
-  return a.offset == b.offset && x.walls == y.walls && x.air == y.air && x.radiation == y.radiation &&
-         x.heaters == y.heaters && x.sources == y.sources && x.exchanged == y.exchanged && x.airWarming == y.airWarming;
 }
 
 template <class T>
@@ -78,26 +59,18 @@ void Solver::Impl::startAnew(std::span<const uint32_t> indices, std::span<const 
   }
 }
 
-/// Who is there, and where, is the same: lists go on.
-void Solver::Impl::bookPainting(double energyBefore) {
-  if (frame > 0) heat.book(heat.energy(store) - energyBefore);
-  settleEnergy();
-  structureChanged = true;
-  lastGoodValid = false;
-}
-
 PaintedMatter Solver::paint(std::span<const uint32_t> ids, uint32_t material) {
   if (material >= m->materials.size()) throw Error("particles of a material that is not in the table");
   m->configure();
   ParticleStore& store = m->store;
-  const std::vector<uint32_t> indices =
-      indicesOf(store, ids, [&](size_t i) { return store.material()[i] != material; });
+  std::vector<uint32_t> indices = store.indicesOf(ids);
+  std::erase_if(indices, [&](uint32_t i) { return store.material()[i] == material; });
   if (indices.empty()) return {};
   const double energy = m->heat.energy(store);
   PaintedMatter painted{store.copy(indices), {}, material, m->books(), {}};
   for (const uint32_t i : indices) store.material()[i] = material;
   m->startAnew(indices, std::vector<float>(indices.size(), 0));
-  m->bookPainting(energy);
+  m->matterChanged(energy, false);
   painted.after = store.copy(indices);
   painted.booksAfter = m->books();
   return painted;
@@ -132,8 +105,8 @@ void Solver::unpaint(const PaintedMatter& painted) {
     mass.push_back(valueOf<float>(painted.before, field::kMass, k));
   }
   m->startAnew(indices, mass);
-  const bool exact = restored == painted.before.id.size() && same(m->books(), painted.booksAfter);
-  m->bookPainting(energy);
+  const bool exact = restored == painted.before.id.size() && m->books() == painted.booksAfter;
+  m->matterChanged(energy, false);
   if (!exact) return;
   m->heat.setLedger(painted.booksBefore.ledger);
   m->energyOffset = painted.booksBefore.offset;

@@ -109,12 +109,12 @@ struct Solver::Impl {
   Impl();
   void configure();
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
-  void matterChanged(double energyBefore);
+  /// `others`: who is there, or where, is no longer the same, so that lists are of no use.
+  void matterChanged(double energyBefore, bool others = true);
   PaintedMatter::Books books() const { return {heat.ledger(), energyOffset}; }
   /// Of paint() and unpaint(): the state of particles at these ascending indices, whose material is another one by now,
   /// from their temperatures. `mass` in kg, one each; 0: as the room takes that it fills.
   void startAnew(std::span<const uint32_t> indices, std::span<const float> mass);
-  void bookPainting(double energyBefore);
 
   void runFrame();
   bool advance();
