@@ -52,14 +52,6 @@ std::string bytesOf(const MatterIds& named) {
   return packer.bytes();
 }
 
-size_t cellsOf(const FrameEdit& edit) {
-  const auto* command = std::get_if<Command>(&edit.edit);
-  const auto* add = command ? std::get_if<AddCells>(command) : nullptr;
-  const auto* take = command ? std::get_if<TakeCells>(command) : nullptr;
-  const auto* paint = command ? std::get_if<PaintCells>(command) : nullptr;
-  return add ? add->cells.size() : take ? take->cells.size() : paint ? paint->cells.size() : 0;
-}
-
 /// Matter that is out of the scene is in no state: one that an edit brings back later is made from a state before it.
 bool canBeGoneOnFrom(const KeptRun& run, const KeptRun::State& state) {
   if (!state.names->hands().empty()) return false;

@@ -16,15 +16,24 @@ size_t bytesOf(const FrameEdit& edit) {
   size_t bytes = sizeof edit + kSmall;
   const auto* command = std::get_if<Command>(&edit.edit);
   if (command && std::holds_alternative<UpdateProject>(*command)) bytes += kProject;
-  if (const auto* cells = command ? std::get_if<AddCells>(command) : nullptr) bytes += kCell * cells->cells.size();
-  if (const auto* cells = command ? std::get_if<TakeCells>(command) : nullptr) bytes += kCell * cells->cells.size();
-  if (const auto* cells = command ? std::get_if<PaintCells>(command) : nullptr) bytes += kCell * cells->cells.size();
+  bytes += kCell * cellsOf(edit);
   if (const auto* touch = command ? std::get_if<TouchMatter>(command) : nullptr)
     bytes += sizeof(api::Touch) * (touch->path.size() + touch->still.size());
   return bytes;
 }
 
 }  // namespace
+
+size_t cellsOf(const FrameEdit& edit) {
+  const auto* command = std::get_if<Command>(&edit.edit);
+  if (!command) return 0;
+  return std::visit(
+      [](const auto& one) -> size_t {
+        if constexpr (requires { CellIndices(one.cells); }) return one.cells.size();
+        return 0;
+      },
+      *command);
+}
 
 void KeptRun::addFrame(std::shared_ptr<const PackedFrame> frame) {
   const uint64_t key = frame->stats.frame;

@@ -33,6 +33,8 @@ struct FrameEdit {
   uint64_t frame = 0;  ///< after which it acted
   RecordedEdit edit;
 };
+/// That it names: mostly what is large in it.
+size_t cellsOf(const FrameEdit& edit);
 
 /// What the document of a run was: at its first state, and the edits of it since.
 struct RunEdits {

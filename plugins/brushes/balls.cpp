@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "balls.h"
 
-#include "stamp.h"
-
 namespace ps::brushes {
 
 void submitBalls(const api::StrokeContext& context, api::EditKind kind, const api::List<api::StrokeSample>& samples,

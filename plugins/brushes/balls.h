@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <phasesketch/brush.h>
+#include "stamp.h"
 
 namespace ps::brushes {
 
-/// How much smaller a ball is under a light touch, by pressureSize(), the first parameter of its brush.
+/// Of a brush of balls.
 inline constexpr double kPressureSize = 0.5;
+inline constexpr api::ParameterDeclaration kBallParameters[] = {pressureSize(
+    kPressureSize, "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.")};
 
 /// Submits the cells of a ball at each sample: those whose centres are within its radius.
 void submitBalls(const api::StrokeContext& context, api::EditKind kind, const api::List<api::StrokeSample>& samples,

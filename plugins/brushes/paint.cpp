@@ -2,18 +2,8 @@
 #include "paint.h"
 
 #include "balls.h"
-#include "stamp.h"
 
 #include <string_view>
-
-namespace {
-
-using ps::brushes::kPressureSize;
-
-constexpr ps::api::ParameterDeclaration kParameters[] = {ps::brushes::pressureSize(
-    kPressureSize, "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.")};
-
-}  // namespace
 
 PaintBrush::PaintBrush()
     : Described({"Paint",
@@ -21,7 +11,7 @@ PaintBrush::PaintBrush()
                  "solid or liquid of it at that temperature melts, freezes or boils. It fills as much room, so that "
                  "its mass is another one; the heat that this takes or leaves is counted as a source. Matter of "
                  "locked bodies stays as it is.",
-                 ps::api::listOf(kParameters)}) {}
+                 ps::api::listOf(ps::brushes::kBallParameters)}) {}
 
 void PaintBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                         const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {

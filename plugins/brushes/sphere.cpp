@@ -2,22 +2,12 @@
 #include "sphere.h"
 
 #include "balls.h"
-#include "stamp.h"
-
-namespace {
-
-using ps::brushes::kPressureSize;
-
-constexpr ps::api::ParameterDeclaration kParameters[] = {ps::brushes::pressureSize(
-    kPressureSize, "How far a light touch of the pen makes the ball smaller; a mouse always presses fully.")};
-
-}  // namespace
 
 SphereBrush::SphereBrush()
     : Described({"Sphere",
                  "Draws a round strand: every cell whose centre is within the radius of the stroke is filled, or "
                  "emptied. It knows the lattice only, not what stands in the way; occupied cells are left as they are.",
-                 ps::api::listOf(kParameters)}) {}
+                 ps::api::listOf(ps::brushes::kBallParameters)}) {}
 
 void SphereBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                          const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
