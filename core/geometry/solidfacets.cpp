@@ -80,7 +80,7 @@ std::vector<SolidRim> outlineOf(const SolidForm& form, int arc) {
         return {{x - wall, y, z - wall}, {x, y, z}, {x, -y, z}, {x - wall, -y, z - wall}, {x - wall, y, z - wall}};
       break;
     case Kind::Bowl:
-      return bowlOutline({x, 2 * y, z}, form.wall(), arc / 2);
+      return bowlOutline({x, 2 * y, z}, form.wall(), (arc + 1) / 2);
     case Kind::Torus: {
       const double ring = x - y;  // the tube is as thick as it is high
       for (int k = 0; k <= arc; ++k) {
@@ -139,7 +139,9 @@ std::vector<MeshNearest::Triangle> facetsOf(const SolidShape& shape, double erro
     if (!shape.mesh) return {};
     return facetsOf(*shape.mesh, form.size());
   }
-  const double wanted = kPi * std::sqrt(form.size().maxCoeff() / (4 * error));
+  Vector3 round = form.size();
+  if (form.kind() == Kind::Bowl) round[1] *= 2;  // half of what its arcs belong to
+  const double wanted = kPi * std::sqrt(round.maxCoeff() / (4 * error));
   const int around = wanted < kMostAround ? std::max(kLeastAround, static_cast<int>(std::ceil(wanted))) : kMostAround;
   return facetsAround(form, around, around / 2);
 }

@@ -41,9 +41,8 @@ constexpr api::ParameterDeclaration kSolid[] = {
                size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.", "a dice 0.016, a brick 0.25")),
     size({"size_y", "Size along y", "", "m"},
          "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring; "
-         "of "
-         "a bowl: its height, half its width for half a ball. Sheets and ropes are one particle thick, whatever this "
-         "says: so much of them a brush takes when it cuts them.",
+         "of a bowl: its height, half its width for half a ball. Sheets and ropes are one particle thick, whatever "
+         "this says: so much of them a brush takes when it cuts them.",
          "a mug 0.1, a table 0.75"),
     actingWhen("kind != rope",
                size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 0.02")),
@@ -56,7 +55,8 @@ constexpr api::ParameterDeclaration kSolid[] = {
                         "start for a flag or a swing, ends for a hammock", ""}))),
     actingWhen("kind = tube|bowl",
                size({"wall", "Thickness of the wall", "", "m"},
-                    "Of a tube or bowl, measured inwards; as much as half its width leaves no room in it.",
+                    "Of a tube or bowl, measured inwards; as much as half its width, or as a bowl is high, leaves no "
+                    "room in it.",
                     "a pipe 0.005, a bowl of clay 0.008", kWall)),
     actingWhen("kind = mesh",
                atReset(choice(
