@@ -13,6 +13,7 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QTemporaryDir>
+#include <QtTest/QSignalSpy>
 
 using namespace ps;
 
@@ -88,10 +89,17 @@ class TestResuming : public QObject {
     QCOMPARE(hashAfter(session(), 0), expected);
   }
 
+  /// From where it was, not from the start.
   void aRunThatPlayedGoesOn() {
     run(kLeft);
     session().play();
-    reopen();
+    QVERIFY(m_window->close());
+    m_window.reset();
+    open();
+    QSignalSpy back(&session().recordings(), &RecordingFiles::cameBack);
+    QTRY_COMPARE_WITH_TIMEOUT(back.size(), qsizetype{1}, kLong);
+    QVERIFY(back[0][0].toBool());
+    QVERIFY(session().newest()->stats.frame >= kLeft);
     QTRY_VERIFY_WITH_TIMEOUT(session().playing() && session().newest()->stats.frame > kLeft, kLong);
   }
 

@@ -118,6 +118,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
       m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
       m_swatches(new Swatches(this)) {
+  m_swatches->tidy();
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);

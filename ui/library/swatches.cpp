@@ -48,10 +48,6 @@ QString swatchFolder() {
 
 }  // namespace
 
-Swatches::Swatches(QObject* parent) : QObject(parent) {
-  m_worker.run([folder = swatchFolder()] { tidyCache(folder); });
-}
-
 QString swatchPath(const Swatch& swatch, int side) {
   QString content = QStringLiteral("%1 %2 %3 %4")
                         .arg(QCoreApplication::applicationVersion())
@@ -61,6 +57,10 @@ QString swatchPath(const Swatch& swatch, int side) {
   for (const float value : swatch.look) content += QStringLiteral(" %1").arg(static_cast<double>(value), 0, 'g', 9);
   const QByteArray hash = QCryptographicHash::hash(content.toUtf8(), QCryptographicHash::Sha1).toHex();
   return swatchFolder() + QLatin1Char('/') + QString::fromLatin1(hash) + QStringLiteral(".png");
+}
+
+void Swatches::tidy() {
+  m_worker.run([folder = swatchFolder()] { tidyCache(folder); });
 }
 
 Swatches::~Swatches() {

@@ -24,9 +24,9 @@ QString swatchPath(const Swatch& swatch, int side);
 class Swatches : public QObject {
   Q_OBJECT
  public:
-  /// Older pictures that nobody asked for any more go, see tidyCache().
-  explicit Swatches(QObject* parent = nullptr);
+  explicit Swatches(QObject* parent = nullptr) : QObject(parent) {}
   ~Swatches() override;
+  void tidy();  ///< pictures of before that nobody asks for any more go: see tidyCache()
   /// `side` in device pixels. Null while it is not there: it is read or drawn, and arrived() follows.
   QImage of(const Swatch& swatch, int side);
   /// False from when it turned out that there is no OpenGL: no more pictures come, which is no error.

@@ -79,11 +79,14 @@ MaterialsPanel::MaterialsPanel(Document& document, Selection& selection, QWidget
   connect(&selection, &Selection::materialChanged, this, &MaterialsPanel::showCurrent);
   connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
     const auto* parameter = std::get_if<ParameterChanged>(&event);
-    const std::vector<std::string> before = ownIds();
-    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event) ||
-        (parameter && parameter->address.owner == Owner::Material))
+    if (std::holds_alternative<MaterialsChanged>(event)) {
+      const std::vector<std::string> before = ownIds();
       rebuild();
-    if (std::holds_alternative<MaterialsChanged>(event)) revealJoined(before);
+      revealJoined(before);
+    } else if (std::holds_alternative<ProjectOpened>(event) ||
+               (parameter && parameter->address.owner == Owner::Material)) {
+      rebuild();
+    }
   });
 }
 

@@ -55,7 +55,9 @@ ViewState viewOf(const QJsonObject& json) {
   if (json.contains(QStringLiteral("section"))) {
     const QJsonObject section = json.value(QStringLiteral("section")).toObject();
     ViewSection& kept = view.section.emplace();
-    kept.across = section.value(QStringLiteral("across")).toString().toStdString();
+    for (const char* axis : {"x", "y", "z"}) {
+      if (section.value(QStringLiteral("across")).toString() == QLatin1String(axis)) kept.across = axis;
+    }
     kept.through = placeOf(section.value(QStringLiteral("through")), kept.through);
     kept.flipped = section.value(QStringLiteral("flipped")).toBool();
   }

@@ -34,8 +34,9 @@ class RecordingFiles : public QObject {
   /// Gives up what is being written or read: files stay as they were.
   void cancel();
   /// All that is recorded, for when the window is opened again, with a state of now; of a run of more than `most` bytes
-  /// its end alone. Blocks until it is written, but for no longer than the engine may take for a few frames. False:
-  /// there is nothing to keep, or it could not be.
+  /// its end alone; of one that has not come back yet, its file stays. Blocks until that is written, and what was to be
+  /// written before, but waits no more than 3 s for a frame that the engine is amid. False: there is nothing to keep,
+  /// or it could not be.
   bool keep(const QString& path, size_t most = kMostKept);
   static constexpr size_t kMostKept = size_t{64} << 20;
 

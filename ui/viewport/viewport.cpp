@@ -158,6 +158,7 @@ void Viewport::snapshotArrived() {
   m_interval = m_sinceSnapshot.isValid() ? std::min<double>(200, static_cast<double>(m_sinceSnapshot.elapsed())) : 0;
   m_sinceSnapshot.start();
   if (!m_document.project().tracks.empty()) m_scene.environment = m_session.surroundings();
+  m_box.reset();
   requestPaint();
 }
 
@@ -326,6 +327,7 @@ void Viewport::projectOpened() {
 
 void Viewport::bodiesChanged() {
   m_scene.environment = m_session.surroundings();
+  m_box.reset();
   m_shown.reset();
   m_hidden.clear();
   for (const Body& body : m_document.project().bodies) {
@@ -379,9 +381,8 @@ void Viewport::frameSelection() {
 }
 
 void Viewport::frameAll() {
-  static const Snapshot kEmpty;
   m_navigator.setSize(size());
-  m_navigator.frame(boxOf(m_now ? *m_now : kEmpty, m_scene.environment));
+  m_navigator.frame(boxOfAll());
   storeView();
   update();
 }

@@ -129,6 +129,7 @@ class Viewport : public QOpenGLWidget {
   // viewportsection.cpp
   void setSection(const std::optional<ViewSection>& section);
   Vector3 middleInView() const;
+  const std::pair<Vector3, Vector3>& boxOfAll() const;
   std::pair<double, double> reachOfSection(const Vector3& side) const;
   void cutAt(double height);
   std::optional<SectionNote> sectionNote() const;
@@ -175,7 +176,8 @@ class Viewport : public QOpenGLWidget {
   Navigation m_navigation{m_navigator};
   std::string m_colour = kMatterColour;
   LegendRange m_legendRange, m_legendBefore;
-  std::optional<ViewSection> m_section, m_sectionBefore;  ///< of now, and before it is dragged
+  std::optional<ViewSection> m_section, m_sectionBefore;     ///< of now, and before it is dragged
+  mutable std::optional<std::pair<Vector3, Vector3>> m_box;  ///< of all there is to see in m_now, once it was asked for
   std::pair<double, double> m_range{0, 1};
   OverlayHits m_hits;
   bool m_hint = true;

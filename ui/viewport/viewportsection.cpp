@@ -40,10 +40,15 @@ Vector3 Viewport::middleInView() const {
   return (low.array() <= high.array()).all() ? Vector3((low + high) / 2) : camera.target;
 }
 
+const Box& Viewport::boxOfAll() const {
+  static const Snapshot kEmpty;
+  if (!m_box) m_box = boxOf(m_now ? *m_now : kEmpty, m_scene.environment);
+  return *m_box;
+}
+
 /// m along `side`, of all there is to see: from where everything is cut away to where nothing is.
 std::pair<double, double> Viewport::reachOfSection(const Vector3& side) const {
-  static const Snapshot kEmpty;
-  const Box box = boxOf(m_now ? *m_now : kEmpty, m_scene.environment);
+  const Box& box = boxOfAll();
   const Vector3 half = (box.second - box.first) / 2;
   const double middle = side.dot(box.first + half), reach = side.cwiseAbs().dot(half);
   return {middle - reach, middle + reach};
