@@ -35,6 +35,18 @@ void chooseFromMenu(ParameterRow& row, const QString& text) {
   QVERIFY2(found, qPrintable(text));
 }
 
+/// All rows once in each of some groups, under keys of their own: "Cold lid/conductivity".
+std::vector<RowModel> inGroups(std::initializer_list<const char*> groups) {
+  std::vector<RowModel> rows;
+  for (const char* name : groups) {
+    for (RowModel& row : rowModels(list(), {}, {}, QString::fromLatin1(name) + QLatin1Char('/'))) {
+      row.declaration.group = name;
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 class TestPanels : public QObject {
@@ -117,16 +129,8 @@ void TestPanels::headingsCountWhatIsShown() {
 
 /// A group far down is seen whole, from its heading on, and who asked keeps the focus where told so.
 void TestPanels::revealPutsTheHeadingOnTop() {
-  static const char* const groups[] = {"Left side", "Right side", "Cold lid", "Hot plate", "Front"};
-  std::vector<RowModel> rows;
-  for (const char* name : groups) {
-    for (RowModel& row : rowModels(list(), {}, {}, QString::fromLatin1(name) + QLatin1Char('/'))) {
-      row.declaration.group = name;
-      rows.push_back(std::move(row));
-    }
-  }
   ParameterPanel panel;
-  panel.setModel(rows);
+  panel.setModel(inGroups({"Left side", "Right side", "Cold lid", "Hot plate", "Front"}));
   panel.resize(392, 300);
   show(panel);
   QVERIFY(panel.reveal(QStringLiteral("Cold lid/plate_temperature"), false));
@@ -324,21 +328,16 @@ void TestPanels::noTextIsCut() {
 
 /// A note that comes or goes above the row under the pointer leaves that where it is.
 void TestPanels::notesMoveNoRowUnderThePointer() {
-  std::vector<RowModel> rows;
-  for (const char* name : {"One", "Two", "Three", "Four"}) {
-    for (RowModel& row : rowModels(list(), {}, {}, QString::fromLatin1(name) + QLatin1Char('/'))) {
-      row.declaration.group = name;
-      rows.push_back(std::move(row));
-    }
-  }
   ParameterPanel panel;
-  panel.setModel(rows);
+  panel.setModel(inGroups({"One", "Two", "Three", "Four"}));
   panel.resize(392, 300);
   show(panel);
   const auto* scroll = panel.findChild<QScrollArea*>();
   ParameterRow* row = panel.row(QStringLiteral("Two/conductivity"));
   QVERIFY(panel.reveal(row->key(), false));
-  row->setAttribute(Qt::WA_UnderMouse);
+  const QPoint rest = QCursor::pos();
+  QCursor::setPos(row->mapToGlobal(row->rect().center()));
+  QTRY_COMPARE(QCursor::pos(), row->mapToGlobal(row->rect().center()));
   const auto top = [&] { return row->mapTo(scroll->viewport(), QPoint()).y(); };
   const int before = top(), height = scroll->widget()->height();
   panel.setLimit(QStringLiteral("One/conductivity"), QStringLiteral("The solver reaches less than that."));
@@ -350,6 +349,7 @@ void TestPanels::notesMoveNoRowUnderThePointer() {
   panel.setError(QStringLiteral("One/plate_temperature"), {});
   QTRY_COMPARE(scroll->widget()->height(), height);
   QCOMPARE(top(), before);
+  QCursor::setPos(rest);
 }
 
 /// A panel on the screen takes the other theme's colours at once, notes with links included.

@@ -362,10 +362,10 @@ void ParameterPanel::setPinned(const QStringList& keys) {
   for (ParameterRow* row : rows()) row->setIsPinned(d->pinned.contains(row->key()));
 }
 void ParameterPanel::setLimit(const QString& key, const QString& text, double delivered) {
-  changeSteadily(*d->scroll, rows(), [&] { d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); }); });
+  changeSteadily(*d->scroll, [&] { d->each(key, [&](ParameterRow* row) { row->setLimit(text, delivered); }); });
 }
 void ParameterPanel::setError(const QString& key, const QString& text) {
-  changeSteadily(*d->scroll, rows(), [&] { d->each(key, [&](ParameterRow* row) { row->setError(text); }); });
+  changeSteadily(*d->scroll, [&] { d->each(key, [&](ParameterRow* row) { row->setError(text); }); });
 }
 
 ParameterRow* ParameterPanel::row(const QString& key) const {

@@ -11,6 +11,7 @@
 #include <QtCore/QTimer>
 #include <QtGui/QClipboard>
 #include <QtGui/QContextMenuEvent>
+#include <QtGui/QCursor>
 #include <QtGui/QGuiApplication>
 #include <QtWidgets/QMenu>
 
@@ -76,7 +77,9 @@ void ParameterRow::Private::openChoiceMenu() {
   if (chosen) choose(chosen->data().toInt());
 }
 
-void ParameterRow::Private::openContextMenu(const QPoint& global) {
+void ParameterRow::Private::openContextMenu(const QContextMenuEvent& event) {
+  const QPoint global = event.globalPos();
+  const bool byKey = event.reason() == QContextMenuEvent::Keyboard;
   const QPointer<QMenu> menu(new QMenu(q));
   QAction* copy = menu->addAction(QStringLiteral("Copy value"));
   QAction* paste = menu->addAction(QStringLiteral("Paste value"));
@@ -115,7 +118,7 @@ void ParameterRow::Private::openContextMenu(const QPoint& global) {
   else if (chosen == plot)
     Q_EMIT q->plotRequested(model.key);
   else if (chosen == explain)
-    this->explain(global);
+    this->explain(byKey ? global : QCursor::pos());  // a tip beneath the pointer is taken away by it
 }
 
 /// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
@@ -123,6 +126,6 @@ void ParameterRow::Private::explain(const QPoint& global) {
   QTimer::singleShot(kMenuGone, q, [this, global] { showRichTip(global, toolTipText(), q); });
 }
 
-void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(event->globalPos()); }
+void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(*event); }
 
 }  // namespace ps

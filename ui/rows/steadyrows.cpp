@@ -5,21 +5,29 @@
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QEvent>
+#include <QtGui/QCursor>
 #include <QtWidgets/QLayout>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QScrollBar>
 
-#include <algorithm>
-
 namespace ps {
+namespace {
 
-void changeSteadily(QScrollArea& area, const std::vector<ParameterRow*>& rows, const std::function<void()>& change) {
-  const auto under = std::find_if(rows.begin(), rows.end(),
-                                  [](const ParameterRow* row) { return row->isVisible() && row->underMouse(); });
-  const auto top = [&] { return (*under)->mapTo(area.viewport(), QPoint()).y(); };
-  const int before = under == rows.end() ? 0 : top();
+/// Asked of the pointer itself: a row that was scrolled away beneath it still says that it is under the mouse.
+const QWidget* rowUnderPointer(const QWidget& viewport) {
+  const QWidget* at = viewport.childAt(viewport.mapFromGlobal(QCursor::pos()));
+  while (at && !qobject_cast<const ParameterRow*>(at)) at = at->parentWidget();
+  return at;
+}
+
+}  // namespace
+
+void changeSteadily(QScrollArea& area, const std::function<void()>& change) {
+  const QWidget* under = rowUnderPointer(*area.viewport());
+  const auto top = [&] { return under->mapTo(area.viewport(), QPoint()).y(); };
+  const int before = under ? top() : 0;
   change();
-  if (under == rows.end() || !area.widget()->layout()->activate()) return;
+  if (!under || !area.widget()->layout()->activate()) return;
   QEvent request(QEvent::LayoutRequest);
   QCoreApplication::sendEvent(&area, &request);  // the scroll bar knows the present height now
   area.verticalScrollBar()->setValue(area.verticalScrollBar()->value() + top() - before);
