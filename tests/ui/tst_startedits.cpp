@@ -5,14 +5,17 @@
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/selection.h"
+#include "ui/tools/tooltable.h"
 
+#include <QtGui/QAction>
 #include <QtWidgets/QLabel>
 
 using namespace ps;
 
 namespace {
 
-const Address kSpacing{Owner::Solver, "", "particle_spacing"};
+const Address kSpacing{Owner::Solver, "", "particle_spacing"}, kStructure{Owner::Body, "ice", kStructureKey};
 
 }  // namespace
 
@@ -68,6 +71,56 @@ class TestStartEdits : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(note(), QString(), kLong);
   }
 
+  /// What is no number acts as well: how a body is held together, what it is made of, where it is pinned.
+  void aCompositionActsAtOnce() {
+    const uint64_t start = startHash();
+    QCOMPARE(document().setParameter(kStructure, std::string(kNoStructure)), QString());
+    const uint64_t loose = afterTheNextMaking();
+    QVERIFY(loose != start);
+    document().undoStack().undo();
+    QCOMPARE(afterTheNextMaking(), start);
+    m_window->selection().selectBody("ice");
+    m_window->action(QStringLiteral("edit.pin"))->trigger();
+    QVERIFY(afterTheNextMaking() != start);
+    document().renameBody("ice", QStringLiteral("Cube"));
+    const uint64_t revision = session().newest()->revision;
+    QTest::qWait(300);  // twice as long as a drag rests
+    QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
+  }
+
+  void afterTheStartACompositionWaits() {
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame == 1, kLong);
+    m_window->selection().selectBody("ice");
+    QCOMPARE(document().setParameter(kStructure, std::string(kNoStructure)), QString());
+    QTRY_VERIFY2_WITH_TIMEOUT(structureNote().startsWith(QStringLiteral("Acts at the next reset")),
+                              qPrintable(structureNote()), kLong);
+    document().undoStack().undo();
+    QTRY_COMPARE_WITH_TIMEOUT(structureNote(), QString(), kLong);
+  }
+
+  /// What is painted at the start plays as it does when the project is opened again.
+  void paintedMatterIsMadeFromTheProject() {
+    document().addMaterial("iron");
+    BrushSettings brush = m_window->tools().brush();
+    brush.material = "iron";
+    m_window->tools().setBrush(brush);
+    m_window->action(QStringLiteral("sketch.shape.paint"))->trigger();
+    const uint64_t start = startHash(), revision = session().newest()->revision;
+    // The hand rests amid the stroke for longer than a drag does: nothing of it is lost.
+    QCOMPARE(document().setParameter(kSpacing, document().value(kSpacing)), QString());
+    stroke(QPoint(view()->width() / 2 - 40, view()->height() / 2), {80, 0}, false);
+    QTest::qWait(300);
+    QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, QPoint(view()->width() / 2 + 40, view()->height() / 2));
+    const uint64_t painted = afterTheNextMaking();
+    QVERIFY(painted != start);
+    toTheStart();
+    QCOMPARE(startHash(), painted);
+    document().undoStack().undo();
+    QCOMPARE(afterTheNextMaking(), start);
+  }
+
   /// Making the scene was given up: what was set waits, and says so.
   void whatWasGivenUpWaits() {
     QCOMPARE(document().setParameter(kSpacing, 1.5 * std::get<double>(document().value(kSpacing))), QString());
@@ -84,10 +137,22 @@ class TestStartEdits : public SampleWindowTest {
   }
 
  private:
-  QString note() const {
-    const auto* row = m_window->inspector().solverPanel()->row(QString::fromStdString(kSpacing.text()));
-    const auto* label = row->findChild<QLabel*>(QStringLiteral("psLimit"));
+  QString note() const { return noteOf(*m_window->inspector().solverPanel(), kSpacing); }
+  QString structureNote() const { return noteOf(*m_window->inspector().bodyPanel(), kStructure); }
+  static QString noteOf(const ParameterPanel& panel, const Address& address) {
+    const auto* row = panel.row(QString::fromStdString(address.text()));
+    const auto* label = row ? row->findChild<QLabel*>(QStringLiteral("psLimit")) : nullptr;
     return label ? label->text() : QString();
+  }
+  uint64_t startHash() {
+    return onEngine<uint64_t>(session(), [](Engine& engine) { return engine.stateHash(); });
+  }
+  /// The hash of a scene that is made by what was set, without anybody asking for it.
+  uint64_t afterTheNextMaking() {
+    const uint64_t revision = session().newest()->revision;
+    const auto made = [&] { return session().newest()->revision != revision && session().newest()->bodyIds; };
+    if (!QTest::qWaitFor(made, kLong)) return 0;
+    return startHash();
   }
 };
 

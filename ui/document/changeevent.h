@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace ps {
 
@@ -25,11 +26,13 @@ struct ParameterChanged {
 };
 /// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
 /// `matter` names (nullptr: no particle is touched). `move`: it is at another pose, and nothing else of it has changed;
-/// its matter goes along.
+/// its matter goes along. `composition`: what is set of it like a parameter, its structure and its material.
 struct BodyChanged {
   std::string id;
   MatterRef matter{};
   std::optional<RigidMove> move{};
+  std::vector<ParameterChanged> composition{};
+  bool pins = false;  ///< others of its particles are pinned
 };
 /// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter goes and
 /// comes back together with what it has poured, which `matter` names.

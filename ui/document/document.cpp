@@ -304,10 +304,35 @@ void Document::applyParameter(const Address& address, const std::optional<Value>
   notify(ParameterChanged{address, value, before});
 }
 
+/// What may change of a body's composition by an edit: as it is now.
+std::vector<ParameterChanged> Document::compositionOf(const SceneEdit& edit) const {
+  std::vector<ParameterChanged> parts;
+  const auto* body = std::get_if<BodyEdit>(&edit);
+  if (!body || !body->before || !body->after) return parts;  // it comes or goes as a whole
+  const Address any{Owner::Body, body->id, ""};
+  const api::ParameterList declared = declarationsOf(m_project, m_plugins, any);
+  for (size_t i = 0; i < declared.count; ++i) {
+    const Address address{any.owner, any.id, declared[i].key};
+    if (isComposition(address)) parts.push_back({address, {}, value(address)});
+  }
+  return parts;
+}
+
 void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter) {
+  std::vector<std::vector<ParameterChanged>> compositions;
+  for (const SceneEdit& edit : edits) compositions.push_back(compositionOf(edit));
   applyEdits(m_project, edits, forward);
   ++m_changes;
-  for (const SceneEdit& edit : edits) notify(BodyChanged{bodyOf(edit), matter});
+  for (size_t i = 0; i < edits.size(); ++i) {
+    std::vector<ParameterChanged>& composition = compositions[i];
+    std::erase_if(composition, [this](ParameterChanged& part) {
+      part.value = value(part.address);
+      return *part.value == part.before;
+    });
+    const auto* body = std::get_if<BodyEdit>(&edits[i]);
+    const bool pins = body && body->before && body->after && body->before->pins != body->after->pins;
+    notify(BodyChanged{bodyOf(edits[i]), matter, {}, std::move(composition), pins});
+  }
 }
 
 void Document::applyMaterials(const std::vector<SceneMaterial>& materials) {

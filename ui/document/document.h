@@ -208,6 +208,7 @@ class Document : public QObject {
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
+  std::vector<ParameterChanged> compositionOf(const SceneEdit& edit) const;
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyPlacement(const Placement& to);

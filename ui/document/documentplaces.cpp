@@ -92,7 +92,7 @@ void Document::applyPlacement(const Placement& to) {
   }
   for (const BodyPins& pins : to.pins) {
     at(m_project.bodies, pins.id)->pins = pins.boxes;
-    notify(BodyChanged{pins.id, {}, {}});
+    notify(BodyChanged{pins.id, {}, {}, {}, true});
   }
   for (const Emitter& emitter : to.emitters) {
     *at(m_project.emitters, emitter.id) = emitter;

@@ -370,6 +370,13 @@ void Inspector::refreshIdle(const Address& changed) {
   }
 }
 
+void Inspector::note(const ParameterChanged& change) {
+  // The panels may not have heard of the last reset yet: what is set from now on waits for another one.
+  if (const SnapshotPtr snapshot = m_session.snapshot()) m_notes.setRun(snapshot->revision);
+  m_notes.setNothingWaits(m_session.appliesAtOnce());
+  m_notes.onChanged(change);
+}
+
 void Inspector::onChanged(const ChangeEvent& event) {
   if (const auto* parameter = std::get_if<ParameterChanged>(&event)) {
     const Address& address = parameter->address;
@@ -379,10 +386,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
-    // The panels may not have heard of the last reset yet: what is set from now on waits for another one.
-    if (const SnapshotPtr snapshot = m_session.snapshot()) m_notes.setSnapshot(*snapshot);
-    m_notes.setNothingWaits(m_session.appliesAtOnce());
-    m_notes.onChanged(*parameter);
+    note(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_probeId.clear();
@@ -398,6 +402,9 @@ void Inspector::onChanged(const ChangeEvent& event) {
     showPlace(body->id);
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
+    if (const auto* changed = std::get_if<BodyChanged>(&event)) {
+      for (const ParameterChanged& part : changed->composition) note(part);
+    }
     showSceneHeader();
     showMaterialHeader();
   } else if (const auto* probe = std::get_if<ProbesChanged>(&event)) {

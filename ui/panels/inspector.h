@@ -55,6 +55,7 @@ class Inspector : public QObject {
 
  private:
   void onChanged(const ChangeEvent& event);
+  void note(const ParameterChanged& change);
   bool selectAlone(OutlineKind kind, const std::string& id);
   void refreshIdle(const Address& changed);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }

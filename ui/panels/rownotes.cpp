@@ -50,9 +50,13 @@ void RowNotes::setSnapshot(const Snapshot& snapshot) {
   m_bodies = snapshot.bodyIds;
   m_particles = snapshot.id.size();
   m_knowsStart = snapshot.knowsStart;
-  if (snapshot.revision != m_revision) m_made.clear();
-  m_revision = snapshot.revision;
+  setRun(snapshot.revision);
   show();
+}
+
+void RowNotes::setRun(uint64_t revision) {
+  if (revision != m_revision) m_made.clear();
+  m_revision = revision;
 }
 
 void RowNotes::onChanged(const ParameterChanged& change) {

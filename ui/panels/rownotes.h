@@ -25,6 +25,8 @@ class RowNotes {
   /// Whether the scene is made anew by itself, so that no value waits for a reset. Rows are told by what comes next.
   void setNothingWaits(bool nothing) { m_nothingWaits = nothing; }
   void setSnapshot(const Snapshot& snapshot);
+  /// By Snapshot::revision: what was set in another run waits no longer. Rows are told by what comes next.
+  void setRun(uint64_t revision);
   void onChanged(const ParameterChanged& change);
   /// What keeps the scene from being made stands under its row until there is a scene.
   void hear(const EngineEvent& event);

@@ -62,7 +62,7 @@ SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
   m_soon.setSingleShot(true);
   m_soon.setInterval(kDragRest);
   connect(&m_soon, &QTimer::timeout, this, [this] {
-    if (m_engine.making())
+    if (m_engine.making() || !m_drawn.expired())
       m_soon.start();
     else if (appliesAtOnce())
       applyWaiting();
@@ -132,6 +132,8 @@ void SceneLink::showFields() {
 }
 
 void SceneLink::onBody(const BodyChanged& event) {
+  const auto waits = [this](const ParameterChanged& part) { return m_document.actsAtReset(part.address); };
+  if (event.pins || std::any_of(event.composition.begin(), event.composition.end(), waits)) resetSoon();
   for (KnownStroke& known : m_strokes) {
     const auto stroke = event.move ? known.stroke.lock() : nullptr;
     if (stroke && stroke->body == event.id) known.way += event.move->shift;
@@ -192,13 +194,18 @@ void SceneLink::forgetMatter() {
 }
 
 void SceneLink::remember(const StrokeChanged& event) {
-  if (event.live) m_strokes.push_back({event.stroke, true, {}});
+  if (event.live) {
+    m_strokes.push_back({event.stroke, true, {}});
+    m_drawn.reset();
+  }
   for (KnownStroke& known : m_strokes) {
     if (known.stroke.lock() == event.stroke) known.done = event.done;
   }
 }
 
 void SceneLink::onStroke(const StrokeChanged& event) {
+  // What was painted on the start holds together, or flows, as the scene is made from it.
+  if (!event.stroke->material.empty() && !event.stroke->edits.empty()) resetSoon();
   if (isBroken()) {
     rebuild(m_play);
   } else if (event.live) {
@@ -242,7 +249,7 @@ void SceneLink::resetSoon() {
 }
 
 void SceneLink::applyWaiting() {
-  if (m_waits) reset();
+  if (m_waits && m_drawn.expired()) reset();
 }
 
 void SceneLink::nothingWaits() {
@@ -317,19 +324,24 @@ void SceneLink::hear(const EngineEvent& event) {
   m_taking = false;
 }
 
+MatterKey SceneLink::draws(const StrokeRecord& stroke) {
+  m_drawn = stroke.matter;
+  return keyOf(stroke.matter);
+}
+
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
                       std::vector<std::array<int, 3>> cells) {
-  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, keyOf(stroke.matter)});
+  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, draws(stroke)});
   Q_EMIT matterEdited();
 }
 
 void SceneLink::repaint(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
-  m_engine.apply(PaintCells{stroke.lattice, std::move(cells), stroke.material, lockedBodies(), keyOf(stroke.matter)});
+  m_engine.apply(PaintCells{stroke.lattice, std::move(cells), stroke.material, lockedBodies(), draws(stroke)});
   Q_EMIT matterEdited();
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
-  m_engine.apply(TakeCells{stroke.lattice, std::move(cells), lockedBodies(), keyOf(stroke.matter)});
+  m_engine.apply(TakeCells{stroke.lattice, std::move(cells), lockedBodies(), draws(stroke)});
   Q_EMIT matterEdited();
 }
 
@@ -350,7 +362,18 @@ void SceneLink::touch(const StrokeRecord& stroke, TouchMatter touch) {
 
 bool SceneLink::runs() const { return m_engine.playing(); }
 
-void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) { undoStroke(stroke); }
+size_t SceneLink::strokesOfTheRun() const {
+  const auto count = std::count_if(m_strokes.begin(), m_strokes.end(), [this](const KnownStroke& known) {
+    const auto stroke = known.stroke.lock();
+    return stroke && known.done && stroke->deed.empty() && stroke->edits.empty() && isOfThisRun(stroke->matter);
+  });
+  return static_cast<size_t>(count);
+}
+
+void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) {
+  m_drawn.reset();
+  undoStroke(stroke);
+}
 
 void SceneLink::undoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   if (!stroke->deed.empty()) {

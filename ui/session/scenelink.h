@@ -52,6 +52,9 @@ class SceneLink : public QObject {
   void touch(const StrokeRecord& stroke, TouchMatter touch);
   /// Whether time passes in the scene.
   bool runs() const;
+  /// Strokes of this run that the project knows nothing of: erased and painted after the start, where matter no longer
+  /// stands where bodies put it.
+  size_t strokesOfTheRun() const;
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
 
@@ -61,6 +64,7 @@ class SceneLink : public QObject {
  private:
   void onChanged(const ChangeEvent& event);
   void remember(const StrokeChanged& event);
+  MatterKey draws(const StrokeRecord& stroke);  ///< the key of a piece of it
   void onStroke(const StrokeChanged& event);
   void undoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
@@ -84,6 +88,7 @@ class SceneLink : public QObject {
   QTimer m_soon;
   bool m_waits = false;    ///< a reset, for the last value of a drag
   bool m_givenUp = false;  ///< the scene was not made as the last values have it
+  std::weak_ptr<const MatterKey> m_drawn;  ///< by a stroke that the document does not know yet
   bool m_taking = false;   ///< a refused value out of the document: the engine has the other one
   struct KnownMatter {
     std::weak_ptr<const MatterKey> matter;
