@@ -513,7 +513,9 @@ void TestRenderParts::aSectionCutsWalls() {
     for (const render::EdgeVertex& v : cut.edges) QVERIFY(section.plane.heightOf(vector(v.position)) > -1e-6);
     QCOMPARE(cut.opaque.size(), whole.opaque.size());
   }
-  QVERIFY(render::buildFurniture(environment, true, Section{{Vector3(0, 1, 0), 0.1}}).opaque.empty());
+  const render::Furniture above = render::buildFurniture(environment, true, Section{{Vector3(0, 1, 0), 0.1}});
+  QVERIFY(above.opaque.empty());
+  QVERIFY(whole.hasFloor && !above.hasFloor);  // nor does it cast a shadow
 }
 
 void TestRenderParts::glow_data() {

@@ -225,6 +225,30 @@ class TestSavedState : public QObject {
     QVERIFY(read().state);
   }
 
+  /// What no project holds is told when it is saved, and how to keep it.
+  void whatOnlyTheRunHoldsIsTold() {
+    const auto told = [&] { return m_window->notice()->topic() == QLatin1String("state"); };
+    hashAfter(session(), kKept);
+    paint(8);  // its body is in the project
+    save();
+    QVERIFY(!told());
+    const auto stroke = std::make_shared<StrokeRecord>();
+    stroke->erase = true;
+    stroke->lattice.spacing = 0.03;
+    stroke->cells = {{0, 1, 0}};
+    session().link()->erase(*stroke, stroke->cells);
+    document().addStroke(stroke);
+    save();
+    QVERIFY(told());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("one stroke")), qPrintable(m_window->notice()->text()));
+    keep(kKept);
+    QVERIFY(!told());
+    action("file.removeState")->trigger();
+    session().reset();
+    save();  // at the start it is gone
+    QVERIFY(!told());
+  }
+
   void aStateOfAProjectThatHasGoneIsDropped() {
     hashAfter(session(), kKept);
     QSignalSpy kept(&session(), &Session::stateKept);

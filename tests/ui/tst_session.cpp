@@ -272,6 +272,22 @@ class TestSession : public QObject {
     QVERIFY(bar.isHidden());
   }
 
+  /// What went well leaves by itself; what asks or warns stays.
+  void goodNewsLeave() {
+    NoticeBar bar;
+    auto* leaves = bar.findChild<QTimer*>();
+    QVERIFY(leaves);
+    bar.show(QStringLiteral("a"), MessageLevel::Warning, QStringLiteral("Look."), {});
+    QVERIFY(!leaves->isActive());
+    bar.show(QStringLiteral("b"), MessageLevel::Ok, QStringLiteral("Written."), {}, {{QStringLiteral("Show"), [] {}}});
+    QVERIFY(!leaves->isActive());
+    bar.show(QStringLiteral("c"), MessageLevel::Ok, QStringLiteral("Written."), {});
+    QVERIFY(leaves->isActive());
+    leaves->start(1);
+    QTRY_COMPARE(bar.topic(), QStringLiteral("b"));
+    QVERIFY(!leaves->isActive());
+  }
+
   void newSceneOverUnsavedWorkLeavesAWayBack() {
     open();
     edit(355);

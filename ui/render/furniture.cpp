@@ -102,13 +102,13 @@ void addPane(Furniture& out, const Face& shown, double top, bool open) {
   }
 }
 
-void placeFloor(Furniture& out, const Environment& environment) {
+void placeFloor(Furniture& out, const Environment& environment, const std::optional<Section>& section = {}) {
   out.floor = static_cast<float>(environment.boundsMinimum[1]);
   Vector3 low = environment.boundsMinimum, high = environment.boundsMaximum;
   double largest = 0;
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     if (isRound(environment, i) || roleOf(environment.walls[i]) != Role::Floor) continue;
-    const Face face = wallFace(environment, i);
+    const Face face = leftOf(environment, i, section);
     if (face.corners.size() < 3) continue;
     Vector3 first = face.corners[0], last = face.corners[0];
     for (const Vector3& p : face.corners) first = first.cwiseMin(p), last = last.cwiseMax(p);
@@ -318,7 +318,7 @@ bool sameFurniture(const Environment& a, const Environment& b) {
 
 Furniture buildFurniture(const Environment& environment, bool dark, const std::optional<Section>& section) {
   Furniture out;
-  placeFloor(out, environment);
+  placeFloor(out, environment, section);
   const double size = out.size, thickness = 0.065 * size, margin = 0.07 * size;
   out.ground = out.floor - static_cast<float>(out.hasFloor ? thickness + 0.035 * size : 0.02 * size);
   const Top top = topOf(environment, out);

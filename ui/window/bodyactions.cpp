@@ -219,7 +219,7 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
   document.undoStack().endMacro();
 }
 
-/// A fifth of the scene wide; a bowl is half a ball, sheets and ropes lie, and are longer.
+/// A fifth of the scene wide; a bowl is half a ball and twice as wide, sheets and ropes lie, and are longer.
 Body BodyActions::newSolid(Kind kind, const QString& name) const {
   const Room room = roomOf(m_session.document().project().environment);
   const Vector3 wide = room.maximum - room.minimum;
@@ -235,7 +235,7 @@ Body BodyActions::newSolid(Kind kind, const QString& name) const {
   values["size_z"] = size;
   if (kind == Kind::Tube) values["wall"] = rounded(size / 5);
   if (kind == Kind::Bowl) {
-    values["size_y"] = rounded(size / 2);
+    values["size_x"] = values["size_z"] = 2 * size;  // it must hold something
     values["wall"] = rounded(std::max(size / 8, spacingOf(m_session.document())));
   }
   if (kind == Kind::Sheet || kind == Kind::Rope) values["size_y"] = spacingOf(m_session.document());

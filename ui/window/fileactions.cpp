@@ -9,6 +9,7 @@
 #include "ui/graphs/graphspanel.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/recordingfiles.h"
+#include "ui/session/scenelink.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/session/worker.h"
@@ -292,7 +293,16 @@ void FileActions::onSaved(const QString& path, bool present) {
   m_session.log().add(MessageLevel::Ok, nameOf(path), QStringLiteral("Saved to %1.").arg(path) + opens);
   if (!present) return;
   m_notices.bar().close(QStringLiteral("save"));
-  if (!leftOut) m_notices.bar().close(QStringLiteral("state"));
+  if (leftOut) return;
+  m_notices.bar().close(QStringLiteral("state"));
+  const size_t strokes = m_session.link() ? m_session.link()->strokesOfTheRun() : 0;
+  if (strokes == 0 || state) return;
+  m_notices.bar().show(
+      QStringLiteral("state"), MessageLevel::Info,
+      QStringLiteral("Saved without %1 made after 0 s.")
+          .arg(strokes == 1 ? QStringLiteral("one stroke") : QStringLiteral("%1 strokes").arg(strokes)),
+      QStringLiteral("A project begins at its start. What was erased and painted while it ran is in its present state."),
+      {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
 }
 
 void FileActions::onStateLeftOut(const QString& path, const QString& why, bool present) {

@@ -14,9 +14,12 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <chrono>
 
 namespace ps {
 namespace {
+
+constexpr auto kRead = std::chrono::seconds(8);
 
 Token groundOf(MessageLevel level) {
   if (level == MessageLevel::Error) return Token::ErrorGround;
@@ -52,6 +55,13 @@ NoticeBar::NoticeBar(QWidget* parent)
   dismiss->setFocusPolicy(Qt::TabFocus);
   connect(dismiss, &QToolButton::clicked, this, [this] { close(topic()); });
   row->addWidget(dismiss);
+  m_leaves.setSingleShot(true);
+  connect(&m_leaves, &QTimer::timeout, this, [this] {
+    if (underMouse())  // somebody reads or copies it
+      m_leaves.start(kRead);
+    else
+      close(topic());
+  });
   hide();
 }
 
@@ -96,6 +106,7 @@ void NoticeBar::refresh() {
     delete item;
   }
   setVisible(!m_notices.empty());
+  m_leaves.stop();
   if (m_notices.empty()) {
     m_title->clear();
     m_text->clear();
@@ -105,6 +116,7 @@ void NoticeBar::refresh() {
   m_title->setText(notice.title);
   m_text->setText(notice.text);
   m_text->setVisible(!notice.text.isEmpty());
+  if (notice.level == MessageLevel::Ok && notice.buttons.empty()) m_leaves.start(kRead);
   for (const Button& button : notice.buttons) {
     auto* push = new QPushButton(asButtonText(button.text));
     push->setFocusPolicy(Qt::TabFocus);

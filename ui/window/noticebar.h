@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/session/messagelog.h"
 
+#include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
 #include <functional>
@@ -14,7 +15,8 @@ class QHBoxLayout;
 namespace ps {
 
 /// A bar over a dock: what happened, where, what to do, with buttons. Never a dialog. The newest notice shows; those
-/// with buttons wait below it until somebody decides, those without (the message log has them too) give way.
+/// with buttons wait below it until somebody decides, those without (the message log has them too) give way. What went
+/// well, with nothing to decide, leaves by itself.
 class NoticeBar : public QWidget {
   Q_OBJECT
  public:
@@ -49,6 +51,7 @@ class NoticeBar : public QWidget {
   std::vector<Notice> m_notices;
   QLabel *m_title, *m_text, *m_more;
   QHBoxLayout* m_buttons;
+  QTimer m_leaves{this};
 };
 
 }  // namespace ps
