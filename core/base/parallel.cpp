@@ -11,7 +11,8 @@
 namespace ps {
 namespace {
 int g_threads = 0;
-/// For which another thread is asked to help: somewhat more than that takes. ThreadSanitizer is to see small loops shared too.
+/// For which another thread is asked to help: somewhat more than that takes. ThreadSanitizer is to see small loops
+/// shared too.
 #if defined(__SANITIZE_THREAD__)
 constexpr double kMicrosecondsPerThread = 0.01;
 #else
@@ -26,22 +27,37 @@ std::unique_ptr<Workers>& workers() {
 thread_local double t_shared = 0;  // s
 thread_local int t_loops = 0;      // that this thread is in
 
+using Clock = std::chrono::steady_clock;
+
 /// Counts the time of a loop, unless it runs within another.
 class SharedTime {
  public:
-  SharedTime() {
-    if (t_loops++ == 0) m_start = Clock::now();
-  }
+  SharedTime() { ++t_loops; }
   ~SharedTime() {
     if (--t_loops == 0) t_shared += std::chrono::duration<double>(Clock::now() - m_start).count();
   }
   SharedTime(const SharedTime&) = delete;
   SharedTime& operator=(const SharedTime&) = delete;
+  Clock::time_point start() const { return m_start; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point m_start;
+  Clock::time_point m_start = Clock::now();
 };
+
+using Body = std::function<void(size_t, size_t)>;
+
+void run(size_t count, size_t grain, const Body& body, double microseconds, LoopCost* cost) {
+  if (count == 0) return;
+  const size_t chunks = chunkCount(count, grain);
+  const auto runChunk = [&](size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
+  if (chunks == 1) return runChunk(0);
+  const SharedTime counted;
+  const size_t threads = std::min(chunks, static_cast<size_t>(threadsWorth(microseconds)));
+  const Workers::Own own = workers()->share(static_cast<int>(threads) - 1, chunks, std::cref(runChunk));
+  if (cost && own.chunks > 0)
+    cost->learn(std::chrono::duration<double, std::micro>(own.end - counted.start()).count(),
+                std::min(count, own.chunks * grain));
+}
 }  // namespace
 
 double secondsShared() { return t_shared; }
@@ -62,16 +78,27 @@ int threadsWorth(double microseconds) {
   return static_cast<int>(worth);
 }
 
-void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body, double microseconds) {
-  if (count == 0) return;
+double LoopCost::microseconds(size_t count, size_t grain) const {
+  const double each = double{m_each.load(std::memory_order_relaxed)};
+  return static_cast<double>(count) * (each < 0 ? grain::microseconds(grain) : each);
+}
+
+/// A thread that was held up says nothing of the loop: no more than four times what was known counts.
+void LoopCost::learn(double microseconds, size_t elements) {
+  constexpr float kWeight = 0.25f, kMost = 4;
+  const float known = m_each.load(std::memory_order_relaxed);
+  const float seen = static_cast<float>(microseconds / static_cast<double>(elements));
+  m_each.store(known < 0 ? seen : known + kWeight * (std::min(seen, kMost * known) - known), std::memory_order_relaxed);
+}
+
+void parallelFor(size_t count, size_t grain, const Body& body, double microseconds) {
   grain = std::max<size_t>(1, grain);
-  const size_t chunks = (count + grain - 1) / grain;
-  const auto runChunk = [&](size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
-  if (chunks == 1) return runChunk(0);
-  const SharedTime counted;
-  if (microseconds < 0) microseconds = static_cast<double>(count) * grain::microseconds(grain);
-  const size_t threads = std::min(chunks, static_cast<size_t>(threadsWorth(microseconds)));
-  workers()->share(static_cast<int>(threads) - 1, chunks, std::cref(runChunk));
+  run(count, grain, body, microseconds < 0 ? LoopCost().microseconds(count, grain) : microseconds, nullptr);
+}
+
+void parallelFor(size_t count, size_t grain, const Body& body, LoopCost& cost) {
+  grain = std::max<size_t>(1, grain);
+  run(count, grain, body, cost.microseconds(count, grain), &cost);
 }
 
 double parallelSum(size_t count, size_t grain, const std::function<double(size_t, size_t)>& body) {
@@ -80,7 +107,8 @@ double parallelSum(size_t count, size_t grain, const std::function<double(size_t
   std::vector<double> partial = std::move(spare);
   grain = std::max<size_t>(1, grain);
   partial.assign((count + grain - 1) / grain, 0.0);
-  forChunks(count, grain, [&](size_t first, size_t last) { partial[first / grain] = body(first, last); });
+  const auto part = [&](size_t first, size_t last) { partial[first / grain] = body(first, last); };
+  parallelFor(count, grain, std::cref(part));
   double sum = 0;
   for (const double p : partial) sum += p;
   spare = std::move(partial);

@@ -10,8 +10,8 @@
 // the number of threads; a chunk writes only its own elements, and sums are kept per chunk and added in chunk order.
 //
 // To get another thread's help takes microseconds, which a small loop does not have: a frame of a thousand particles
-// has some hundred of them. How many threads a loop gets follows from what it has to do, by an estimate for each size
-// of chunk; the chunks, and with them the bits, stay what they are.
+// has some hundred of them. How many threads a loop gets follows from what it has to do, as it was measured when it ran
+// before; the chunks, and with them the bits, stay what they are.
 namespace ps {
 
 /// Threads used by parallelFor from now on, in the whole process; 0: one per core. Not while a loop runs.
@@ -23,6 +23,26 @@ int threadCount();
 /// What a body throws reaches the caller, once all running chunks have ended.
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t first, size_t last)>& body,
                  double microseconds = -1);
+
+/// What one thread takes for an element of a loop: by the size of its chunks at first, and then as it is seen to.
+class LoopCost {
+ public:
+  constexpr LoopCost() = default;
+  explicit LoopCost(double microseconds) : m_each(static_cast<float>(microseconds)) {}
+  LoopCost(const LoopCost& other) : m_each(other.m_each.load(std::memory_order_relaxed)) {}
+  LoopCost& operator=(const LoopCost& other) {
+    m_each.store(other.m_each.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    return *this;
+  }
+  double microseconds(size_t count, size_t grain) const;
+  void learn(double microseconds, size_t elements);
+
+ private:
+  std::atomic<float> m_each = -1;  ///< microseconds; below 0 as long as nobody has seen it run
+};
+/// As above; what this thread takes for its share is learned.
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t first, size_t last)>& body,
+                 LoopCost& cost);
 
 /// Threads, at most threadCount(), that work of so many microseconds on one of them is worth.
 int threadsWorth(double microseconds);
@@ -42,7 +62,7 @@ inline constexpr size_t kPairs = 128;         ///< sums over a particle's neighb
 inline constexpr size_t kNeighbours = 256;    ///< looks at its neighbours one by one, or asks its tables
 inline constexpr size_t kParticles = 512;     ///< has to do with the particle alone
 inline constexpr size_t kConstraints = 1024;  ///< a constraint, by a plugin's batch
-inline constexpr size_t kNumbers = 4096;      ///< a few operations on what lies side by side
+inline constexpr size_t kNumbers = 2048;      ///< a few operations on what lies side by side
 
 /// Microseconds that one thread takes for an element, by the size of its chunk: rounded from the stages' times per
 /// particle on a server of 2024. Chunks of other sizes count as 10 microseconds each.
@@ -70,8 +90,19 @@ inline size_t chunkCount(size_t count, size_t grain) { return (count + grain - 1
 
 /// parallelFor without the allocation that a std::function of a large lambda costs: a steady step allocates nothing.
 template <class Body>
-void forChunks(size_t count, size_t grain, const Body& body, double microseconds = -1) {
+void forChunks(size_t count, size_t grain, const Body& body, LoopCost& cost) {
+  parallelFor(count, grain, std::cref(body), cost);
+}
+/// Of work that differs from one time to the next: about so much now.
+template <class Body>
+void forChunks(size_t count, size_t grain, const Body& body, double microseconds) {
   parallelFor(count, grain, std::cref(body), microseconds);
+}
+/// What it costs is known of each loop in the program: its body is a type of its own.
+template <class Body>
+void forChunks(size_t count, size_t grain, const Body& body) {
+  static LoopCost cost;
+  parallelFor(count, grain, std::cref(body), cost);
 }
 
 /// Whether body(first, last) is true for any chunk; once one is, others may be left out.

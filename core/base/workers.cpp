@@ -53,11 +53,11 @@ Workers::Loop* Workers::freeLoop() {
   return nullptr;
 }
 
-void Workers::share(int helpers, size_t chunks, const std::function<void(size_t)>& body) {
+Workers::Own Workers::share(int helpers, size_t chunks, const std::function<void(size_t)>& body) {
   Loop* const loop = helpers > 0 ? freeLoop() : nullptr;
   if (!loop) {
     for (size_t chunk = 0; chunk < chunks; ++chunk) body(chunk);
-    return;
+    return {chunks, Clock::now()};
   }
   loop->body = &body;
   loop->used = std::min(static_cast<size_t>(helpers) + 1, loop->parts.size());
@@ -68,25 +68,28 @@ void Workers::share(int helpers, size_t chunks, const std::function<void(size_t)
   loop->places.store(static_cast<uint32_t>(helpers) * kPlace, std::memory_order_release);
   ++m_posted;
   if (m_sleeping > 0) m_posted.notify_one();
-  run(*loop, 0);
+  const Own own{run(*loop, 0), Clock::now()};
   loop->places.fetch_and(kTaken);  // who comes now comes too late
   for (Patience patience; loop->places.load(std::memory_order_acquire) != 0;) patience.wait();
   const std::exception_ptr error = std::exchange(loop->error, nullptr);
   loop->taken = false;
   if (error) std::rethrow_exception(error);
+  return own;
 }
 
-void Workers::run(Loop& loop, size_t self) {
+size_t Workers::run(Loop& loop, size_t self) {
+  size_t done = 0;
   try {
     for (size_t p = 0; p < loop.used; ++p) {
       Part& part = loop.parts[(self + p) % loop.used];
-      for (size_t chunk = part.next++; chunk < part.end; chunk = part.next++) (*loop.body)(chunk);
+      for (size_t chunk = part.next++; chunk < part.end; chunk = part.next++, ++done) (*loop.body)(chunk);
     }
   } catch (...) {
     const std::lock_guard lock(loop.mutex);
     if (!loop.error) loop.error = std::current_exception();
     for (size_t p = 0; p < loop.used; ++p) loop.parts[p].next = loop.parts[p].end;
   }
+  return done;
 }
 
 /// Whether there was a loop with a free place; it has then ended.

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -26,8 +27,13 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   /// Calls body(chunk) once for each chunk below `chunks`, on this thread and on up to `helpers` others. Throws the
-  /// first of what the bodies threw, once all that had begun have ended; those that had not are then left out.
-  void share(int helpers, size_t chunks, const std::function<void(size_t chunk)>& body);
+  /// first of what the bodies threw, once all that had begun have ended; those that had not are then left out. Says
+  /// what this thread has done of it, and until when.
+  struct Own {
+    size_t chunks = 0;
+    std::chrono::steady_clock::time_point end;
+  };
+  Own share(int helpers, size_t chunks, const std::function<void(size_t chunk)>& body);
 
  private:
   /// Chunks that are one thread's: it has them first, and then helps others with theirs. What a chunk of one loop has
@@ -48,7 +54,7 @@ class Workers {
   };
 
   Loop* freeLoop();
-  static void run(Loop& loop, size_t self);
+  static size_t run(Loop& loop, size_t self);  ///< the number of chunks
   bool help(size_t self);
   void work(size_t self);
 

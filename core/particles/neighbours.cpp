@@ -231,10 +231,10 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   const size_t needed = std::accumulate(m_needs.begin(), m_needs.end(), size_t{0});
   if (m_slots > needed + needed / kMostEmpty + kListPad * m_rooms.size()) m_stirred.clear();
   if (m_stirred.empty()) layOut(chunkCount(n, grain::kNeighbours));
-  parallelFor(n, grain::kNeighbours, std::cref(search));
+  forChunks(n, grain::kNeighbours, search);
   progress = nullptr;
   all = false;
-  if (giveMoreRoom()) parallelFor(n, grain::kNeighbours, std::cref(search));
+  if (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);
   m_built.resize(n);
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),

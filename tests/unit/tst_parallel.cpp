@@ -122,6 +122,37 @@ class TestParallel : public QObject {
     }
   }
 
+  /// A loop that was seen to be long gets help, however short it was taken for; one that was held up once does not.
+  void whatALoopTakesIsLearned() {
+    LoopCost cost(0.001);
+    const auto caller = std::this_thread::get_id();
+    std::atomic<bool> helped = false;
+    bool waits = false;
+    const auto body = [&](size_t, size_t) {
+      if (std::this_thread::get_id() != caller) helped = true;
+      const auto start = std::chrono::steady_clock::now();
+      do {
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+      } while (waits && !helped && std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+    };
+#if !defined(__SANITIZE_THREAD__)
+    parallelFor(8, 1, body, cost);
+    QVERIFY(!helped);
+    for (int run = 0; cost.microseconds(1, 1) < 100 && run < 100; ++run) parallelFor(8, 1, body, cost);
+    QVERIFY(cost.microseconds(1, 1) >= 100);
+#endif
+    waits = true;
+    parallelFor(8, 1, body, cost);
+    QVERIFY(helped);
+    LoopCost once(1.0);
+    once.learn(1e6, 1);
+    QVERIFY(once.microseconds(1, 1) < 2);
+    LoopCost fresh;
+    QCOMPARE(fresh.microseconds(1000, grain::kNumbers), 1000 * grain::microseconds(grain::kNumbers));
+    fresh.learn(50, 100);
+    QCOMPARE(fresh.microseconds(1000, grain::kNumbers), 500.0);
+  }
+
   void aSumIsTheSameForAnyNumberOfThreads() {
     const auto part = [](size_t first, size_t last) {
       double sum = 0;

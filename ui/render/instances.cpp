@@ -201,7 +201,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   const Evaluator evaluator(request);
   std::vector<Instance>& all = out.all;
   all.resize(count);
-  parallelFor(count, grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) all[i] = evaluator.at(i);
   });
 

@@ -25,14 +25,11 @@ Sum sumOver(std::span<const uint32_t> members, const Add& add) {
     return all;
   }
   std::array<Sum, kMostParts> part{};
-  forChunks(
-      members.size(), each,
-      [&](size_t first, size_t last) {
-        Sum own{};  // of this thread alone: beside those of others each addition would wait for theirs
-        sum(own, first, last);
-        part[first / each] = own;
-      },
-      static_cast<double>(members.size()) * grain::microseconds(grain::kParticles));
+  forChunks(members.size(), each, [&](size_t first, size_t last) {
+    Sum own{};  // of this thread alone: beside those of others each addition would wait for theirs
+    sum(own, first, last);
+    part[first / each] = own;
+  });
   Sum all = part[0];
   for (size_t p = 1; p < chunkCount(members.size(), each); ++p) all += part[p];
   return all;

@@ -68,9 +68,7 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   findPairs(store, neighbours, graph, pieceOf);
   addMirrored(chunkCount(m_solids.size(), grain::kNeighbours), store.size());
   size_t squeezed = 0;
-  m_pairs = 0;
   for (Chunk& chunk : m_chunks) {
-    m_pairs += chunk.other.size();
     m_any = m_any || !chunk.who.empty();
     squeezed += chunk.squeezed;
   }

@@ -62,18 +62,15 @@ class SolidContact {
   template <class Visit>
   void forPairs(const Visit& visit) const {
     if (!m_any) return;
-    forChunks(
-        m_chunks.size(), 1,
-        [&](size_t first, size_t last) {
-          for (size_t c = first; c < last; ++c) {
-            const Chunk& chunk = m_chunks[c];
-            for (size_t k = 0; k < chunk.who.size(); ++k) {
-              for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q)
-                visit(c, chunk.who[k], chunk.other[q], chunk.facing[q]);
-            }
-          }
-        },
-        kMicrosecondsPerPair * static_cast<double>(m_pairs));
+    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
+      for (size_t c = first; c < last; ++c) {
+        const Chunk& chunk = m_chunks[c];
+        for (size_t k = 0; k < chunk.who.size(); ++k) {
+          for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q)
+            visit(c, chunk.who[k], chunk.other[q], chunk.facing[q]);
+        }
+      }
+    });
   }
   size_t pairChunks() const { return m_chunks.size(); }
   /// Ties of a particle inside a cubic lattice, six along the axes and twelve along the diagonals: its own structure
@@ -120,14 +117,11 @@ class SolidContact {
   void findSurfaces(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   template <class Body>
   void everywhere(const Body& body) {
-    forChunks(
-        m_chunks.size(), 1,
-        [&](size_t first, size_t last) {
-          for (size_t c = first; c < last; ++c) {
-            for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
-          }
-        },
-        kMicrosecondsPerPair * static_cast<double>(m_pairs));
+    forChunks(m_chunks.size(), 1, [&](size_t first, size_t last) {
+      for (size_t c = first; c < last; ++c) {
+        for (size_t k = 0; k < m_chunks[c].who.size(); ++k) body(m_chunks[c], k);
+      }
+    });
   }
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
@@ -149,8 +143,6 @@ class SolidContact {
   std::vector<LatticeSurface::Normal> m_normals;  ///< by its slots
   std::vector<uint8_t> m_isKept;                  ///< by its slots; 1: of m_fixed
   std::vector<uint8_t> m_stood;                   ///< by its slots; 1: has its normal, and nothing has moved since
-  static constexpr double kMicrosecondsPerPair = 0.02;  ///< of one thread
-  size_t m_pairs = 0;                                   ///< that may touch
   bool m_any = false;
 };
 

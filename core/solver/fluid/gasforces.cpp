@@ -60,7 +60,7 @@ void GasForces::measure(const ParticleStore& store, const Neighbours& neighbours
       m_filled[i] = vapour || m_solver.airDrag > 0 ? filled(store, lists, i, vapour) : 0.0f;
     }
   };
-  parallelFor(store.size(), grain::kParticles, std::cref(body));
+  forChunks(store.size(), grain::kParticles, body);
 }
 
 GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {

@@ -94,7 +94,7 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
     sumConductances(store, first, last, partial);
     partial.fastest = fastestRate(store, m_now, first, last);
   };
-  parallelFor(n, grain::kNeighbours, std::cref(body));
+  forChunks(n, grain::kNeighbours, body);
   m_boiling = false;
   for (const Partial& partial : m_partials) m_boiling = m_boiling || partial.boiling > 0;
   findLimit();
@@ -160,7 +160,7 @@ void HeatStage::hold(ParticleStore& store) {
       deriveRange(store, i, last);
     }
   };
-  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  forChunks(store.size(), grain::kNeighbours, body);
   const double given = energy(store) - before;
   m_ledger.heaters += given;
   m_ledger.exchanged += std::abs(given);
@@ -192,7 +192,7 @@ void HeatStage::passTime(ParticleStore& store, const api::ParticleView& view, do
     m_model->addHeat(where, view, first, last, m_joules.data(), time);
     deriveRange(store, first, last);
   };
-  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  forChunks(store.size(), grain::kNeighbours, body);
 }
 
 /// Thermal seconds that one frame's explicit steps can do, and its sweeps.
@@ -249,7 +249,7 @@ void HeatStage::explicitStep(ParticleStore& store, const api::ParticleView& view
     snapshotRange(store, m_next, first, last);
     partial.fastest = fastestRate(store, m_next, first, last);
   };
-  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  forChunks(store.size(), grain::kNeighbours, body);
   std::swap(m_now, m_next);
   takeFromAir(airHeat() - airBefore);
   findLimit();
@@ -358,7 +358,7 @@ void HeatStage::askPairLaw(const api::ParticleView& view, const api::NeighbourVi
     if (first >= probe) m_model->pairFlux(where, view, lists, first, last, m_pairWatts.data());
     if (rates) m_lawRates[first / grain::kNeighbours] = rates->fastestPairRate(where, view, lists, first, last);
   };
-  parallelFor(n, grain::kNeighbours, std::cref(body));
+  forChunks(n, grain::kNeighbours, body);
   m_pairRate = *std::max_element(m_lawRates.begin(), m_lawRates.end());
   findLimit();
 }

@@ -53,7 +53,7 @@ bool HeatStage::giveRound(ParticleStore& store, std::span<double> left) {
     m_model->addHeat(where, view, first, last, m_joules.data(), 0);
     deriveRange(store, first, last);
   };
-  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  forChunks(store.size(), grain::kNeighbours, body);
   return more;
 }
 

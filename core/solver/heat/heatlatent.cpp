@@ -47,10 +47,10 @@ void HeatStage::collectFrameHeat(ParticleStore& store, const api::ParticleView& 
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / grain::kNeighbours]);
     countBoiling(store, first, last);
   };
-  parallelFor(n, grain::kNeighbours, std::cref(sources));
+  forChunks(n, grain::kNeighbours, sources);
   if (!m_boiling || !(m_settings.nucleation > 0)) return;
   const auto bubbles = [&](size_t first, size_t last) { nucleate(store, first, last); };
-  parallelFor(n, grain::kNeighbours, std::cref(bubbles));
+  forChunks(n, grain::kNeighbours, bubbles);
 }
 
 /// Vapour close to a wall below the boiling point condenses with the wall's film coefficient, Q = h A (T_w - T):

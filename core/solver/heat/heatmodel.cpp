@@ -110,7 +110,7 @@ void HeatStage::bringUpToDate(ParticleStore& store) {
   m_modelChanged = false;
   noteCurves();
   const auto body = [&](size_t first, size_t last) { deriveRange(store, first, last); };
-  parallelFor(store.size(), grain::kNeighbours, std::cref(body));
+  forChunks(store.size(), grain::kNeighbours, body);
   if (!known) return;
   if (const double change = energy(store) - before; change != 0) book(change);
 }
@@ -139,7 +139,7 @@ double HeatStage::energy(const ParticleStore& store) const {
       if (!std::isfinite(m_energies[i])) throw Error("its energy is not a finite number");
     }
   };
-  if (!guarded([&] { parallelFor(store.size(), grain::kNeighbours, std::cref(body)); })) return m_lastEnergy;
+  if (!guarded([&] { forChunks(store.size(), grain::kNeighbours, body); })) return m_lastEnergy;
   double sum = 0;
   for (size_t first = 0; first < store.size(); first += grain::kNeighbours) {
     double chunk = 0;

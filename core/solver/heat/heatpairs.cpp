@@ -41,16 +41,16 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
       volume[i] = static_cast<float>(static_cast<double>(store.mass()[i]) / material.condensedDensity(t, s));
     }
   };
-  parallelFor(n, grain::kNeighbours, std::cref(matter));
+  forChunks(n, grain::kNeighbours, matter);
   m_rooms.resize(std::max(m_rooms.size(), chunkCount(n, grain::kNeighbours)));
   const auto first = [&](size_t a, size_t b) { measure(store, lists, a, b); };
-  parallelFor(n, grain::kNeighbours, std::cref(first));
+  forChunks(n, grain::kNeighbours, first);
   const auto second = [&](size_t a, size_t b) {
     conduct(a, b);
     if (m_options.contactConductance > 0) resist(store, a, b);
     if (!m_options.insulated.empty()) insulate(a, b);
   };
-  parallelFor(n, grain::kNeighbours, std::cref(second));
+  forChunks(n, grain::kNeighbours, second);
 }
 
 float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {

@@ -137,7 +137,7 @@ void HeatStage::sweep(ParticleStore& store, const api::ParticleView& view, doubl
     deriveRange(store, first, last);
     snapshotRange(store, m_now, first, last);
   };
-  parallelFor(n, grain::kNeighbours, std::cref(apply));
+  forChunks(n, grain::kNeighbours, apply);
 }
 
 }  // namespace ps

@@ -150,7 +150,7 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
       motion = next;
     }
   };
-  parallelFor(store.size(), grain::kParticles, std::cref(body));
+  forChunks(store.size(), grain::kParticles, body);
   findIndices(m_turns.size(), melted, [&](size_t i) { return m_turns[i] == Turn::Melted; });
   return anyChunk(m_turns.size(), grain::kNumbers, [&](size_t first, size_t last) {
     bool froze = false;

@@ -12,7 +12,6 @@ namespace ps {
 namespace {
 /// Members that are worth a chunk of their own.
 constexpr size_t kMembersPerChunk = 512;
-constexpr double kMicrosecondsPerMember = 0.015;  ///< of one thread
 }  // namespace
 
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
@@ -86,9 +85,7 @@ void ConstraintSystem::forGroups(Set& set, const ParticleStore& store, uint32_t 
       if (count <= grain)
         run(begin, begin + count);
       else
-        forChunks(
-            count, grain, [&](size_t first, size_t last) { run(begin + first, begin + last); },
-            kMicrosecondsPerMember * static_cast<double>(members));
+        forChunks(count, grain, [&](size_t first, size_t last) { run(begin + first, begin + last); }, set.cost);
     }
   });
 }

@@ -73,12 +73,9 @@ PieceSpin::Sums PieceSpin::sumOf(const ParticleStore& store, const Run& run, std
 }
 
 void PieceSpin::read(const ParticleStore& store, std::span<const api::Float4> couple, double dt) {
-  forChunks(
-      m_runs.size(), 1,
-      [&](size_t first, size_t last) {
-        for (size_t r = first; r < last; ++r) m_sums[r] = sumOf(store, m_runs[r], couple, dt);
-      },
-      work());
+  forChunks(m_runs.size(), 1, [&](size_t first, size_t last) {
+    for (size_t r = first; r < last; ++r) m_sums[r] = sumOf(store, m_runs[r], couple, dt);
+  });
   for (size_t r = 0; r < m_runs.size();) {
     const size_t piece = m_runs[r].piece;
     Sums all;
@@ -107,19 +104,16 @@ void PieceSpin::read(const ParticleStore& store, std::span<const api::Float4> co
 }
 
 void PieceSpin::apply(ParticleStore& store) const {
-  forChunks(
-      m_runs.size(), 1,
-      [&](size_t first, size_t last) {
-        for (size_t r = first; r < last; ++r) {
-          const Piece& piece = m_pieces[m_runs[r].piece];
-          if (piece.spin.isZero(0)) continue;
-          for (size_t k = m_runs[r].first; k < m_runs[r].last; ++k) {
-            const Vector3 arm = vectorOf(store.position()[m_members[k]]) - piece.centre;
-            addTo(store.velocity()[m_members[k]], piece.spin.cross(arm));
-          }
-        }
-      },
-      work());
+  forChunks(m_runs.size(), 1, [&](size_t first, size_t last) {
+    for (size_t r = first; r < last; ++r) {
+      const Piece& piece = m_pieces[m_runs[r].piece];
+      if (piece.spin.isZero(0)) continue;
+      for (size_t k = m_runs[r].first; k < m_runs[r].last; ++k) {
+        const Vector3 arm = vectorOf(store.position()[m_members[k]]) - piece.centre;
+        addTo(store.velocity()[m_members[k]], piece.spin.cross(arm));
+      }
+    }
+  });
 }
 
 }  // namespace ps

@@ -47,7 +47,6 @@ class PieceSpin {
     bool grouped = false;
   };
   /// Microseconds of one thread.
-  double work() const { return static_cast<double>(m_members.size()) * grain::microseconds(grain::kParticles); }
   Sums sumOf(const ParticleStore& store, const Run& run, std::span<const api::Float4> couple, double dt) const;
 
   static constexpr uint32_t kNone = ~0u;
