@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -193,6 +195,11 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
     return Vector3(x, y, z).squaredNorm();
   };
   m_candidatesOf.resize(chunkCount(store.size(), grain::kNeighbours));
+  m_bucketsOf.resize(m_candidatesOf.size());
+  const auto touches = [this](uint32_t body) {
+    const std::atomic_ref<bool> touched(m_bodies[body].hasContacts);
+    if (!touched.load(std::memory_order_relaxed)) touched.store(true, std::memory_order_relaxed);
+  };
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     std::vector<Candidate>& found = m_candidatesOf[first / grain::kNeighbours];
     found.clear();
@@ -212,33 +219,37 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
         found.push_back(candidateOf(i, j, kNone, uint64_t{id[i]} << 32 | id[j]));
       }
     }
+    Buckets& buckets = m_bucketsOf[first / grain::kNeighbours];
+    buckets = {};
+    for (const Candidate& c : found) {
+      ++buckets[c.scattered >> kBucketShift];
+      touches(m_bodyOf[c.a]);
+      if (c.b != kNone && m_bodyOf[c.b] != kNone) touches(m_bodyOf[c.b]);
+    }
   });
   sortCandidates();
 }
 
 /// What is scattered falls into buckets of about one size, each of which a thread can sort.
 void RigidContact::sortCandidates() {
-  constexpr size_t kBuckets = 64, kShift = 58;
-  constexpr double kMicrosecondsPerCandidate = 0.05;
-  std::array<size_t, kBuckets + 1> begin{}, next{};
-  for (const std::vector<Candidate>& found : m_candidatesOf) {
-    for (const Candidate& c : found) ++begin[(c.scattered >> kShift) + 1];
+  Buckets begin;
+  uint32_t count = 0;
+  for (size_t b = 0; b < kBuckets; ++b) {
+    begin[b] = count;
+    for (Buckets& own : m_bucketsOf) count += std::exchange(own[b], count);
   }
-  for (size_t b = 0; b < kBuckets; ++b) begin[b + 1] += begin[b];
-  next = begin;
-  m_candidates.resize(begin[kBuckets]);
-  for (const std::vector<Candidate>& found : m_candidatesOf) {
-    for (const Candidate& c : found) m_candidates[next[c.scattered >> kShift]++] = c;
-  }
-  forChunks(
-      kBuckets, 1,
-      [&](size_t bucket, size_t) {
-        std::sort(m_candidates.data() + begin[bucket], m_candidates.data() + begin[bucket + 1],
-                  [](const Candidate& a, const Candidate& b) {
-                    return a.scattered != b.scattered ? a.scattered < b.scattered : a.key < b.key;
-                  });
-      },
-      kMicrosecondsPerCandidate * static_cast<double>(m_candidates.size()));
+  m_candidates.resize(count);
+  forChunks(m_candidatesOf.size(), 1, [&](size_t chunk, size_t) {
+    for (const Candidate& c : m_candidatesOf[chunk])
+      m_candidates[m_bucketsOf[chunk][c.scattered >> kBucketShift]++] = c;
+  });
+  forChunks(kBuckets, 1, [&](size_t bucket, size_t) {
+    const size_t end = bucket + 1 < kBuckets ? begin[bucket + 1] : count;
+    std::sort(m_candidates.data() + begin[bucket], m_candidates.data() + end,
+              [](const Candidate& a, const Candidate& b) {
+                return a.scattered != b.scattered ? a.scattered < b.scattered : a.key < b.key;
+              });
+  });
 }
 
 /// Of all that may touch another particle.
@@ -264,12 +275,6 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   m_surface.clear(store.size());
   for (Body& body : m_bodies) body.hasContacts = false;
   findCandidates(store, neighbours, constraints.graph(store.size()));
-  for (const std::vector<Candidate>& found : m_candidatesOf) {  // in the order of particles, as they lie in memory
-    for (const Candidate& c : found) {
-      m_bodies[m_bodyOf[c.a]].hasContacts = true;
-      if (c.b != kNone && m_bodyOf[c.b] != kNone) m_bodies[m_bodyOf[c.b]].hasContacts = true;
-    }
-  }
   findSurfaces(store, neighbours);
   // With room to spare: their number changes a little with each new list, and a steady frame allocates nothing.
   if (m_candidates.size() > m_contacts.capacity()) m_contacts.reserve(m_candidates.size() + m_candidates.size() / 2);

@@ -261,8 +261,11 @@ class RigidContact {
   std::vector<uint32_t> m_bodyOf;
   std::vector<uint32_t> m_rank;  ///< 1 + body of what holds its shape, kNone where it has none, 0 of others
   std::vector<Body> m_bodies;
-  std::vector<Contact> m_contacts, m_former;           ///< by scattered key
+  std::vector<Contact> m_contacts, m_former;  ///< by scattered key
+  static constexpr size_t kBuckets = 64, kBucketShift = 58;
+  using Buckets = std::array<uint32_t, kBuckets>;
   std::vector<std::vector<Candidate>> m_candidatesOf;  ///< by chunk of particles
+  std::vector<Buckets> m_bucketsOf;                    ///< how many of them fall into each, then where the next goes
   std::vector<Candidate> m_candidates;
   std::vector<Open> m_open;  ///< in the same order
   LatticeSurface m_surface;  ///< of those that may touch others

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Impulses between rigid bodies as a contact problem over velocities: of what strikes, before positions move, and of
 // what projection has given, after.
+#include "core/base/parallel.h"
 #include "core/solver/contact/rigidcontact.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace ps {
@@ -214,11 +216,15 @@ void RigidContact::readStart(const ParticleStore& store, Contact& c) {
 }
 
 void RigidContact::strike(ParticleStore& store) {
-  bool any = false;
-  for (Contact& c : m_contacts) {
-    c.strikes = isStruck(store, c);
-    any = any || c.strikes;
-  }
+  std::atomic<bool> any = false;
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    bool some = false;
+    for (size_t k = first; k < last; ++k) {
+      m_contacts[k].strikes = isStruck(store, m_contacts[k]);
+      some = some || m_contacts[k].strikes;
+    }
+    if (some) any.store(true, std::memory_order_relaxed);
+  });
   if (!any) return;
   findIslands();
   for (Body& body : m_bodies) body.struck = false, body.time = 1;
