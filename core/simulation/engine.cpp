@@ -398,6 +398,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->knowsStart = !m->start.empty();
+  snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->bodyIds = m->bodyIds;
   snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->tables.looks();

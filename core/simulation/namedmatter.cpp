@@ -59,10 +59,24 @@ std::vector<MatterKey> NamedMatter::outside() const {
 
 NamedMatter NamedMatter::inScene() const {
   NamedMatter there;
-  for (const auto& [key, entry] : m_entries) {
-    if (entry.extracted.empty()) there.m_entries.emplace(key, entry).first->second.hand.reset();
-  }
+  for (const MatterKey key : keysInScene()) there.m_entries.emplace(key, m_entries.at(key)).first->second.hand.reset();
   return there;
+}
+
+std::vector<MatterKey> NamedMatter::keysInScene() const {
+  std::vector<MatterKey> keys;
+  for (const auto& [key, entry] : m_entries) {
+    if (entry.extracted.empty()) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::vector<MatterKey> NamedMatter::erasedOrPainted() const {
+  std::vector<MatterKey> keys;
+  for (const auto& [key, entry] : m_entries) {
+    if (entry.afterStart && !(entry.extracted.empty() && entry.painted.empty())) keys.push_back(key);
+  }
+  return keys;
 }
 
 std::vector<MatterKey> NamedMatter::keys() const {
@@ -106,6 +120,7 @@ void NamedMatter::apply(Engine& engine, const AddCells& command) {
 void NamedMatter::apply(Engine& engine, const TakeCells& command) {
   const std::vector<uint32_t> ids = sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared);
   Entry& entry = m_entries[command.key];
+  entry.afterStart = engine.solver().frame() > 0;
   entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());
   extract(engine, entry, ids);
 }
@@ -160,7 +175,9 @@ void NamedMatter::apply(Engine& engine, const PaintCells& command) {
   std::vector<Coat> painted;
   paint(engine, coats, painted);
   if (command.key == 0 || painted[0].was.before.id.empty()) return;
-  m_entries[command.key].painted.push_back(std::move(painted[0]));
+  Entry& entry = m_entries[command.key];
+  entry.afterStart = engine.solver().frame() > 0;
+  entry.painted.push_back(std::move(painted[0]));
 }
 
 void NamedMatter::apply(Engine& engine, const NameMatter& command) {
@@ -203,7 +220,7 @@ void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
   if (found == m_entries.end()) return;
   Entry& entry = found->second;
   entry.hand.reset();
-  entry.taken = negated(giveHeat(engine, negated(entry.heat)));
+  if (!entry.heat.empty()) entry.taken = negated(giveHeat(engine, negated(entry.heat)));  // else it is taken already
   entry.heat.clear();
   unpaint(engine, entry.painted, entry.bare);
   paint(engine, entry.before, entry.stripped);

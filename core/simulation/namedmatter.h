@@ -25,6 +25,9 @@ class NamedMatter {
   /// Without those of which something is out of the scene, and without hands: what holds of a state in this program.
   NamedMatter inScene() const;
   std::vector<MatterKey> keys() const;
+  std::vector<MatterKey> keysInScene() const;  ///< those of inScene()
+  /// The keys of those that took cells out of a scene that had begun, or painted them, and still do.
+  std::vector<MatterKey> erasedOrPainted() const;
   /// The keys of hands that are in matter: neither is that in a state.
   std::vector<MatterKey> hands() const;
   /// What hands do in a frame, before it.
@@ -52,6 +55,7 @@ class NamedMatter {
   struct Entry {
     std::vector<uint32_t> ids;               ///< born by the edit, or taken by it
     std::vector<ExtractedMatter> extracted;  ///< what is out of the scene now
+    bool afterStart = false;                 ///< of cells: the scene had begun
     std::optional<Hand> hand;
     HeatById heat, taken;             ///< what it gave, and what of it was taken back
     std::vector<Coat> painted, bare;  ///< one after the other: what it painted, and what of it was taken back

@@ -272,6 +272,10 @@ void TestPaint::whatStaysAsItIs() {
   for (size_t i = 0; i < store.size(); ++i)
     QCOMPARE(store.velocity()[i].w == 0, store.material()[i] == 2);  // fixed as before
   run(engine, 3);
+  engine.apply(paint("iron", cube(2), kPool, 7));
+  QCOMPARE(engine.snapshot()->erasedOrPainted, std::vector<MatterKey>({7}));  // the scene had begun
+  engine.apply(UndoTouch{7});
+  QVERIFY(engine.snapshot()->erasedOrPainted.empty());
 }
 
 /// Undo takes back what had been painted when the state was kept, wherever it is there, and nothing that came later.
@@ -288,7 +292,9 @@ void TestPaint::aReturnToAStateKnowsWhatWasPainted() {
   engine.apply(paint("ethanol", cube(5), kPool, 6));
   engine.apply(UndoTouch{kKey});
   run(engine, 3);
+  QCOMPARE(engine.snapshot()->erasedOrPainted, std::vector<MatterKey>({6}));  // the other one painted at the start
   engine.apply(ReturnToState{state, names});
+  QVERIFY(engine.snapshot()->erasedOrPainted.empty());
   const uint64_t painted = engine.stateHash();
   QCOMPARE(count(engine, 1), size_t{27});
   QCOMPARE(count(engine, 2), size_t{0});

@@ -235,17 +235,25 @@ class TestSavedState : public QObject {
     const auto stroke = std::make_shared<StrokeRecord>();
     stroke->erase = true;
     stroke->lattice.spacing = 0.03;
+    stroke->lattice.origin = {0, 0.015, 0};
     stroke->cells = {{0, 1, 0}};
     session().link()->erase(*stroke, stroke->cells);
     document().addStroke(stroke);
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->erasedOrPainted.size(), size_t{1}, kLong);
     save();
     QVERIFY(told());
     QVERIFY2(m_window->notice()->text().contains(QStringLiteral("one stroke")), qPrintable(m_window->notice()->text()));
     keep(kKept);
     QVERIFY(!told());
     action("file.removeState")->trigger();
+    save();
+    QVERIFY(told());
     session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->erasedOrPainted.empty(), kLong);
     save();  // at the start it is gone
+    QVERIFY(!told());
+    session().link()->erase(*stroke, stroke->cells);  // what there is at 0 s
+    save();
     QVERIFY(!told());
   }
 

@@ -274,7 +274,8 @@ class TestSession : public QObject {
 
   /// What went well leaves by itself; what asks or warns stays.
   void goodNewsLeave() {
-    NoticeBar bar;
+    QWidget hidden;  // nobody's pointer is over it
+    auto& bar = *new NoticeBar(&hidden);
     auto* leaves = bar.findChild<QTimer*>();
     QVERIFY(leaves);
     bar.show(QStringLiteral("a"), MessageLevel::Warning, QStringLiteral("Look."), {});

@@ -108,7 +108,8 @@ class TestStartEdits : public SampleWindowTest {
     m_window->action(QStringLiteral("sketch.shape.paint"))->trigger();
     const uint64_t start = startHash(), revision = session().newest()->revision;
     // The hand rests amid the stroke for longer than a drag does: nothing of it is lost.
-    QCOMPARE(document().setParameter(kSpacing, document().value(kSpacing)), QString());
+    const double spacing = std::get<double>(document().value(kSpacing));
+    for (const double times : {1.5, 1.0}) QCOMPARE(document().setParameter(kSpacing, times * spacing), QString());
     stroke(QPoint(view()->width() / 2 - 40, view()->height() / 2), {80, 0}, false);
     QTest::qWait(300);
     QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);

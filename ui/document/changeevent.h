@@ -26,7 +26,8 @@ struct ParameterChanged {
 };
 /// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
 /// `matter` names (nullptr: no particle is touched). `move`: it is at another pose, and nothing else of it has changed;
-/// its matter goes along. `composition`: what is set of it like a parameter, its structure and its material.
+/// its matter goes along. `composition`: what has changed of its structure and its material, which is set as
+/// parameters are.
 struct BodyChanged {
   std::string id;
   MatterRef matter{};

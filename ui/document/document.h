@@ -208,7 +208,6 @@ class Document : public QObject {
 
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
-  std::vector<ParameterChanged> compositionOf(const SceneEdit& edit) const;
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter);
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyPlacement(const Placement& to);
@@ -235,6 +234,7 @@ class Document : public QObject {
   void setGraphs(std::vector<Graph> graphs, const QString& title);
   void setMarkers(std::vector<Marker> markers, const QString& title);
   std::vector<TrackEdit> tracksAfter(const Address& curve, const Value& after) const;
+  std::vector<ParameterChanged> compositionOf(const SceneEdit& edit) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   /// Those that `change` says it has changed, as one step.

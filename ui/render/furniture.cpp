@@ -108,7 +108,7 @@ void placeFloor(Furniture& out, const Environment& environment, const std::optio
   double largest = 0;
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     if (isRound(environment, i) || roleOf(environment.walls[i]) != Role::Floor) continue;
-    const Face face = leftOf(environment, i, section);
+    const Face face = wallFace(environment, i);
     if (face.corners.size() < 3) continue;
     Vector3 first = face.corners[0], last = face.corners[0];
     for (const Vector3& p : face.corners) first = first.cwiseMin(p), last = last.cwiseMax(p);
@@ -117,7 +117,7 @@ void placeFloor(Furniture& out, const Environment& environment, const std::optio
     largest = area;
     low = first;
     high = last;
-    out.hasFloor = true;
+    out.hasFloor = !leftOf(environment, i, section).corners.empty();
     out.floor = static_cast<float>((first[1] + last[1]) / 2);
     out.floorHeat = static_cast<float>(glowOf(environment.walls[i]));
   }

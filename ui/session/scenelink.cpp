@@ -197,6 +197,8 @@ void SceneLink::remember(const StrokeChanged& event) {
   if (event.live) {
     m_strokes.push_back({event.stroke, true, {}});
     m_drawn.reset();
+    if (!m_cutOff.expired()) resetSoon();
+    m_cutOff.reset();
   }
   for (KnownStroke& known : m_strokes) {
     if (known.stroke.lock() == event.stroke) known.done = event.done;
@@ -259,6 +261,7 @@ void SceneLink::nothingWaits() {
 
 void SceneLink::reset() {
   nothingWaits();
+  m_cutOff = m_drawn;  // what the hand has drawn so far is not in the document yet
   if (isBroken()) {
     rebuild(m_play);
   } else {
@@ -272,20 +275,25 @@ void SceneLink::keepNames(const std::shared_ptr<const ProjectState>& state, std:
   m_kept.emplace_back(state, std::move(named));
 }
 
+std::shared_ptr<const NamedMatter> SceneLink::keptNames() const {
+  const auto& state = m_document.project().state;
+  for (const auto& [kept, names] : m_kept) {
+    if (state && kept.lock() == state) return names;
+  }
+  return nullptr;
+}
+
 void SceneLink::returnToState() {
   const std::shared_ptr<const ProjectState>& state = m_document.project().state;
   if (!state || isBroken()) return;
   nothingWaits();
   forgetMatter();
   ++m_run;
-  std::shared_ptr<const NamedMatter> named;
-  for (const auto& [kept, names] : m_kept) {
-    if (kept.lock() == state) named = names;
-  }
+  const std::shared_ptr<const NamedMatter> named = keptNames();
   m_engine.apply(ReturnToState{state, named});
   if (!named) return;
   ForgetMatter unasked;  // by any command that could still come
-  for (const MatterKey key : named->inScene().keys()) {
+  for (const MatterKey key : named->keysInScene()) {
     if (const auto known = m_matter.find(key); known != m_matter.end())
       known->second.run = m_run;
     else
@@ -313,7 +321,7 @@ void SceneLink::hear(const EngineEvent& event) {
   if (event.kind == EngineEvent::Kind::Cancelled) nothingWaits();
   // What is refused of a value that acts at once says nothing of how the scene is made.
   if (event.kind == EngineEvent::Kind::Cancelled ||
-      (refused && (!event.culprit || m_document.actsAtReset(*event.culprit))))
+      (refused && (!event.culprit || !event.asked || m_document.actsAtReset(*event.culprit))))
     m_givenUp = true;
   // Edits that came while the engine tried met no scene.
   if (event.kind == EngineEvent::Kind::NotOpened && isBroken() && m_builtAt != m_document.changeCount())
@@ -363,11 +371,14 @@ void SceneLink::touch(const StrokeRecord& stroke, TouchMatter touch) {
 bool SceneLink::runs() const { return m_engine.playing(); }
 
 size_t SceneLink::strokesOfTheRun() const {
-  const auto count = std::count_if(m_strokes.begin(), m_strokes.end(), [this](const KnownStroke& known) {
-    const auto stroke = known.stroke.lock();
-    return stroke && known.done && stroke->deed.empty() && stroke->edits.empty() && isOfThisRun(stroke->matter);
-  });
-  return static_cast<size_t>(count);
+  const SnapshotPtr snapshot = m_engine.snapshot();
+  if (!snapshot) return 0;
+  const auto kept = keptNames();
+  const std::vector<MatterKey> known = kept ? kept->keys() : std::vector<MatterKey>{};
+  const auto& done = snapshot->erasedOrPainted;
+  return static_cast<size_t>(std::count_if(done.begin(), done.end(), [&](MatterKey key) {
+    return std::find(known.begin(), known.end(), key) == known.end();
+  }));
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) {

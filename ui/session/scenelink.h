@@ -52,8 +52,8 @@ class SceneLink : public QObject {
   void touch(const StrokeRecord& stroke, TouchMatter touch);
   /// Whether time passes in the scene.
   bool runs() const;
-  /// Strokes of this run that the project knows nothing of: erased and painted after the start, where matter no longer
-  /// stands where bodies put it.
+  /// Strokes of which neither the project's bodies nor its state know: they erased or painted after the start, where
+  /// matter no longer stands where bodies put it.
   size_t strokesOfTheRun() const;
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
@@ -86,14 +86,17 @@ class SceneLink : public QObject {
   bool m_play = false;     ///< once there is a scene: what the opened project asks for
   uint64_t m_builtAt = 0;  ///< Document::changeCount() of what the engine was given as a whole last
   QTimer m_soon;
-  bool m_waits = false;    ///< a reset, for the last value of a drag
-  bool m_givenUp = false;  ///< the scene was not made as the last values have it
-  std::weak_ptr<const MatterKey> m_drawn;  ///< by a stroke that the document does not know yet
-  bool m_taking = false;   ///< a refused value out of the document: the engine has the other one
+  bool m_waits = false;                     ///< a reset, for the last value of a drag
+  bool m_givenUp = false;                   ///< the scene was not made as the last values have it
+  std::weak_ptr<const MatterKey> m_drawn;   ///< by a stroke that the document does not know yet
+  std::weak_ptr<const MatterKey> m_cutOff;  ///< the same, when a reset came while it was drawn
+  bool m_taking = false;                    ///< a refused value out of the document: the engine has the other one
   struct KnownMatter {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
+  /// What had a name in the state that the project holds, where this program kept it.
+  std::shared_ptr<const NamedMatter> keptNames() const;
   std::vector<std::pair<std::weak_ptr<const ProjectState>, std::shared_ptr<const NamedMatter>>> m_kept;
   uint64_t m_run = 1;  ///< counts resets, and returns to a state: matter of another run is not known by its ids
   std::map<MatterKey, KnownMatter> m_matter;  ///< that the engine may know, and of which run

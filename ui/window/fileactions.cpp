@@ -296,12 +296,14 @@ void FileActions::onSaved(const QString& path, bool present) {
   if (leftOut) return;
   m_notices.bar().close(QStringLiteral("state"));
   const size_t strokes = m_session.link() ? m_session.link()->strokesOfTheRun() : 0;
-  if (strokes == 0 || state) return;
+  if (strokes == 0) return;
   m_notices.bar().show(
       QStringLiteral("state"), MessageLevel::Info,
       QStringLiteral("Saved without %1 made after 0 s.")
           .arg(strokes == 1 ? QStringLiteral("one stroke") : QStringLiteral("%1 strokes").arg(strokes)),
-      QStringLiteral("A project begins at its start. What was erased and painted while it ran is in its present state."),
+      state ? QStringLiteral("The project opens at a state from before they erased or painted.")
+            : QStringLiteral("A project begins at its start. What was erased or painted while it ran is in its present "
+                             "state alone."),
       {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
 }
 
