@@ -53,7 +53,8 @@ Arguments::Arguments(std::span<const std::string> arguments, std::span<const Opt
     } else if (equals != std::string::npos) {
       throw InputError(name + " takes no value");
     }
-    if (has(name) && name != "--set" && name != "--only" && name != "--vary") throw InputError(name + " is given twice");
+    if (has(name) && name != "--set" && name != "--only" && name != "--vary")
+      throw InputError(name + " is given twice");
     m_values[name].push_back(value);
   }
 }

@@ -114,7 +114,7 @@ struct Reset {
   std::vector<NameMatter> named{};
 };
 /// To a state that a project of these bodies holds, with all other edits kept. Keys name nothing then, except `named`:
-/// what Engine::names() said when the state was kept. What was out of the scene then, and hands, are nothing of a state.
+/// what Engine::names() said when the state was kept. What was out of the scene then, and hands, are in no state.
 struct ReturnToState {
   std::shared_ptr<const ProjectState> state;
   std::shared_ptr<const NamedMatter> named{};

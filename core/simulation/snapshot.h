@@ -61,10 +61,10 @@ struct Snapshot {
   bool knowsStart = true;  ///< where particles stood at the start; noted only if a probe asks for it when they are made
   std::vector<Limit> limits;
   std::vector<uint64_t> erasedOrPainted;  ///< keys of commands that did so after the start, and were not undone
-  Period period;                      ///< positions lie within its box: one that jumps by it has crossed a face
-  std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
-  std::vector<float> temperature;     ///< K
-  std::vector<float> speed;           ///< m/s
+  Period period;                          ///< positions lie within its box: one that jumps by it has crossed a face
+  std::vector<api::Float4> position;      ///< m; w: radius of a sphere of the rest volume, m
+  std::vector<float> temperature;         ///< K
+  std::vector<float> speed;               ///< m/s
   std::vector<float> densityError;
   std::vector<float> gasFraction;
   std::vector<api::Phase> phase;

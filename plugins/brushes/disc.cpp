@@ -4,10 +4,11 @@
 #include "sheet.h"
 
 DiscBrush::DiscBrush()
-    : Described({"Disc",
-                 "Draws with a round sheet, one particle thick, that lies on what is drawn on: the bottom of a cup at a "
-                 "touch. It knows the lattice only, not what stands in the way; occupied cells are left as they are.",
-                 {}}) {}
+    : Described(
+          {"Disc",
+           "Draws with a round sheet, one particle thick, that lies on what is drawn on: the bottom of a cup at a "
+           "touch. It knows the lattice only, not what stands in the way; occupied cells are left as they are.",
+           {}}) {}
 
 void DiscBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
@@ -18,6 +19,5 @@ void DiscBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind 
 }
 
 ps::api::Double3 DiscBrush::extent(const ps::api::StrokeContext& context) const noexcept {
-  return ps::brushes::extentOf(ps::brushes::frameOf(context, 0),
-                               {context.spacing / 2, context.radius, context.radius});
+  return ps::brushes::extentOf(ps::brushes::frameOf(context, 0), {context.spacing / 2, context.radius, context.radius});
 }

@@ -26,11 +26,12 @@ Double3 across(const Frame& frame, const Double3& direction) {
 }  // namespace
 
 RibbonBrush::RibbonBrush()
-    : Described({"Ribbon",
-                 "Draws a band that lies on what is drawn on, one particle thick; half its width is the brush's radius. "
-                 "It begins as soon as the hand moves. It knows the lattice only, not what stands in the way; occupied "
-                 "cells are left as they are.",
-                 ps::api::listOf(kParameters)}) {}
+    : Described(
+          {"Ribbon",
+           "Draws a band that lies on what is drawn on, one particle thick; half its width is the brush's radius. "
+           "It begins as soon as the hand moves. It knows the lattice only, not what stands in the way; occupied "
+           "cells are left as they are.",
+           ps::api::listOf(kParameters)}) {}
 
 void RibbonBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                          const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {

@@ -2,8 +2,8 @@
 // A steady frame allocates nothing: what stages need from frame to frame they keep. Counted is every call of malloc and
 // its kin (operator new among them) on the thread that steps. One thread runs every loop: which chunks one of several
 // gets, and so how much memory it has had for them before, is left to chance. What a plugin's call takes is the
-// plugin's, which has no memory of its own from call to call: it is told apart by the stack, and not judged. Steady is a
-// frame in which no list outgrows what it has been: so frames are counted after a warm-up.
+// plugin's, which has no memory of its own from call to call: it is told apart by the stack, and not judged. Steady is
+// a frame in which no list outgrows what it has been: so frames are counted after a warm-up.
 #include "softscene.h"
 
 #include <QTest>

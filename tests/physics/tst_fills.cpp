@@ -13,8 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <nlohmann/json.hpp>
+#include <string>
 
 using nlohmann::json;
 

@@ -272,7 +272,9 @@ class TestFixedShapes : public QObject {
 
  private:
   ps::Project load(const json& scene) { return ps::parseProject(scene.dump(), "scene", m_plugins).project; }
-  static bool isRound(const QString& vessel) { return vessel.endsWith("bowl") || vessel == "sheet" || vessel == "ball"; }
+  static bool isRound(const QString& vessel) {
+    return vessel.endsWith("bowl") || vessel == "sheet" || vessel == "ball";
+  }
   /// A vessel whose inner side has kRadius, standing on y = 0; a bowl's middle is at the origin.
   ps::Project filled(const QString& vessel) {
     const bool round = isRound(vessel);

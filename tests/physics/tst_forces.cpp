@@ -181,7 +181,8 @@ void TestForces::pressureGrowsWithDepth() {
   push(scene, "bodies", block("liquid", {0, 0.2, 0}, {width, 0.4, width}));
   const double places[] = {0.05, 0.15, 0.25, 0.35};
   for (const double y : places) {
-    json layer = {{"id", std::string("y").append(std::to_string(y))}, {"name", std::to_string(y)}, {"quantity", "pressure"}};
+    json layer = {
+        {"id", std::string("y").append(std::to_string(y))}, {"name", std::to_string(y)}, {"quantity", "pressure"}};
     layer["region"] = {{"minimum", {-1, y - 0.03, -1}}, {"maximum", {1, y + 0.03, 1}}};
     layer["region_when"] = "now";
     push(scene, "probes", layer);

@@ -217,8 +217,7 @@ class TestTools : public QObject {
     const SnapshotPtr now = m_engine->snapshot();
     Pointer pointer = at({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
-    pointer =
-        at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
+    pointer = at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QVERIFY2(refused.isEmpty(), qPrintable(refused.value(0).value(1).toString()));
@@ -320,9 +319,9 @@ class TestTools : public QObject {
     setGuide("steady", 0.1);
     draw({{0, 0, 0}, {0.05, 0, 0.05}, {0.3, 0, 0}});
     const auto& samples = sketch().strokes[0].samples;
-    QCOMPARE(samples[1][0], samples[0][0]);                     // the line was slack
-    QVERIFY(std::abs(samples.back()[0] - 0.2) < 1e-9);          // 0.1 m behind
-    QVERIFY(std::abs(samples.back()[2]) < 1e-9);                // and nothing of the tremor
+    QCOMPARE(samples[1][0], samples[0][0]);             // the line was slack
+    QVERIFY(std::abs(samples.back()[0] - 0.2) < 1e-9);  // 0.1 m behind
+    QVERIFY(std::abs(samples.back()[2]) < 1e-9);        // and nothing of the tremor
   }
 
   void aMirrorDrawsBothSidesAndIsKept() {

@@ -58,7 +58,8 @@ void ConstraintSystem::forBatches(Set& set, uint32_t substep, uint32_t iteration
     if (count <= chunk)
       run(begin, begin + count);
     else
-      forChunks(count, chunk, [&](size_t first, size_t last) { run(begin + first, begin + last); }, set.cost);
+      forChunks(
+          count, chunk, [&](size_t first, size_t last) { run(begin + first, begin + last); }, set.cost);
   }
 }
 

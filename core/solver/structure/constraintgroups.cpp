@@ -85,7 +85,8 @@ void ConstraintSystem::forGroups(Set& set, const ParticleStore& store, uint32_t 
       if (count <= grain)
         run(begin, begin + count);
       else
-        forChunks(count, grain, [&](size_t first, size_t last) { run(begin + first, begin + last); }, set.cost);
+        forChunks(
+            count, grain, [&](size_t first, size_t last) { run(begin + first, begin + last); }, set.cost);
     }
   });
 }

@@ -164,7 +164,7 @@ class ConstraintSystem {
     std::vector<std::vector<double>> bodyParameters;    ///< by body; empty: the set's
     std::vector<api::Span<const double>> parametersOf;  ///< both, as plugins see them
     std::vector<uint8_t> used;                          ///< 1 for bodies that use the plugin
-    LoopCost cost;  ///< of a constraint
+    LoopCost cost;                                      ///< of a constraint
     bool disabled = false;
     size_t arity = 0, valueCount = 0, count = 0;
     std::vector<uint32_t> particles;         ///< arity per constraint, in order of colour

@@ -27,7 +27,7 @@ inline constexpr const char* kThreads = "threads";
 class Threads {
  public:
   /// Calls body(data, first, last) for consecutive chunks of `grain` of `count` elements, from any thread, and returns
-  /// when all are done: on as many threads as work of about `microseconds` for one of them is worth. Chunks are the
+  /// when all are done, on as many threads as it is worth: of `microseconds` on one, until it was seen. Chunks are the
   /// same for any number of threads, and so is what is summed chunk by chunk and then in their order. Throws what a
   /// body has thrown.
   virtual void share(size_t count, size_t grain, double microseconds,
