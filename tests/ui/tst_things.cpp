@@ -37,6 +37,23 @@ class TestThings : public SampleWindowTest {
   }
   void cleanupTestCase() { m_window.reset(); }
 
+  void whatComesBackIsSelected() {
+    const std::vector<std::string> ids = threeBalls();
+    const std::vector<SelectedItem> two{{OutlineKind::Body, ids[0]}, {OutlineKind::Body, ids[2]}};
+    m_window->selection().selectAll(two);
+    trigger("edit.delete");
+    QVERIFY(m_window->selection().empty());
+    document().undoStack().undo();
+    std::vector<SelectedItem> back = m_window->selection().items();
+    std::sort(back.begin(), back.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    QVERIFY(back == two);
+    QCOMPARE(tree()->selectionModel()->selectedRows().size(), qsizetype{2});
+    document().undoStack().redo();
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    document().undoStack().undo();  // somebody is at something else by now
+    QVERIFY(m_window->selection().items() == std::vector<SelectedItem>({{OutlineKind::Wall, "floor"}}));
+  }
+
   /// "—" where they disagree; what is typed sets all, "*2" scales each; one step.
   void rowsOfManyEditAll() {
     const std::vector<std::string> ids = threeBalls();

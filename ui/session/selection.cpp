@@ -8,6 +8,15 @@
 #include <iterator>
 
 namespace ps {
+namespace {
+
+template <class Wanted>
+void move(std::vector<SelectedItem>& from, std::vector<SelectedItem>& to, const Wanted& wanted) {
+  std::copy_if(from.begin(), from.end(), std::back_inserter(to), wanted);
+  std::erase_if(from, wanted);
+}
+
+}  // namespace
 
 Selection::Selection(Document& document, QObject* parent) : QObject(parent), m_document(document) {
   connect(&document, &Document::changed, this, &Selection::onChanged);
@@ -47,6 +56,7 @@ void Selection::selectAll(std::vector<SelectedItem> items) {
   }
   if (items != m_items) m_marked.reset();
   m_items = std::move(items);
+  m_gone.clear();
   if (const Body* body = m_document.body(this->body())) setMaterial(body->material);
   Q_EMIT changed();
 }
@@ -117,10 +127,12 @@ bool Selection::isThere(const SelectedItem& item) const {
 
 void Selection::onChanged(const ChangeEvent& event) {
   const bool opened = std::holds_alternative<ProjectOpened>(event);
-  std::vector<SelectedItem> left;
-  std::copy_if(m_items.begin(), m_items.end(), std::back_inserter(left),
-               [&](const SelectedItem& item) { return !opened && isThere(item); });
-  if (opened || left.size() < m_items.size()) selectAll(std::move(left));
+  std::vector<SelectedItem> left = m_items, gone = m_gone;
+  if (opened) left.clear(), gone.clear();
+  move(left, gone, [this](const SelectedItem& item) { return !isThere(item); });
+  move(gone, left, [this](const SelectedItem& item) { return isThere(item); });
+  if (opened || left != m_items) selectAll(std::move(left));
+  m_gone = std::move(gone);
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
   const std::vector<SceneMaterial>& materials = m_document.project().materials;
   if (opened || !hasMaterial(m_material)) setMaterial(materials.empty() ? std::string() : materials.front().id);

@@ -27,7 +27,7 @@ struct SelectedItem {
 };
 
 /// What is selected and which material is the current one, of one editor. Tools and panels set it, all of them follow.
-/// What leaves the document leaves the selection.
+/// What leaves the document leaves the selection, and comes back with it as long as nothing else has been selected.
 class Selection : public QObject {
   Q_OBJECT
  public:
@@ -75,7 +75,7 @@ class Selection : public QObject {
   bool isThere(const SelectedItem& item) const;
   bool hasMaterial(const std::string& id) const;
   Document& m_document;
-  std::vector<SelectedItem> m_items;
+  std::vector<SelectedItem> m_items, m_gone;
   std::string m_material;
   std::optional<std::pair<uint64_t, uint32_t>> m_marked;
 };
