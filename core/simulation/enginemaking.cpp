@@ -59,8 +59,8 @@ void EngineThread::Impl::remake(const Reset& start) {
     noScene(failureAtHand(EngineEvent::Kind::NotOpened));
     return;
   }
-  for (const NameMatter& named : start.named) engine->apply(named);
   recordRun();
+  for (const NameMatter& named : start.named) change(named);
   publishEdits();
 }
 

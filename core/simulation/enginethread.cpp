@@ -238,7 +238,8 @@ std::optional<EngineEvent> EngineThread::Impl::edit(Action action, bool mends) {
   return std::nullopt;
 }
 
-/// A scene that is made again stands beside the one before until it is whole, where the memory holds both.
+/// A scene that is made again stands beside the one before until it is whole, where the memory holds both. What strokes
+/// have made of it is named by edits of the new run: from a file nothing else says what its first state knows of them.
 void EngineThread::Impl::change(const Command& command) {
   const auto* start = std::get_if<Reset>(&command);
   if (engine && start && needOf(engine->document(), &plugins).bytes > roomToGrow(memoryNow())) {
@@ -250,15 +251,15 @@ void EngineThread::Impl::change(const Command& command) {
   const auto refusal = edit(
       [&] {
         if (makes)
-          make([&] { engine->apply(command); });
+          make([&] { engine->apply(start ? Command(Reset{}) : command); });
         else
           engine->apply(command);
       },
       mends);
-  if (refusal)
-    fail(*refusal);
-  else
-    recordEdit(command);
+  if (refusal) return fail(*refusal);
+  recordEdit(command);
+  if (!start) return;
+  for (const NameMatter& named : start->named) change(named);
 }
 
 /// Those that are refused together may be good alone; each that is not is reported.

@@ -6,10 +6,12 @@
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/enginethread.h"
 #include "core/simulation/projectstate.h"
 #include "core/simulation/runrecord.h"
 #include "core/solver/solver.h"
 #include "tests/physics/onehash.h"
+#include "tests/shared/enginehands.h"
 #include "tests/shared/recordedrun.h"
 #include "tests/shared/scenes.h"
 
@@ -111,6 +113,7 @@ class TestPaint : public QObject {
   void whatStaysAsItIs();
   void aReturnToAStateKnowsWhatWasPainted();
   void aResetKnowsWhatWasPainted();
+  void aRunIsMadeAgainFromBeforeAnUndo();
   void manyEditsLeaveNothingBehind();
   void theSameBitsEverywhere_data() { onehash::addRows(); }
   void theSameBitsEverywhere();
@@ -325,6 +328,35 @@ void TestPaint::aResetKnowsWhatWasPainted() {
   run(engine, 5);
   engine.apply(UndoTouch{kKey});
   QCOMPARE(count(engine, 1), size_t{8});
+}
+
+/// Its file knows by edits what the first state of a run knows by name: all frames can be gone on from.
+void TestPaint::aRunIsMadeAgainFromBeforeAnUndo() {
+  const Project project = iceAndWater();
+  EngineThread thread(m_plugins, [] {});
+  thread.open(project, false);
+  thread.apply(Reset{{NameMatter{kKey, "ice", lattice(kIce), cube(2), "iron"}}});
+  std::map<uint64_t, uint64_t> hashes;
+  for (uint64_t frame = 0; frame < 6; ++frame) {
+    if (frame == 4) thread.apply(UndoTouch{kKey});
+    hashes[frame] = tests::onEngine<uint64_t>(thread, [](Engine& engine) { return engine.stateHash(); });
+    thread.stepOnce();
+    QTRY_COMPARE(thread.snapshot()->stats.frame, frame + 1);
+  }
+  thread.recording().settle();
+  RunRecord again(size_t{1} << 30);
+  recordedrun::throughFile(thread.recording(), project, m_plugins, again);
+  if (QTest::currentTestFailed()) return;
+  for (const uint64_t frame : {0, 2, 3, 5}) {
+    const auto point = again.restorePoint(frame);
+    QVERIFY2(point, qPrintable(QString::number(frame)));
+    const auto engine = replayed(*point, m_plugins);
+    QCOMPARE(engine->stateHash(), hashes.at(frame));
+    QCOMPARE(count(*engine, 1), frame < 4 ? size_t{0} : size_t{8});
+  }
+  const auto engine = replayed(thread.recording().restorePoint(2).value(), m_plugins);
+  engine->apply(UndoTouch{kKey});
+  QCOMPARE(count(*engine, 1), size_t{8});
 }
 
 /// Painting, erasing, drawing, heating, undo and redo of all of them in any order while matter flows: nobody is lost,
