@@ -5,18 +5,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 
 namespace ps {
 namespace {
 int g_threads = 0;
-/// For which another thread is asked to help: somewhat more than that takes. ThreadSanitizer is to see small loops
-/// shared too.
+/// By which each thread that helps makes a loop longer, to come and to be waited for: work / n + this * n is least
+/// where n is the root of their ratio. ThreadSanitizer is to see small loops shared too.
 #if defined(__SANITIZE_THREAD__)
-constexpr double kMicrosecondsPerThread = 0.01;
+constexpr double kMicrosecondsPerThread = 0.001;
 #else
-constexpr double kMicrosecondsPerThread = 7;
+constexpr double kMicrosecondsPerThread = 0.5;
 #endif
 
 std::unique_ptr<Workers>& workers() {
@@ -74,8 +75,8 @@ int threadCount() {
 }
 
 int threadsWorth(double microseconds) {
-  const double worth = std::clamp(microseconds / kMicrosecondsPerThread, 1.0, static_cast<double>(threadCount()));
-  return static_cast<int>(worth);
+  const double worth = std::sqrt(std::max(0.0, microseconds) / kMicrosecondsPerThread);
+  return static_cast<int>(std::clamp(worth, 1.0, static_cast<double>(threadCount())));
 }
 
 double LoopCost::microseconds(size_t count, size_t grain) const {
