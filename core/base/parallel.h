@@ -64,8 +64,8 @@ inline constexpr size_t kParticles = 512;     ///< has to do with the particle a
 inline constexpr size_t kConstraints = 1024;  ///< a constraint, by a plugin's batch
 inline constexpr size_t kNumbers = 2048;      ///< a few operations on what lies side by side
 
-/// Microseconds that one thread takes for an element, by the size of its chunk: rounded from the stages' times per
-/// particle on a server of 2024. Chunks of other sizes count as 10 microseconds each.
+/// Microseconds that one thread takes for an element of a loop that has not run yet, by the size of its chunks: rounded
+/// from the stages' times per particle on a server of 2024. Chunks of other sizes count as 10 microseconds each.
 constexpr double microseconds(size_t grain) {
   switch (grain) {
     case kRays:

@@ -26,13 +26,14 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Calls body(chunk) once for each chunk below `chunks`, on this thread and on up to `helpers` others. Throws the
-  /// first of what the bodies threw, once all that had begun have ended; those that had not are then left out. Says
-  /// what this thread has done of it, and until when.
+  /// What one thread has done of a loop, and until when.
   struct Own {
     size_t chunks = 0;
     std::chrono::steady_clock::time_point end;
   };
+  /// Calls body(chunk) once for each chunk below `chunks`, on this thread and on up to `helpers` others; says what this
+  /// one has done. Throws the first of what the bodies threw, once all that had begun have ended; those that had not
+  /// are then left out.
   Own share(int helpers, size_t chunks, const std::function<void(size_t chunk)>& body);
 
  private:

@@ -21,7 +21,8 @@ namespace {
 constexpr int kMostLines = 100;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What is known of a plugin's loop, by its function; of those that find no place, by the first of them.
+/// What is known of a plugin's loop, by its function; loops that find no place share one. `microseconds`: for an
+/// element, as the plugin has it.
 LoopCost& costOf(const void* loop, double microseconds) {
   struct Known {
     std::atomic<const void*> loop = nullptr;
@@ -31,10 +32,9 @@ LoopCost& costOf(const void* loop, double microseconds) {
   for (size_t k = std::hash<const void*>()(loop) / 16 % all.size(), n = 0; n < all.size();
        ++n, k = (k + 1) % all.size()) {
     const void* there = all[k].loop.load(std::memory_order_acquire);
-    if (there == loop) return all[k].cost;
     if (!there && all[k].loop.compare_exchange_strong(there, loop)) {
       all[k].cost = LoopCost(microseconds);
-      return all[k].cost;
+      there = loop;
     }
     if (there == loop) return all[k].cost;
   }

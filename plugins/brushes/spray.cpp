@@ -18,8 +18,7 @@ constexpr ps::api::ParameterDeclaration kParameters[] = {
     {"flow", "Flow", "", "", ps::api::ParameterKind::Number, ps::api::Scale::Logarithmic, kFlow, 0.002, 0.5, 0.001, 1,
      "%", 100, 0, "", "Brush",
      "Share of the cells in reach that a hand which passes by fills for each particle spacing of its way; a light "
-     "touch "
-     "of the pen fills fewer.",
+     "touch of the pen fills fewer.",
      "1 % a few drops, 20 % nearly full at once", ""},
     {"falloff", "Falloff", "", "", ps::api::ParameterKind::Number, ps::api::Scale::Linear, kFalloff, 0, 1, 0, 1, "%",
      100, 0, "", "Brush", "How much less falls at the rim than in the middle.",

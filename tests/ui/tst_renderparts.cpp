@@ -516,6 +516,7 @@ void TestRenderParts::aSectionCutsWalls() {
   const render::Furniture above = render::buildFurniture(environment, true, Section{{Vector3(0, 1, 0), 0.1}});
   QVERIFY(above.opaque.empty());
   QVERIFY(whole.hasFloor && !above.hasFloor);  // nor does it cast a shadow
+  QVERIFY(above.ground == whole.ground && above.size == whole.size);
 }
 
 void TestRenderParts::glow_data() {

@@ -102,7 +102,7 @@ void addPane(Furniture& out, const Face& shown, double top, bool open) {
   }
 }
 
-void placeFloor(Furniture& out, const Environment& environment, const std::optional<Section>& section = {}) {
+void placeFloor(Furniture& out, const Environment& environment) {
   out.floor = static_cast<float>(environment.boundsMinimum[1]);
   Vector3 low = environment.boundsMinimum, high = environment.boundsMaximum;
   double largest = 0;
@@ -117,7 +117,7 @@ void placeFloor(Furniture& out, const Environment& environment, const std::optio
     largest = area;
     low = first;
     high = last;
-    out.hasFloor = !leftOf(environment, i, section).corners.empty();
+    out.hasFloor = true;
     out.floor = static_cast<float>((first[1] + last[1]) / 2);
     out.floorHeat = static_cast<float>(glowOf(environment.walls[i]));
   }
@@ -318,12 +318,13 @@ bool sameFurniture(const Environment& a, const Environment& b) {
 
 Furniture buildFurniture(const Environment& environment, bool dark, const std::optional<Section>& section) {
   Furniture out;
-  placeFloor(out, environment, section);
+  placeFloor(out, environment);
   const double size = out.size, thickness = 0.065 * size, margin = 0.07 * size;
   out.ground = out.floor - static_cast<float>(out.hasFloor ? thickness + 0.035 * size : 0.02 * size);
   const Top top = topOf(environment, out);
   out.hasLid = top.lid;
   out.lidHeight = static_cast<float>(top.height);
+  out.hasFloor = false;  // until it is seen that a section leaves one
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     constexpr double kRound = 0.3, kGlass = 0.06;
@@ -334,6 +335,7 @@ Furniture buildFurniture(const Environment& environment, bool dark, const std::o
     const Vector3 normal = environment.walls[i].normal.normalized();
     switch (roleOf(environment.walls[i])) {
       case Role::Floor: {
+        out.hasFloor = true;
         addSlab(out.opaque, face.corners, normal, {margin, 0.05 * size, 0.012 * size, thickness},
                 with(sceneColour(dark, "metal"), Kind::PlateTop), with(sceneColour(dark, "rim"), Kind::PlateSide));
         std::vector<Vector3> foot = offsetOutline(face.corners, normal, -0.05 * size);

@@ -11,7 +11,7 @@ namespace ps {
 namespace {
 
 template <class Wanted>
-void move(std::vector<SelectedItem>& from, std::vector<SelectedItem>& to, const Wanted& wanted) {
+void transfer(std::vector<SelectedItem>& from, std::vector<SelectedItem>& to, const Wanted& wanted) {
   std::copy_if(from.begin(), from.end(), std::back_inserter(to), wanted);
   std::erase_if(from, wanted);
 }
@@ -129,8 +129,8 @@ void Selection::onChanged(const ChangeEvent& event) {
   const bool opened = std::holds_alternative<ProjectOpened>(event);
   std::vector<SelectedItem> left = m_items, gone = m_gone;
   if (opened) left.clear(), gone.clear();
-  move(left, gone, [this](const SelectedItem& item) { return !isThere(item); });
-  move(gone, left, [this](const SelectedItem& item) { return isThere(item); });
+  transfer(left, gone, [this](const SelectedItem& item) { return !isThere(item); });
+  transfer(gone, left, [this](const SelectedItem& item) { return isThere(item); });
   if (opened || left != m_items) selectAll(std::move(left));
   m_gone = std::move(gone);
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;

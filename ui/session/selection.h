@@ -75,7 +75,7 @@ class Selection : public QObject {
   bool isThere(const SelectedItem& item) const;
   bool hasMaterial(const std::string& id) const;
   Document& m_document;
-  std::vector<SelectedItem> m_items, m_gone;
+  std::vector<SelectedItem> m_items, m_gone;  ///< selected, and what was until it left the document
   std::string m_material;
   std::optional<std::pair<uint64_t, uint32_t>> m_marked;
 };

@@ -46,7 +46,6 @@ class PieceSpin {
     Vector3 centre, spin;  ///< m, rad/s
     bool grouped = false;
   };
-  /// Microseconds of one thread.
   Sums sumOf(const ParticleStore& store, const Run& run, std::span<const api::Float4> couple, double dt) const;
 
   static constexpr uint32_t kNone = ~0u;
