@@ -66,9 +66,10 @@ constexpr api::ParameterDeclaration kParameters[] = {
              "Length of a bond at rest as a share of the distance at which it is made at the start: below 1 the body "
              "is drawn tight, above 1 it is squeezed.",
              "1 at rest, 0.99 a taut string", ""}),
-    atReset({"reference_temperature", "Temperature of the lengths at rest", "T_ref", "K", api::ParameterKind::Number,
+    atReset({"reference_temperature", "Temperature at rest", "T_ref", "K", api::ParameterKind::Number,
              api::Scale::Linear, 0, 0, 773.15, 0, 1e4, "", 1, 0, "", "Springs",
-             "At which temperature the bonds made at the start have their lengths: a body that starts warmer expands "
+             "At which temperature the bonds made at the start have their lengths at rest: a body that starts warmer "
+             "expands "
              "at once. 0 takes the temperature at which each of them is made.",
              "0 for matter at ease; 293.15 K for a strip of metal cast at 20 °C", ""}),
     {"solver", "Method", "", "", api::ParameterKind::Choice, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "xpbd|pbd",

@@ -503,15 +503,17 @@ class TestSession : public QObject {
     QTreeView* outliner = m_window->outliner()->view();
     outliner->setFocus();
     outliner->setCurrentIndex(outliner->model()->index(0, 0));
-    QTest::keyClick(outliner, Qt::Key_End);
+    QTest::keyClick(outliner, Qt::Key_End, Qt::ControlModifier);
     const QModelIndex last = outliner->currentIndex();
     QVERIFY(last != outliner->model()->index(0, 0));
-    QTest::keyClick(outliner, Qt::Key_Home);
+    QTest::keyClick(outliner, Qt::Key_Home, Qt::ControlModifier);
     QVERIFY(outliner->currentIndex() != last);
     QTest::keyClick(outliner, Qt::Key_Right);
     settle();
     QCOMPARE(session().snapshot()->stats.frame, frame);
     QCOMPARE(session().snapshot()->revision, revision);
+    QTest::keyClick(outliner, Qt::Key_Home);  // of the run
+    QTRY_VERIFY(session().snapshot()->revision != revision);
   }
 
   void picturesByCommand_data() {

@@ -38,6 +38,7 @@ namespace {
 
 constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
 constexpr int kPicture = 72;              // px
+constexpr int kWidestColumn = 170;        // px, of a name
 constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
 
 /// Cards that can be dragged onto bodies, of the view too, which takes the page's place meanwhile.
@@ -180,6 +181,7 @@ QWidget* LibraryPage::makeRight() {
   column->setSpacing(8);
   auto* head = new QHBoxLayout;
   m_title->setFont(Theme::font(TextRole::Heading));
+  m_title->setWordWrap(true);  // mixtures have long names
   auto* import = new QPushButton(QStringLiteral("Import…"));
   auto* back = new QPushButton(QStringLiteral("Back to the scene"));
   head->addWidget(m_title, 1);
@@ -357,16 +359,21 @@ void LibraryPage::showChosen() {
   }
   m_table->header()->setStretchLastSection(false);
   m_table->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  for (int k = 1; k < m_table->columnCount(); ++k)
-    m_table->header()->setSectionResizeMode(k, QHeaderView::ResizeToContents);
+  for (int k = 1; k < m_table->columnCount(); ++k) {
+    m_table->header()->setSectionResizeMode(k, QHeaderView::Interactive);
+    m_table->resizeColumnToContents(k);
+    m_table->setColumnWidth(k, std::min(m_table->columnWidth(k), kWidestColumn));
+  }
 }
 
 /// The scene's material that would become a preset.
 void LibraryPage::showScene() {
   const std::string id = m_selection.material();
+  const QString label = ownerLabel(m_session.document().project(), {Owner::Material, id, {}});
+  const QString shown = m_of->fontMetrics().elidedText(label, Qt::ElideRight, kWidestColumn);
   m_of->setText(id.empty() ? QStringLiteral("The scene has no material")
-                           : QStringLiteral("“%1” of the scene as")
-                                 .arg(ownerLabel(m_session.document().project(), {Owner::Material, id, {}})));
+                           : QStringLiteral("“%1” of the scene as").arg(shown));
+  m_of->setToolTip(label);
   m_save->setEnabled(!id.empty());
   m_name->setEnabled(!id.empty());
   const auto& materials = m_session.document().project().materials;

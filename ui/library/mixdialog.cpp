@@ -31,8 +31,8 @@
 namespace ps {
 namespace {
 
-constexpr int kGap = 8, kEdge = 16, kLabelWidth = 110;
-constexpr QSize kSize{760, 640};
+constexpr int kGap = 8, kEdge = 16, kLabelWidth = 110, kWidestColumn = 190;
+constexpr QSize kSize{860, 700};
 constexpr const char* kLimits =
     "The rules know the parts alone, not how they act on each other: no eutectics (solder melts some 60 K lower than "
     "they say), no compounds, nothing that separates.";
@@ -174,6 +174,7 @@ void MixDialog::addResult() {
   m_grid->addWidget(m_note, m_grid->rowCount(), 0, 1, 2);
   m_grid->addWidget(m_preview, m_grid->rowCount(), 0, 1, 2);
   m_table->setRootIsDecorated(false);
+  m_table->setWordWrap(true);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties of the mixture and their rules"));
   m_table->setColumnCount(5);
@@ -268,7 +269,10 @@ void MixDialog::fillTable(const Material& first, const Material& second, const M
   }
   QHeaderView* header = m_table->header();
   header->setStretchLastSection(true);
-  for (int column = 0; column < 4; ++column) header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  for (int column = 0; column < 4; ++column) {
+    m_table->resizeColumnToContents(column);
+    m_table->setColumnWidth(column, std::min(m_table->columnWidth(column), kWidestColumn));
+  }
 }
 
 SceneMaterial MixDialog::made() const {

@@ -19,7 +19,7 @@ namespace {
 constexpr double kPressure = 101325;  // Pa
 constexpr double kAround = 40;        // K on either side of the first and the last change of phase
 constexpr float kShades = 24;         // a share that is dragged asks for few pictures
-constexpr int kBar = 13, kSwatch = 32, kLine = 36, kGap = 8, kNames = 132, kLeft = 64, kBelow = 18;
+constexpr int kBar = 13, kSwatch = 32, kLine = 36, kGap = 8, kNames = 132, kLeft = 64, kBelow = 18, kInset = 4;
 
 struct Range {
   double cold, hot;  ///< K
@@ -87,6 +87,7 @@ void MixPreview::paintBars(QPainter& painter) const {
 void MixPreview::paintCurves(QPainter& painter) const {
   const Theme& theme = Theme::current();
   const QRectF plot(kLeft, kCount * kLine + kGap, width() - kLeft - 1, height() - kCount * kLine - kGap - kBelow);
+  const QRectF drawn = plot.adjusted(kInset, kInset, -kInset, -kInset);  // lines end in sight
   double cold = 1e9, hot = 0, most = 0;
   for (const auto& curve : m_curves) {
     if (curve.empty()) continue;
@@ -97,8 +98,8 @@ void MixPreview::paintCurves(QPainter& painter) const {
   paintBox(painter, plot, theme[Token::Field], theme[Token::Line2], 0);
   if (!(hot > cold) || !(most > 0)) return;
   const auto at = [&](const HeatingCorner& corner) {
-    return QPointF(plot.left() + plot.width() * corner.enthalpy / most,
-                   plot.bottom() - plot.height() * (corner.temperature - cold) / (hot - cold));
+    return QPointF(drawn.left() + drawn.width() * corner.enthalpy / most,
+                   drawn.bottom() - drawn.height() * (corner.temperature - cold) / (hot - cold));
   };
   const QFont font = Theme::font(TextRole::Small);
   const auto label = [&](double y, double kelvin) {

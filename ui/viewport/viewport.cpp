@@ -70,6 +70,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
   connect(&m_paintTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   connect(&m_document, &Document::changed, this, &Viewport::onChanged);
   connect(&session, &Session::snapshotArrived, this, &Viewport::snapshotArrived);
+  connect(&session, &Session::playingChanged, this, qOverload<>(&QWidget::update));  // a hint names what Space does
   connect(&session.recorded(), &RecordedView::ghostChanged, this, &Viewport::ghostChanged);
   connect(&session.transitions(), &Transitions::changed, this, qOverload<>(&QWidget::update));
   connect(&selection, &Selection::changed, this, [this] {
@@ -278,7 +279,7 @@ std::vector<OverlayHint> Viewport::hints() const {
   if (m_tools.active() == first.id) {
     add(viewGestures(tool), true);
     add(tool.gestures(), true);
-    list.push_back({QStringLiteral("Space"), QStringLiteral("pause")});
+    list.push_back({QStringLiteral("Space"), m_session.playing() ? QStringLiteral("pause") : QStringLiteral("play")});
     list.push_back({QStringLiteral("F"), QStringLiteral("frame")});
     list.push_back({QString::fromLatin1(toolRow(kBrushTool)->key), QStringLiteral("sketch")});
     return list;

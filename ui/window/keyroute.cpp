@@ -30,9 +30,11 @@ bool takesKey(const QObject* widget, int key) {
       if (qobject_cast<const QTabBar*>(widget) || qobject_cast<const QMenuBar*>(widget) ||
           qobject_cast<const MaterialsPanel*>(widget) || qobject_cast<const Card*>(widget))
         return true;
-      [[fallthrough]];
+      return qobject_cast<const QAbstractItemView*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Home:
     case Qt::Key_End:
+      // The outliner is beside the run all the time: its rows' ends have Ctrl+Home and Ctrl+End.
+      if (qobject_cast<const Outliner*>(widget->parent())) return false;
       return qobject_cast<const QAbstractItemView*>(widget) || qobject_cast<const QComboBox*>(widget);
     default:
       return false;
