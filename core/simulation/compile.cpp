@@ -41,6 +41,7 @@ api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, dou
 Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body& body) {
   Spawn spawn;
   spawn.fixed = toggleOf(body.parameters, bodyParameters(), "fixed") || isPlaceholder(project, body, plugins);
+  spawn.held = isHeld(body);
   return spawn;
 }
 
@@ -90,7 +91,8 @@ double sineAt(const Wave& wave, const Vector3& p) {
   return std::sin(2 * std::numbers::pi * p[static_cast<size_t>(wave.axis)] / wave.wavelength + wave.phase);
 }
 
-/// What changes over a body at the start. What is fixed has no velocity of its own: see compileMotion().
+/// What changes over a body at the start. What is fixed has no velocity of its own, see compileMotion(), and what is
+/// held stands.
 void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api::Caloric& caloric) {
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
   const Vector3 &w = body.spin, &gradient = body.temperatureGradient;
@@ -100,7 +102,7 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
       const Vector3 p = vectorOf(place), r = p - centre;
       Vector3 v = body.velocity + w.cross(r);
       if (body.velocityWave) v += body.velocityWave->velocity * sineAt(*body.velocityWave, p);
-      spawn.velocity.push_back(spawn.fixed ? api::Double3{0, 0, 0} : double3Of(v));
+      spawn.velocity.push_back(spawn.fixed || spawn.held ? api::Double3{0, 0, 0} : double3Of(v));
       if (!warped) continue;
       const double t = spawn.temperature + gradient.dot(r);
       if (!(t >= 1)) {
@@ -287,6 +289,8 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
   return std::any_of(body.constraints.begin(), body.constraints.end(),
                      [&](const BodyConstraint& c) { return !plugins.constraint(c.plugin); });
 }
+
+bool isHeld(const Body& body) { return toggleOf(body.parameters, bodyParameters(), "held"); }
 
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
                                std::span<const BakedMaterial> materials, const Body& body) {

@@ -40,6 +40,8 @@ uint32_t materialIndex(const Project& project, const std::string& material, cons
 /// Whether everything a body needs is installed; a body that lacks something stands still as a placeholder.
 bool isPlaceholder(const Project& project, const Body& body, const PluginRegistry& plugins);
 
+/// Whether its matter stands still until it is let go.
+bool isHeld(const Body& body);
 /// The particles of a body at the start, one batch per palette entry, pinned ones before those that move; Spawn::body
 /// and the constraints are the engine's to set. `materials`: the scene's, baked.
 std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,

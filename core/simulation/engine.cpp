@@ -208,6 +208,7 @@ void Engine::Impl::recompile(const Touched& touched) {
   if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::HeatSource, Owner::Body})) setThermal();
   if (any({Owner::Body})) {
     lead();
+    holdBodies();
     setShapes();
     fill = fillLimit(project, spacing);
     solver->setHeating(compileHeating(project, *bodyIds, fixedBodies));
@@ -249,6 +250,24 @@ void Engine::Impl::lead() {
                                    [&](const Body& b) { return b.id == (*bodyIds)[index]; });
     solver->setMotion(index, body == project.bodies.end() ? BodyMotion{} : compileMotion(*body, spacing));
   }
+}
+
+void Engine::Impl::holdBodies() {
+  std::vector<Hold> hold(bodyIds->size(), Hold::AsItIs);
+  for (const Body& body : project.bodies) {
+    const auto index = static_cast<size_t>(std::find(bodyIds->begin(), bodyIds->end(), body.id) - bodyIds->begin());
+    if (index < hold.size()) hold[index] = isHeld(body) ? Hold::Held : Hold::Free;
+  }
+  solver->hold(hold);
+}
+
+std::vector<uint8_t> Engine::Impl::heldBodies() const {
+  std::vector<uint8_t> held(bodyIds->size());
+  for (const Body& body : project.bodies) {
+    const auto index = static_cast<size_t>(std::find(bodyIds->begin(), bodyIds->end(), body.id) - bodyIds->begin());
+    if (index < held.size()) held[index] = isHeld(body) && !isFixed(body.id);
+  }
+  return held;
 }
 
 std::vector<FieldPtr> Engine::Impl::shownFields() const {
@@ -400,6 +419,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->knowsStart = !m->start.empty();
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->bodyIds = m->bodyIds;
+  snapshot->heldBodies = m->heldBodies();
   snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->tables.looks();
   fillSnapshot(*snapshot, *m->solver, m->shownFields());

@@ -47,6 +47,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   next->bindTracks(reader.array<double>("clock/seconds", 2, 1)[0]);
   next->solver->restore(reader);
   next->lead();  // as the document says by now
+  next->holdBodies();
   next->bindTracks(next->solver->time());
   next->flow.restore(reader, next->solver->particles());
   next->flow.requireLayers(next->project, next->tables.tables(), next->spacing);

@@ -72,8 +72,9 @@ struct Snapshot {
   std::vector<uint32_t> id, body, material;
   std::vector<FieldValues> fields;  ///< those that were asked for beside what stands above, where particles have them
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
-  std::vector<std::string> materialIds;                     ///< SceneMaterial::id by the index in `material`
-  std::vector<std::array<float, 4>> materialLook;           ///< sRGB and clearness, 0..1, by material index
+  std::vector<uint8_t> heldBodies;       ///< 1 for those whose matter is held until it is let go, by the same index
+  std::vector<std::string> materialIds;  ///< SceneMaterial::id by the index in `material`
+  std::vector<std::array<float, 4>> materialLook;  ///< sRGB and clearness, 0..1, by material index
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 

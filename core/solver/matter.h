@@ -11,6 +11,8 @@ namespace ps {
 /// What making and tying a particle weigh against placing it or finding its neighbours, of a thread's progress.
 inline constexpr double kMakingWeight = 2, kTyingWeight = 4;
 
+enum class Hold : uint8_t { AsItIs, Free, Held };
+
 /// Particles to be born: one entry per particle.
 struct Spawn {
   std::vector<api::Double3> position;  ///< m

@@ -274,6 +274,20 @@ void Solver::release(std::span<const uint32_t> ids) {
   m->lastGoodValid = false;
 }
 
+void Solver::hold(std::span<const Hold> bodies) {
+  ParticleStore& store = m->store;
+  for (size_t i = 0; i < store.size(); ++i) {
+    const uint32_t body = store.body()[i];
+    const Hold wanted = body < bodies.size() ? bodies[body] : Hold::AsItIs;
+    api::Float4& velocity = store.velocity()[i];
+    const bool held = velocity.w == 0;
+    if (wanted == Hold::AsItIs || store.motion()[i] == api::Motion::Static || held == (wanted == Hold::Held)) continue;
+    velocity = {0, 0, 0, held ? 1 / store.mass()[i] : 0};
+    m->structureChanged = true;
+    m->lastGoodValid = false;
+  }
+}
+
 void Solver::remove(std::span<const uint32_t> ids) { extract(ids); }
 
 ExtractedMatter Solver::extract(std::span<const uint32_t> ids) {

@@ -83,6 +83,9 @@ class Solver {
   void settle(std::span<const uint32_t> ids);
   /// Lets held particles go at the velocity that they have; ids already gone are skipped.
   void release(std::span<const uint32_t> ids);
+  /// Whether the matter of bodies is held, by index, where it stands; what is let go sets off from rest. What is fixed
+  /// stays so, and bodies beyond the list, or of Hold::AsItIs, stay as they are.
+  void hold(std::span<const Hold> bodies);
   /// Removes particles by id; ids already gone are skipped. Their energy is booked as a source.
   void remove(std::span<const uint32_t> ids);
   /// As remove(), and keeps what was there for putBack().

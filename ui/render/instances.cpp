@@ -12,6 +12,7 @@ namespace ps::render {
 namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
+constexpr float kHeldLighter = 0.08f;    // towards white: what is held until it is let go
 constexpr float kSurfaceGrowth = 1.25f;  // a liquid's surface lies about this far out, in radii of its particles
 
 // Index in the previous snapshot by index in this one; empty when both have the same order.
@@ -107,7 +108,10 @@ class Evaluator {
 
   Colour colourOf(size_t i, size_t old) const {
     const Snapshot& s = *m_request.now;
-    if (!m_field) return materialColour(s, i);
+    if (!m_field) {
+      const bool held = s.body[i] < s.heldBodies.size() && s.heldBodies[s.body[i]] != 0;
+      return held ? towardsWhite(materialColour(s, i), kHeldLighter) : materialColour(s, i);
+    }
     const float value = m_field[i];
     if (old == kNone || !m_before || !*m_before) return m_table.at(value);
     const float before = (*m_before)[old];

@@ -32,6 +32,11 @@ constexpr api::ParameterDeclaration kBrush[] = {
             "Temperature of what is drawn; below its melting point it is drawn as a solid that holds together.",
             "ice from a freezer −18 °C, room 20 °C, hot oil 180 °C", ""},
            kCelsius),
+    toggle({"held", "Held until let go", "", ""}, false,
+           {"New matter",
+            "Bodies that are begun stand still as they are drawn, in the air too, until Sketch > Make it real (Enter) "
+            "lets all of them go at once. Matter that is there goes on living.",
+            "a cup and what it is to hold, before either falls", ""}),
     choice({"draw_on", "Draw on", "", ""}, "surface|level|across_x|across_z|view", 0,
            {kGuides, "What strokes lie on: what is under the pointer, or a plane in the air, which a grid shows.",
             "a level plane for the rim of a bowl", ""}),
@@ -60,6 +65,7 @@ ParameterSet valuesOf(const BrushSettings& brush) {
   ParameterSet set;
   set.values = {{"radius", brush.radius},
                 {"temperature", brush.temperature},
+                {"held", brush.held},
                 {"draw_on", std::string(kDrawOnNames.at(static_cast<size_t>(brush.drawOn)))},
                 {"plane_at", brush.planeAt},
                 {"steady", brush.steady},
@@ -75,6 +81,8 @@ void setValueOf(BrushSettings& brush, const std::string& key, const Value& value
   if (key == "draw_on") {
     const auto found = std::find(kDrawOnNames.begin(), kDrawOnNames.end(), std::get<std::string>(value));
     if (found != kDrawOnNames.end()) brush.drawOn = static_cast<DrawOn>(found - kDrawOnNames.begin());
+  } else if (key == "held") {
+    brush.held = std::get<bool>(value);
   } else if (key == "mirror") {
     brush.symmetry.mirror = std::get<std::string>(value);
   } else if (key == "turns") {

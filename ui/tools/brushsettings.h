@@ -26,6 +26,7 @@ struct BrushSettings {
   double radius = 0.05;         ///< m
   std::string material;         ///< SceneMaterial::id; "" takes the scene's first
   double temperature = 293.15;  ///< K
+  bool held = false;            ///< what is drawn stands still until it is let go
   DrawOn drawOn = DrawOn::Surface;
   double planeAt = 0;  ///< m, height of the level plane, or place of an upright one along its normal
   double steady = 0;   ///< m, by which the brush trails behind the pointer, so that the hand's tremor does not show

@@ -28,12 +28,14 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
   return project.materials.empty() ? nullptr : &project.materials.front();
 }
 
-/// A body that takes more of the same matter: sketched, free, of one material at one temperature.
-bool takesMore(const Body& body, const std::string& material, double temperature, const SketchGrid& grid) {
+/// A body that takes more of the same matter: sketched, free, of one material at one temperature, held or not as the
+/// brush draws.
+bool takesMore(const Body& body, const std::string& material, const BrushSettings& brush, const SketchGrid& grid) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
   return voxels && !body.locked && body.visible && voxels->palette.size() == 1 && voxels->origin == grid.origin &&
          voxels->spacing == grid.spacing && voxels->palette[0].material == material &&
-         voxels->palette[0].temperature == temperature;
+         voxels->palette[0].temperature == brush.temperature &&
+         toggleOf(body.parameters, bodyParameters(), "held") == brush.held;
 }
 
 }  // namespace
@@ -59,7 +61,7 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
   for (size_t b = 0; b < takers.size(); ++b) {
     const auto found =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
-    if (found != bodies.end() && takesMore(*found, material, m_brush.temperature, m_setup.grid)) takers[b] = &*found;
+    if (found != bodies.end() && takesMore(*found, material, m_brush, m_setup.grid)) takers[b] = &*found;
   }
   std::map<const Body*, CellSet> cellsOf;  // of those that have some near
   const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
@@ -91,6 +93,7 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& pal
   body.name = freeName(body.name, names);
   body.material = material->id;
   body.parameters.values["temperature"] = brush.temperature;
+  if (brush.held) body.parameters.values["held"] = true;
   VoxelShape voxels;
   voxels.origin = m_setup.grid.origin;
   voxels.spacing = m_setup.grid.spacing;

@@ -21,6 +21,10 @@ bool takesKey(const QObject* widget, int key) {
       // Deletes where what is selected can be seen to be: in the outliner and in the view.
       return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget) &&
              !qobject_cast<const Outliner*>(widget->parent());
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      // "Make it real" is for the view; everywhere else Enter takes what is typed or chosen.
+      return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget);
     case Qt::Key_Space:
       return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Left:

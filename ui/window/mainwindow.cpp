@@ -30,6 +30,7 @@
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/loosematter.h"
+#include "ui/window/makerealbutton.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/pagechooser.h"
@@ -223,6 +224,7 @@ void MainWindow::makeMenus() {
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
+  if (viewport()) new MakeRealButton(*m_sketch->makeReal(), *viewport());
   QMenu* walls = sketch->addMenu(QStringLiteral("Add wall"));
   m_edit->makeWallMenu(walls);
   m_bodies->addToWallMenu(walls);

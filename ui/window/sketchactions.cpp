@@ -3,6 +3,7 @@
 
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
+#include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -12,6 +13,7 @@
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 
@@ -33,8 +35,48 @@ void SketchActions::makeMenu(QMenu* menu) {
                   brush.symmetry.mirror = brush.symmetry.mirror == "none" ? "x" : "none";
                   m_tools.setBrush(brush);
                 });
+  addHolding(menu);
   m_shapes = menu->addMenu(QStringLiteral("Brush shape"));
   m_shapes->setEnabled(false);
+}
+
+void SketchActions::addHolding(QMenu* menu) {
+  menu->addSeparator();
+  m_hold = m_actions.add(menu, QStringLiteral("sketch.hold"), QStringLiteral("Hold what is drawn"),
+                         {QKeySequence(QStringLiteral("L"))}, [this] {
+                           BrushSettings brush = m_tools.brush();
+                           brush.held = !brush.held;
+                           m_tools.setBrush(brush);
+                         });
+  m_hold->setCheckable(true);
+  m_makeReal = m_actions.add(menu, QStringLiteral("sketch.real"), QStringLiteral("Make it real"),
+                             {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, [this] { letGo(); });
+  m_makeReal->setToolTip(QStringLiteral("Lets go of all that is held"));
+  menu->addSeparator();
+  connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
+  connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
+  showHeld();
+}
+
+std::vector<std::string> SketchActions::heldBodies() const {
+  std::vector<std::string> held;
+  for (const Body& body : m_session.document().project().bodies) {
+    if (toggleOf(body.parameters, bodyParameters(), "held") && !toggleOf(body.parameters, bodyParameters(), "fixed"))
+      held.push_back(body.id);
+  }
+  return held;
+}
+
+void SketchActions::showHeld() {
+  m_hold->setChecked(m_tools.brush().held);
+  m_makeReal->setEnabled(!heldBodies().empty());
+}
+
+/// One undo step, whose undo holds them again.
+void SketchActions::letGo() {
+  std::vector<std::pair<Address, Value>> values;
+  for (const std::string& id : heldBodies()) values.push_back({{Owner::Body, id, "held"}, false});
+  m_session.document().setParameters(values, QStringLiteral("make it real"));
 }
 
 /// The key that a brush asks for, where nothing else has it.

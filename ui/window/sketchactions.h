@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <QtCore/QList>
+#include <QtCore/QObject>
 
 #include <string>
+#include <vector>
 
+class QAction;
 class QKeySequence;
 class QMenu;
 
@@ -14,20 +17,27 @@ class Session;
 class Toolbox;
 
 /// The menu Sketch: a row for each tool of the table, and for each brush that is installed.
-class SketchActions {
+class SketchActions : public QObject {
  public:
   SketchActions(Session& session, Toolbox& tools, const Actions& actions)
       : m_session(session), m_tools(tools), m_actions(actions) {}
   void makeMenu(QMenu* menu);
   void addBrushes();  ///< once plugins are there
 
+  QAction* makeReal() const { return m_makeReal; }  ///< enabled while something is held
+
  private:
+  void addHolding(QMenu* menu);
+  std::vector<std::string> heldBodies() const;
+  void letGo();
+  void showHeld();
   QList<QKeySequence> keysOf(const std::string& brush) const;
 
   Session& m_session;
   Toolbox& m_tools;
   const Actions& m_actions;
   QMenu* m_shapes = nullptr;
+  QAction *m_hold = nullptr, *m_makeReal = nullptr;
 };
 
 }  // namespace ps
