@@ -27,6 +27,7 @@ class RigidBody {
       : m_p(p), m_batch(batch), m_threads(threads), m_group(g), m_first(batch.begin[g]), m_last(batch.begin[g + 1]) {
     const RigidMass sums = massOf(p, members());
     m_mass = sums.mass;
+    m_held = sums.lightest == 0;
     m_pose.restCentre = 1 / m_mass * sums.moment;
     load();
   }
@@ -37,6 +38,8 @@ class RigidBody {
   double mass(size_t k) const { return m_p.mass[particle(k)]; }
   Vector rest(size_t k) const { return restPlace(k) - m_pose.restCentre; }
   double mass() const { return m_mass; }
+  /// One of its members is held, and so is all that is one body with it.
+  bool held() const { return m_held; }
   RigidMembers members() const {
     const auto of = [&](RigidModel::MemberValue v) { return m_batch.memberValues[v] + m_first; };
     return {m_batch.particles + m_first,
@@ -145,6 +148,7 @@ class RigidBody {
   const api::Threads* m_threads;
   size_t m_group, m_first, m_last;
   double m_mass = 0, m_scale = 1;
+  bool m_held = false;
   RigidPose m_pose;
   Quaternion m_rotation;
 };

@@ -65,14 +65,19 @@ HWY_INLINE V3 rounded(V3 v) {
 }
 
 void Mass(const api::ParticleView& p, const RigidMembers& members, RigidMass& out) {
+  const D d;
   Lanes mass;
   Lanes3 moment;
+  V lightest = hn::Set(d, out.lightest);
   forMembers(members, [&](size_t part, Few few, const Indices& of) HWY_ATTR {
     const V m = of.massOf(p, few);
     mass.add(part, m);
     moment.add(part, m * loadFloats3(members.rest, few));
+    lightest = hn::Min(lightest, gather(p.velocity, of.id).w);
   });
-  out = {mass.sum(), moment.sum()};
+  double lane[kLanes];
+  hn::StoreU(lightest, d, lane);
+  out = {mass.sum(), *std::min_element(lane, lane + kLanes), moment.sum()};
 }
 
 void Offset(const api::ParticleView& p, const RigidMembers& members, const RigidPose& pose, const api::Float4* points,

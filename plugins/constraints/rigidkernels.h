@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 // Sums over the members of a rigid body and their places, a vector of members at a time (Highway). Sums run in eight
 // lanes that are added in one order, and by chunks of members, so that every instruction set and any number of threads
@@ -25,11 +26,15 @@ struct RigidPose {
   Matrix turned;              ///< rotation times scale
 };
 
-/// Mass in kg, and the sum of mass times place in the undeformed frame.
+/// Mass in kg, and the sum of mass times place in the undeformed frame; `lightest`: 1/kg, the least inverse mass of a
+/// member, 0 where one is held.
 struct RigidMass {
-  double mass = 0;
+  double mass = 0, lightest = std::numeric_limits<double>::infinity();
   Vector moment;
-  void operator+=(const RigidMass& other) { mass += other.mass, moment += other.moment; }
+  void operator+=(const RigidMass& other) {
+    mass += other.mass, moment += other.moment;
+    lightest = std::min(lightest, other.lightest);
+  }
 };
 RigidMass massOf(const api::ParticleView& particles, const RigidMembers& members);
 

@@ -76,6 +76,7 @@ Vector centreOf(const Float4* points, const RigidBody& body) {
 /// Absorbs what happened to the members' positions into the pose, and the pose's change into the velocities. What
 /// turned it was an impulse on the body as it stood before: the angular momentum goes on, not the angular velocity.
 void absorb(RigidBody& body, const api::MovableParticles& particles, double dt) {
+  if (body.held()) return body.placeMembers(particles.position);
   const RigidBody::Fit fit = body.fit(particles.position);
   if (!fit.moved) return;
   const Quaternion before = body.rotation(), after = body.rotationOf(fit);
@@ -185,6 +186,11 @@ void RigidModel::predict(const ConstraintContext& context, const api::MovablePar
       body.setPose(body.centre() + fit.shift, body.rotationOf(fit));
     }
     if (context.substep == 0) body.refreshScale();
+    if (body.held()) {
+      body.setMotion({}, {});
+      body.placeMembers(particles.position);
+      continue;
+    }
     const RigidMomentum momentum = momentumOf(p, body.members(), body.centre(), p.previous);
     const Vector velocity = 1 / body.mass() * momentum.linear;
     const Matrix inverse = body.restInertia().inverse;
@@ -213,6 +219,10 @@ void RigidModel::deriveVelocities(const ConstraintContext& context, const api::M
     // What viscosity gave: the velocity without the way of the substep, which was computed just so.
     const RigidMomentum momentum = extraMomentumOf(p, body.members(), body.centre(), rate);
     absorb(body, particles, context.dt);
+    if (body.held()) {
+      setVelocities(body.members(), body.pose(), {}, {}, particles.velocity);
+      continue;
+    }
     const Vector velocity = body.velocity() + 1 / body.mass() * momentum.linear;
     const Vector spin = body.spin() + RigidBody::turned(body.restInertia().inverse, body.rotation(), momentum.angular);
     body.setMotion(velocity, spin);

@@ -16,6 +16,8 @@ using namespace ps;
 namespace {
 
 constexpr double kSpacing = 0.02;
+/// m: rigid bodies put their members where their pose says, which rounds places of 2 m once.
+constexpr double kStill = 2.5e-7;
 const Address kHeld{Owner::Body, "thing", "held"};
 
 /// A thing in the air over a tray.
@@ -81,9 +83,11 @@ class TestHolding : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void cleanup() { setThreadCount(0); }
-  void itStandsAndFallsAsIfItWereNew_data();
+  void itStandsAndFallsAsIfItWereNew_data() { structures(); }
   void itStandsAndFallsAsIfItWereNew();
+  void heldInFlightItSetsOffFromRest_data() { structures(); }
   void heldInFlightItSetsOffFromRest();
+  void othersMeetIt_data();
   void othersMeetIt();
   void itMeltsWhereItIs();
   void keysLetItGo();
@@ -92,13 +96,12 @@ class TestHolding : public QObject {
   void whatIsAddedToItIsHeldToo();
 
  private:
+  static void structures() {
+    QTest::addColumn<QString>("structure");
+    for (const char* name : {"water", "bonds", "rigid", "clusters", "cloth", "rope"}) QTest::newRow(name) << name;
+  }
   PluginRegistry m_plugins;
 };
-
-void TestHolding::itStandsAndFallsAsIfItWereNew_data() {
-  QTest::addColumn<QString>("structure");
-  for (const char* name : {"water", "bonds", "rigid", "clusters", "cloth", "rope"}) QTest::newRow(name) << name;
-}
 
 void TestHolding::itStandsAndFallsAsIfItWereNew() {
   QFETCH(QString, structure);
@@ -107,8 +110,8 @@ void TestHolding::itStandsAndFallsAsIfItWereNew() {
   QVERIFY(!start.empty());
   QCOMPARE(farthest(start, placesOf(fresh)), 0.0);
   play(held, 20);
-  QCOMPARE(farthest(start, placesOf(held)), 0.0);  // to the bit
-  QVERIFY(held.setParameter(kHeld, false));        // at once
+  QVERIFY(farthest(start, placesOf(held)) < kStill);
+  QVERIFY(held.setParameter(kHeld, false));  // at once
   play(held, 20);
   play(fresh, 20);
   const double fallen = start.begin()->second[1] - placesOf(fresh).begin()->second[1];
@@ -119,41 +122,56 @@ void TestHolding::itStandsAndFallsAsIfItWereNew() {
 }
 
 void TestHolding::heldInFlightItSetsOffFromRest() {
-  Project project = over("bonds", false);
+  QFETCH(QString, structure);
+  Project project = over(structure.toStdString(), false);
   project.bodies[0].velocity = {1, 0, 0};
+  if (structure != "water") project.bodies[0].spin = {0, 0, 1};
   Engine engine(project, m_plugins);
   play(engine, 10);
   QVERIFY(engine.setParameter(kHeld, true));
   const auto there = placesOf(engine);
   play(engine, 10);
-  QCOMPARE(farthest(there, placesOf(engine)), 0.0);
+  QVERIFY2(farthest(there, placesOf(engine)) < kStill, qPrintable(QString::number(farthest(there, placesOf(engine)))));
   QVERIFY(engine.setParameter(kHeld, false));
   play(engine, 10);
   for (const auto& [id, place] : placesOf(engine)) {
-    QVERIFY(place[1] < there.at(id)[1]);
-    QVERIFY(std::abs(place[0] - there.at(id)[0]) < 0.1 * kSpacing);
+    // g t2 / 2 = 0.136 m in 10 frames; what was turned when it was held may straighten a little.
+    QVERIFY2(std::abs(place[1] - there.at(id)[1] + 0.14) < 0.02,
+             qPrintable(QString::number(place[1] - there.at(id)[1])));
+    QVERIFY2(std::abs(place[0] - there.at(id)[0]) < 0.5 * kSpacing, qPrintable(QString::number(place[0])));
+  }
+}
+
+void TestHolding::othersMeetIt_data() {
+  QTest::addColumn<QString>("structure");
+  QTest::addColumn<QString>("brick");
+  for (const char* held : {"bonds", "rigid", "clusters"}) {
+    for (const char* falls : {"bonds", "rigid", "clusters"}) QTest::addRow("%s on %s", falls, held) << held << falls;
   }
 }
 
 /// A brick that is let fall on it comes to rest on it, and what it weighs is borne from outside.
 void TestHolding::othersMeetIt() {
-  Project project = over("bonds", true);
-  Body brick = project.bodies[0];
-  brick.id = "brick";
-  brick.parameters.values.erase("held");
-  std::get<SolidShape>(brick.shape).parameters.values["position_y"] = 2.12;
-  project.bodies.push_back(brick);
+  QFETCH(QString, structure);
+  QFETCH(QString, brick);
+  Project project = over(structure.toStdString(), true);
+  Body other = over(brick.toStdString(), false).bodies[0];
+  other.id = "brick";
+  std::get<SolidShape>(other.shape).parameters.values["position_y"] = 2.12;
+  project.bodies.push_back(other);
   Engine engine(project, m_plugins);
   const auto start = placesOf(engine);
   for (int frame = 0; frame < 60; ++frame) {
     const StepReport report = engine.step();
     const Vector3 open =
         vectorOf(report.momentum.end) - vectorOf(report.momentum.start) - vectorOf(report.momentum.external);
-    // Of a brick of 1.8 kg that falls at some tenths of a metre a second, in single precision.
-    QVERIFY2(open.norm() < 1e-4, qPrintable(QString::number(open.norm())));
+    // Places of 2 m are rounded by up to 1.2e-7 m, alike in all of 1.8 kg, some hundred times a second; a frame of
+    // weight is 0.3 N s.
+    QVERIFY2(open.norm() < 5e-4, qPrintable(QString::number(open.norm())));
   }
-  QCOMPARE(farthest(start, placesOf(engine)), 0.0);
-  for (const auto& [id, place] : placesOf(engine, "brick")) QVERIFY(place[1] > 2.05);
+  QVERIFY2(farthest(start, placesOf(engine)) < kStill, qPrintable(QString::number(farthest(start, placesOf(engine)))));
+  for (const auto& [id, place] : placesOf(engine, "brick"))
+    QVERIFY2(place[1] > 2.04, qPrintable(QString::number(place[1])));
 }
 
 void TestHolding::itMeltsWhereItIs() {
@@ -184,7 +202,7 @@ void TestHolding::keysLetItGo() {
   Engine engine(project, m_plugins);
   const auto start = placesOf(engine);
   while (engine.solver().time() < 0.099) play(engine, 1);
-  QCOMPARE(farthest(start, placesOf(engine)), 0.0);
+  QVERIFY(farthest(start, placesOf(engine)) < kStill);
   play(engine, 10);
   QVERIFY(placesOf(engine).begin()->second[1] < start.begin()->second[1]);
 }

@@ -59,7 +59,9 @@ void RigidContact::refreshBodies(const ParticleStore& store, const ConstraintSys
     for (size_t i = first; i < last; ++i) m_rank[i] = api::holds(store.motion()[i]) ? kNone : 0;
   });
   size_t count = 0;
+  const auto isHeld = [&](uint32_t i) { return store.velocity()[i].w == 0; };
   constraints.eachRigidGroup([&](std::span<const uint32_t> members) {
+    if (std::any_of(members.begin(), members.end(), isHeld)) return;  // it stands, and is met as what is fixed
     for (const uint32_t i : members) {
       m_isMember[i] = 1;
       m_bodyOf[i] = static_cast<uint32_t>(count);
