@@ -3,6 +3,8 @@
 
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
+#include "ui/render/camera.h"
+#include "ui/session/selection.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
@@ -24,7 +26,7 @@ void DrawTool::hover(const Pointer& pointer) {
   m_cursor.reset();
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
-  cursor.erase = !touches() && m_erases != pointer.control;
+  cursor.erase = !touches() && erases(pointer);
   cursor.floor = floorHeight(environment);
   if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !meetsMatter()) {
     m_plane = *plane;
@@ -47,6 +49,7 @@ void DrawTool::hover(const Pointer& pointer) {
 }
 
 bool DrawTool::press(const Pointer& pointer) {
+  if (pointer.alt) return false;  // see click()
   hover(pointer);
   if (!m_cursor) return true;  // nothing to draw on, and nothing to turn
   m_began = pointer.seconds;
@@ -67,8 +70,7 @@ bool DrawTool::press(const Pointer& pointer) {
 }
 
 void DrawTool::beginTouch(const Pointer& pointer) {
-  const QString problem =
-      m_touch.begin(pointer.control != m_erases, m_cursor->centre, m_plane.normal, pointer.pressure);
+  const QString problem = m_touch.begin(erases(pointer), m_cursor->centre, m_plane.normal, pointer.pressure);
   if (!problem.isEmpty()) return refuse(problem);
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
   m_hand = pointer;
@@ -184,6 +186,15 @@ void DrawTool::release(const Pointer&) {
   if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
 }
 
+/// With Alt the matter that is there says what is drawn from now on.
+void DrawTool::click(const Pointer& pointer) {
+  if (!pointer.alt || !pointer.scene) return;
+  const Snapshot& scene = *pointer.scene;
+  const auto hit = pickParticle(scene, pointer.ray, pointer.section);
+  if (hit && scene.material[*hit] < scene.materialIds.size())
+    box().selection().pickMaterial(scene.materialIds[scene.material[*hit]]);
+}
+
 bool DrawTool::cancel() {
   const bool busy = m_stroke.active() || m_touch.active();
   m_before.reset();
@@ -224,18 +235,22 @@ QString DrawTool::words() const {
 }
 
 std::vector<Gesture> DrawTool::gestures() const {
+  std::vector<Gesture> list;
   if (touches()) {
-    return {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
+    list = {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
             {QStringLiteral("Ctrl+Drag"), QStringLiteral("The opposite"), QStringLiteral("the opposite")}};
+  } else {
+    const Gesture draw = box().paints() ? Gesture{{}, brushLabel(), QStringLiteral("paints")}
+                                        : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
+    const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
+    list = {m_erases ? erase : draw, m_erases ? draw : erase};
+    list[0].keys = QStringLiteral("Drag");
+    list[1].keys = QStringLiteral("Ctrl+Drag");
+    if (!m_erases && !box().paints())
+      list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
+    list.push_back({QStringLiteral("Alt+Click"), QStringLiteral("Takes the material of what is there"), {}});
   }
-  const Gesture draw = box().paints() ? Gesture{{}, brushLabel(), QStringLiteral("paints")}
-                                      : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
-  const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
-  std::vector<Gesture> list{m_erases ? erase : draw, m_erases ? draw : erase};
-  list[0].keys = QStringLiteral("Drag");
-  list[1].keys = QStringLiteral("Ctrl+Drag");
-  if (!m_erases && !box().paints())
-    list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
+  list.push_back({sizeDrag(box().mouse()).text(), QStringLiteral("Smaller and larger, as do [ and ]"), {}});
   return list;
 }
 

@@ -19,6 +19,7 @@ class DrawTool : public Tool {
   bool press(const Pointer& pointer) override;
   void drag(const Pointer& pointer) override;
   void release(const Pointer& pointer) override;
+  void click(const Pointer& pointer) override;
   bool cancel() override;
   void see(const Snapshot* now) override;
   void leave() override { m_cursor.reset(); }
@@ -40,6 +41,7 @@ class DrawTool : public Tool {
   void dragTouch(const Pointer& pointer);
   void touchAt(const Vector3& point);
   bool touches() const;
+  bool erases(const Pointer& pointer) const { return pointer.eraser || m_erases != pointer.control; }
   bool meetsMatter() const;  ///< instead of standing on it
   QString brushLabel() const;
   void endAsItIs(const QString& problem);

@@ -54,7 +54,8 @@ QString keysOf(MousePreset preset, bool draws, ViewMotion motion) {
 
 }  // namespace
 
-QString MouseBinding::text() const {
+namespace {
+QString dragText(Qt::MouseButton button, Qt::KeyboardModifiers keys) {
   QStringList parts;
   if (keys & Qt::ControlModifier) parts << QStringLiteral("Ctrl");
   if (keys & Qt::AltModifier) parts << QStringLiteral("Alt");
@@ -64,6 +65,12 @@ QString MouseBinding::text() const {
                                : QStringLiteral("Drag"));
   return parts.join(QLatin1Char('+'));
 }
+}  // namespace
+
+QString MouseBinding::text() const { return dragText(button, keys); }
+QString SizeDrag::text() const { return dragText(button, keys); }
+
+SizeDrag sizeDrag(MousePreset preset) { return {kRight, preset == Maya ? Qt::ShiftModifier : Qt::AltModifier}; }
 
 std::vector<MouseBinding> bindings(MousePreset preset, bool draws) {
   const While other = draws ? While::Looking : While::Drawing;

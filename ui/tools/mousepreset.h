@@ -21,6 +21,14 @@ struct MouseBinding {
   QString text() const;  ///< "Shift+Middle-drag"; with the left button "Alt+Drag"
 };
 
+/// The drag that makes a brush in hand smaller or larger; no preset moves the view by it.
+struct SizeDrag {
+  Qt::MouseButton button;
+  Qt::KeyboardModifiers keys;
+  QString text() const;  ///< "Alt+Right-drag"
+};
+SizeDrag sizeDrag(MousePreset preset);
+
 /// What drags do with a tool in hand, the most used of each motion first. `draws`: the left button is the tool's, but
 /// with Alt; otherwise a drag that the tool does not take may move the view.
 std::vector<MouseBinding> bindings(MousePreset preset, bool draws);

@@ -27,6 +27,7 @@ struct Pointer {
   Vector3 target{0, 0, 0};    ///< m, what the viewer looks at: the depth of what is put in the air
   double fineness = 1e-3;     ///< tangent of the smallest angle that can be aimed at: a pixel, a tremor of the hand
   double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
+  bool eraser = false;        ///< the pen's other end
   double seconds = 0;         ///< on any clock that runs on
   bool shift = false, control = false, alt = false;
   SnapshotPtr scene;               ///< as the view shows it, but for what the section cuts away; nullptr: nothing yet

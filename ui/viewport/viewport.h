@@ -105,7 +105,7 @@ class Viewport : public QOpenGLWidget {
 
  private:
   /// Who has the button that is down.
-  enum class Drag { None, Tool, Click, View, Menu, LegendHigh, LegendLow, Section };
+  enum class Drag { None, Tool, Click, View, Menu, LegendHigh, LegendLow, Section, Size };
   void onChanged(const ChangeEvent& event);
   void onTool();
   void snapshotArrived();
@@ -142,6 +142,8 @@ class Viewport : public QOpenGLWidget {
   // viewportinput.cpp
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
   std::optional<MouseBinding> bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const;
+  bool beginSize(const QMouseEvent& event);
+  void dragSize(double way);
   void dragBegins(const QMouseEvent& event);
   bool clickOverlay(const QPointF& position);
   bool typeToTool(const QKeyEvent& event, bool asks);
@@ -184,7 +186,14 @@ class Viewport : public QOpenGLWidget {
 
   Drag m_drag = Drag::None;
   QPointF m_pressed;
-  double m_pressure = 1;  ///< of the pen; 1 where there is none
+  double m_radiusBefore = 0;  ///< m, of the brush before its size is dragged
+  /// What the pen said last; the mouse's event that Qt makes of that follows at once.
+  struct Pen {
+    double pressure = 1;
+    bool eraser = false;
+    QElapsedTimer since;
+  };
+  Pen m_pen;
   QElapsedTimer m_clock;
 
   QTimer m_paintTimer;

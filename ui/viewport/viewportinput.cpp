@@ -17,7 +17,9 @@ namespace {
 
 constexpr double kClick = 4;  // pixels that a click may wander
 constexpr double kNotch = 120;
-constexpr double kEnd = 9;  // pixels around an end of the legend that take hold of it
+constexpr double kEnd = 9;       // pixels around an end of the legend that take hold of it
+constexpr qint64 kPen = 200;     // ms after its last word from which it is the mouse that points
+constexpr double kOctave = 120;  // pixels for a brush of twice the size
 
 bool isClick(const QPointF& way) { return std::max(std::abs(way.x()), std::abs(way.y())) < kClick; }
 
@@ -46,7 +48,10 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
   pointer.forward = frameOf(camera).forward;
   pointer.target = camera.target;
   pointer.fineness = pixelSize(camera, height(), 1);
-  pointer.pressure = m_pressure;
+  if (m_pen.since.isValid() && m_pen.since.elapsed() < kPen) {
+    pointer.pressure = m_pen.pressure;
+    pointer.eraser = m_pen.eraser;
+  }
   pointer.seconds = static_cast<double>(m_clock.elapsed()) / 1000;
   pointer.shift = modifiers & Qt::ShiftModifier;
   pointer.control = modifiers & Qt::ControlModifier;
@@ -73,6 +78,7 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
   m_legendBefore = m_legendRange;
   const bool left = event->button() == Qt::LeftButton;
   if (left && clickOverlay(m_pressed)) return;
+  if (beginSize(*event)) return;
   const auto binding = bindingOf(event->button(), event->modifiers());
   const bool plainLeft = left && (!binding || !binding->keys);  // may become a click
   // A handle is taken hold of with Shift too, which then moves it up and down. Alt and the left button are the view's.
@@ -88,6 +94,23 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
     m_drag = Drag::Menu;
   }
   update();
+}
+
+/// The brush stays where it is, and its outline shows how large it becomes.
+bool Viewport::beginSize(const QMouseEvent& event) {
+  const SizeDrag drag = sizeDrag(m_tools.mouse());
+  if (!m_tools.tool().usesBrush() || event.button() != drag.button || event.modifiers() != drag.keys) return false;
+  m_drag = Drag::Size;
+  m_radiusBefore = m_tools.brush().radius;
+  hover(m_pressed, {});
+  return true;
+}
+
+void Viewport::dragSize(double way) {
+  BrushSettings brush = m_tools.brush();
+  brush.radius = std::clamp(m_radiusBefore * std::exp2(way / kOctave), kBrushMinimum, kBrushMaximum);
+  m_tools.setBrush(brush);
+  hover(m_pressed, {});
 }
 
 /// Where the left button alone does not move the view, it frames what is to be selected by a tool that selects.
@@ -117,6 +140,8 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     m_legendRange.moveEnd(m_drag == Drag::LegendHigh, (m_pressed.y() - position.y()) / m_hits.legendBar.height());
   } else if (m_drag == Drag::Section) {
     dragSection(position);
+  } else if (m_drag == Drag::Size) {
+    dragSize(position.x() - m_pressed.x());
   } else if (m_drag == Drag::Tool) {
     m_tools.tool().drag(pointerAt(position, event->modifiers()));
   } else {
@@ -178,9 +203,12 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
   update();
 }
 
-/// How hard the pen presses; where it is comes as the mouse's events, which Qt makes of what is ignored here.
+/// How hard the pen presses, and with which end; where it is comes as the mouse's events, which Qt makes of what is
+/// ignored here.
 void Viewport::tabletEvent(QTabletEvent* event) {
-  m_pressure = event->type() == QEvent::TabletRelease ? 1 : event->pressure();
+  m_pen.pressure = event->type() == QEvent::TabletRelease ? 1 : event->pressure();
+  m_pen.eraser = event->pointerType() == QPointingDevice::PointerType::Eraser;
+  m_pen.since.start();
   event->ignore();
 }
 
@@ -243,6 +271,7 @@ bool Viewport::cancelGesture() {
   m_navigation.cancel();
   if (m_drag == Drag::LegendHigh || m_drag == Drag::LegendLow) m_legendRange = m_legendBefore;
   if (m_drag == Drag::Section) setSection(m_sectionBefore);
+  if (m_drag == Drag::Size) dragSize(0);
   const bool gave = m_tools.tool().cancel();
   m_drag = Drag::None;
   update();

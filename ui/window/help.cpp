@@ -47,10 +47,12 @@ const char* pageOf(const Dock& dock) {
   return kUsualPage;
 }
 
-/// Pages name the drags that move a view as {look} and {turn}: which those are is a preference.
+/// Pages name the drags that move a view as {look} and {turn}, and that of the brush's size {size}: which those are is
+/// a preference.
 HelpPage withMouse(HelpPage page, MousePreset preset) {
   page.text.replace(QStringLiteral("{look}"), howToLook(preset));
   page.text.replace(QStringLiteral("{turn}"), turningKeys(preset));
+  page.text.replace(QStringLiteral("{size}"), sizeDrag(preset).text());
   return page;
 }
 
