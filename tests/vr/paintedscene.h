@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <epoxy/gl.h>
+
 #include "ui/vr/headset.h"
 
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/error.h"
 #include "tests/vr/scriptedrun.h"
 #include "tests/vr/stay.h"
 

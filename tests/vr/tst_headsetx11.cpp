@@ -2,6 +2,7 @@
 #include "tests/vr/scriptedrun.h"
 #include "tests/vr/stay.h"
 #include "tests/vr/windowcontext.h"
+#include "ui/vr/runtime.h"
 
 #include <QFile>
 #include <QTemporaryDir>

@@ -9,8 +9,8 @@ static void initHelpResources() { Q_INIT_RESOURCE(help); }
 namespace ps {
 namespace {
 
-constexpr const char* kPages[] = {"first-steps", "scene",  "sketching", "tuning",
-                                  "timeline",    "graphs", "files",     "numerics"};
+constexpr const char* kPages[] = {"first-steps", "scene", "sketching", "tuning",  "timeline",
+                                  "graphs",      "vr",    "files",     "numerics"};
 
 /// Its first line is "# Title".
 HelpPage readPage(const QString& id) {

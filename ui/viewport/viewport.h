@@ -37,6 +37,8 @@ class Viewport : public QOpenGLWidget {
   ~Viewport() override;
 
   SnapshotPtr snapshot() const { return m_now; }  ///< the one that is shown
+  const RenderScene& scene() const { return m_scene; }
+  Look look();  ///< of the next picture
   Toolbox& tools() const { return m_tools; }
   const std::string& colour() const { return m_colour; }  ///< "material", or the name of a field
   const ViewNavigator& navigator() const { return m_navigator; }
@@ -116,7 +118,6 @@ class Viewport : public QOpenGLWidget {
   double blend() const;
   OverlayState overlayState() const;
   std::vector<std::pair<QString, QString>> bodyClasses() const;
-  Look look();
   double meltingPoint() const;  ///< K, the pivot of the temperature's colours
   void ghostChanged();
   void paintPortsOver(QPainter& painter) const;

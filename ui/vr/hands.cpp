@@ -21,6 +21,11 @@ void write(char (&place)[N], const char* text) {
 
 }  // namespace
 
+HandPose poseOf(const XrPosef& pose) {
+  const auto& [q, p] = pose;
+  return {{double(p.x), double(p.y), double(p.z)}, {double(q.w), double(q.x), double(q.y), double(q.z)}};
+}
+
 Hands::Hands(Runtime& runtime, Session& session)
     : m_runtime(runtime), m_session(session), m_paths{runtime.path(kHands[kLeft]), runtime.path(kHands[kRight])} {
   auto info = structure<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
@@ -146,8 +151,7 @@ std::optional<HandPose> Hands::locate(XrSpace space, XrTime time, Vector3* veloc
   if ((location.locationFlags & kValid) != kValid) return {};
   if (velocity && (speed.velocityFlags & XR_SPACE_VELOCITY_LINEAR_VALID_BIT))
     *velocity = {double(speed.linearVelocity.x), double(speed.linearVelocity.y), double(speed.linearVelocity.z)};
-  const auto& [q, p] = location.pose;
-  return HandPose{{double(p.x), double(p.y), double(p.z)}, {double(q.w), double(q.x), double(q.y), double(q.z)}};
+  return poseOf(location.pose);
 }
 
 HandInput Hands::input(size_t hand, XrTime time) const {

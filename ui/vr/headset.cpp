@@ -2,8 +2,8 @@
 #include "ui/vr/headset.h"
 
 #include "ui/vr/eyepicture.h"
+#include "ui/vr/hands.h"
 
-#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 
@@ -20,11 +20,10 @@ constexpr double kNanosecond = 1e-9;     // s
 const char* const kNoAnswer = "The headset's software did not answer; it was left all the same.";
 
 Eye eyeOf(const XrView& view, double near, double far) {
-  const auto& [q, p] = view.pose;
-  const Quaternion turn(double(q.w), double(q.x), double(q.y), double(q.z));
+  const HandPose pose = poseOf(view.pose);
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-  place.linear() = turn.normalized().toRotationMatrix();
-  place.translation() = Vector3(double(p.x), double(p.y), double(p.z));
+  place.linear() = pose.orientation.normalized().toRotationMatrix();
+  place.translation() = pose.position;
   const Matrix4 world = place.inverse().matrix();
   const XrFovf& fov = view.fov;
   return eyeThrough(world, std::tan(double(fov.angleLeft)), std::tan(double(fov.angleRight)),
@@ -70,7 +69,7 @@ class Headset::Loop {
       m_session.endFrame(state.predictedDisplayTime, {});
       return;
     }
-    prepare(state);
+    prepare(state, *views);
     auto layer = structure<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
     std::array<XrCompositionLayerProjectionView, 2> shown;
     for (const size_t eye : {size_t{0}, size_t{1}}) shown[eye] = draw(eye, (*views)[eye]);
@@ -82,8 +81,10 @@ class Headset::Loop {
   }
 
  private:
-  void prepare(const XrFrameState& state) {
+  void prepare(const XrFrameState& state, const std::array<XrView, 2>& views) {
     HeadsetFrame frame;
+    const HandPose left = poseOf(views[0].pose), right = poseOf(views[1].pose);
+    frame.head = {(left.position + right.position) / 2, left.orientation.slerp(0.5, right.orientation)};
     frame.time = kNanosecond * double(state.predictedDisplayTime);
     frame.period = kNanosecond * double(state.predictedDisplayPeriod);
     frame.focused = m_session.focused();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/camera.h"
-#include "ui/vr/hands.h"
+#include "ui/vr/ending.h"
+#include "ui/vr/handinput.h"
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace ps::vr {
@@ -15,6 +18,7 @@ namespace ps::vr {
 struct HeadsetFrame {
   double time = 0;                 ///< s, when it will be shown, on a clock that only goes on
   double period = 0;               ///< s, between frames
+  HandPose head;                   ///< between the eyes; -z points where they look
   std::array<HandInput, 2> hands;  ///< left and right, as they will be then
   bool focused = false;            ///< hands act; otherwise a menu of the headset lies over the picture
 };

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/vr/ending.h"
 #include "ui/vr/runtime.h"
 
 #include <array>
 #include <optional>
 #include <span>
-#include <string>
 
 namespace ps::vr {
-
-/// How a stay in the headset came to its end.
-struct Ending {
-  bool failed = false;
-  std::string sentence;  ///< for whoever wears it; "" where it was left as asked
-};
 
 /// The headset as this program has it: its states, its frames, and where things are in it. It draws with the OpenGL
 /// context that is current on the thread that makes it; every call comes from that thread, with the context current.

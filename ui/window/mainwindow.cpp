@@ -47,6 +47,7 @@
 #include "ui/window/tour.h"
 #include "ui/window/viewactions.h"
 #include "ui/window/viewportpane.h"
+#include "ui/window/vrmode.h"
 #include "ui/window/welcome.h"
 
 #include <QtCore/QFileInfo>
@@ -98,6 +99,8 @@ MainWindow::MainWindow(const Options& options)
   m_palette = new CommandPalette(this);
   m_tour = new Tour(*this);
   connectParts();
+  m_vr = std::make_unique<VrMode>(VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status,
+                                                *m_actions.find(QStringLiteral("simulation.vr"))});
   m_layout->applyDefault();
   m_layout->restore();
   qApp->installEventFilter(this);
@@ -107,6 +110,7 @@ MainWindow::MainWindow(const Options& options)
 /// What follows the session goes before it.
 MainWindow::~MainWindow() {
   qApp->removeEventFilter(this);
+  m_vr.reset();
   qDeleteAll(findChildren<QDialog*>(QString(), Qt::FindDirectChildrenOnly));  // they take what was typed when they go
   m_welcome->endPictures();
   m_session->disconnect(this);
@@ -150,7 +154,9 @@ void MainWindow::makeTopBar() {
   QAction* search =
       m_actions.add(nullptr, QStringLiteral("edit.search"), QStringLiteral("Search or command…"),
                     {QKeySequence(QStringLiteral("Ctrl+K"))}, [this] { m_palette->open(paletteEntries()); });
-  m_top = new TopBar(undoAction, redoAction, search);
+  QAction* headset = m_actions.add(nullptr, QStringLiteral("simulation.vr"), QStringLiteral("VR mode"),
+                                   {QKeySequence(QStringLiteral("Ctrl+Shift+V"))}, {});
+  m_top = new TopBar(undoAction, redoAction, search, headset);
   setMenuWidget(m_top);
   QTabBar* workspaces = m_top->workspaces();
   for (const char* name : {"Scene", "Tune", "Sketch"}) workspaces->addTab(QString::fromLatin1(name));
@@ -267,6 +273,8 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                   m_session->recorded().showNewest();
                   graphs()->fit();
                 });
+  menu->addSeparator();
+  menu->addAction(m_actions.find(QStringLiteral("simulation.vr")));
 }
 
 /// In the header of the dock, beside the graphs alone.
@@ -417,6 +425,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     m_files->showNotSaved(problem, QStringLiteral("Your work is kept in memory; closing once more gives it up."));
     return;
   }
+  m_vr->leave();
   QMainWindow::closeEvent(event);
 }
 

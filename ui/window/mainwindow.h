@@ -40,6 +40,7 @@ class Transport;
 class ViewActions;
 class Viewport;
 class ViewportPane;
+class VrMode;
 class Welcome;
 
 /// The editor's window. Shows at once; plugins and the project follow. It makes its parts and hands them to each other:
@@ -86,6 +87,7 @@ class MainWindow : public QMainWindow {
   LibraryActions& library() const { return *m_library; }
   Help& help() const { return *m_help; }
   Tour& tour() const { return *m_tour; }
+  VrMode& vr() const { return *m_vr; }
   void startTour();  ///< of five steps over the scene
   bool isDark() const { return m_layout->isDark(); }
   void setDark(bool dark) { m_layout->setDark(dark); }
@@ -150,6 +152,7 @@ class MainWindow : public QMainWindow {
   BodyActions* m_bodies = nullptr;
   std::unique_ptr<ViewActions> m_views;
   std::unique_ptr<SketchActions> m_sketch;
+  std::unique_ptr<VrMode> m_vr;
   uint64_t m_warnedAt = 0;  ///< change count of work that a first attempt to close could not keep
 };
 

@@ -25,6 +25,7 @@
 namespace ps {
 namespace {
 constexpr int kHeight = 24;
+constexpr int kSaying = 30'000;   // ms
 constexpr double kSilent = 5;     // s without a frame while playing, after which that is said
 constexpr double kClearly = 1.2;  // times as slow as the stage that is named, to be named instead
 constexpr double kSmooth = 0.08;  // share of a new frame in the shown mean, so that digits can be read
@@ -56,6 +57,22 @@ StatusLine::StatusLine(Session& session, Viewport* view, QWidget* parent)
     if (m_session.playing()) refresh();
   });
   m_watch.start();
+  m_saying.setSingleShot(true);
+  m_saying.setInterval(kSaying);
+  connect(&m_saying, &QTimer::timeout, this, [this] { say({}); });
+}
+
+void StatusLine::setHeadset(const QString& state) {
+  if (m_headset == state) return;
+  m_headset = state;
+  refresh();
+}
+
+void StatusLine::say(const QString& sentence, MessageLevel level) {
+  m_said = sentence;
+  m_saidLevel = level;
+  m_saying.start();
+  refresh();
 }
 
 void StatusLine::follow() {
@@ -109,15 +126,18 @@ void StatusLine::refresh() {
   state.silent =
       !making && state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
   state.late = m_late;
+  state.headset = m_headset;
   state.file = m_session.document().isDirty() && m_fileText.isEmpty() ? QStringLiteral("Not saved") : m_fileText;
   addNote(state);
   setState(state);
 }
 
-/// The first of the step's limits; one that no row can show comes before others.
+/// What is to be said, or the first of the step's limits; one that no row can show comes before others.
 void StatusLine::addNote(State& state) {
   m_noteAddress.clear();
-  if (!state.snapshot || state.snapshot->limits.empty()) return;
+  state.note = m_said;
+  state.mild = !m_said.isEmpty() && m_saidLevel != MessageLevel::Warning && m_saidLevel != MessageLevel::Error;
+  if (!m_said.isEmpty() || !state.snapshot || state.snapshot->limits.empty()) return;
   const std::vector<Limit>& limits = state.snapshot->limits;
   const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, state.snapshot->bodyIds.get()); };
   const auto lonely = std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return !addressOf(limit); });
@@ -170,6 +190,7 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
   parts.push_back({state, {}, QStringLiteral("Running")});
+  if (!m_state.headset.isEmpty()) parts.push_back({m_state.headset, {}, QStringLiteral("Entering VR")});
   if (m_state.working >= 0)
     parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work, QStringLiteral("100 %")});
   if (!m_state.snapshot) return parts;
@@ -225,9 +246,11 @@ void StatusLine::paintEvent(QPaintEvent*) {
   m_noteRect = {};
   if (!m_state.note.isEmpty()) {
     const double edge = right;
-    fromRight(m_state.note, Token::Warning);
+    const Token token = m_state.mild ? Token::Info : Token::Warning;
+    fromRight(m_state.note, token);
     right -= 20;
-    paintIcon(painter, QRectF(right, 5, 14, 14), QStringLiteral("warning"), theme[Token::Warning]);
+    paintIcon(painter, QRectF(right, 5, 14, 14), m_state.mild ? QStringLiteral("info") : QStringLiteral("warning"),
+              theme[token]);
     m_noteRect = QRectF(right, 0, edge - right, height());
     right -= 12;
   }

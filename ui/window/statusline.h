@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/snapshot.h"
+#include "ui/session/messagelog.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QString>
@@ -28,8 +29,10 @@ class StatusLine : public QWidget {
     int working = -1;   ///< per cent of long work; -1: there is none
     QString work;       ///< "drawing"
     QString late;       ///< a plugin that does not come back
+    QString headset;    ///< "In VR"
     QString graphics;   ///< "OpenGL 4.5"
     QString note;       ///< "1 note: ice stiffness is limited by the step"
+    bool mild = false;  ///< the note is no warning
     QString file;       ///< "Autosaved 14:32"
     SnapshotPtr snapshot;
   };
@@ -37,6 +40,9 @@ class StatusLine : public QWidget {
   StatusLine(Session& session, Viewport* view, QWidget* parent = nullptr);
   void setState(const State& state);  ///< until something happens in the session
   const State& state() const { return m_state; }
+  void setHeadset(const QString& state);  ///< "": nobody is in one
+  /// In the place of notes, for half a minute; "" ends that.
+  void say(const QString& sentence, MessageLevel level = MessageLevel::Info);
   /// Energy drift as a share of what was exchanged since the start.
   double drift() const;
   QStringList parts() const;  ///< as shown, left to right
@@ -60,7 +66,9 @@ class StatusLine : public QWidget {
   QString detail(size_t stage) const;
   Session& m_session;
   Viewport* m_view;
-  QString m_fileText, m_noteAddress, m_late;
+  QString m_fileText, m_noteAddress, m_late, m_headset, m_said;
+  MessageLevel m_saidLevel = MessageLevel::Info;
+  QTimer m_saying;
   State m_state;
   uint64_t m_revision = 0;
   bool m_started = false;

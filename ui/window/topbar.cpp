@@ -89,7 +89,7 @@ QToolButton* buttonFor(QAction* action, const QString& iconName) {
 
 }  // namespace
 
-TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QWidget* parent)
+TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, QWidget* parent)
     : QWidget(parent), m_menus(new QMenuBar), m_workspaces(new QTabBar) {
   setFixedHeight(kHeight);
   m_menus->setNativeMenuBar(false);
@@ -109,6 +109,7 @@ TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QWidget* parent)
   right->addWidget(buttonFor(redo, QStringLiteral("redo")));
   right->addSpacing(6);
   right->addWidget(m_search = new SearchField(search));
+  right->addWidget(buttonFor(headset, QStringLiteral("headset")));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 0, 8, 0);
   row->addLayout(left, 1);

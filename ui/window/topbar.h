@@ -8,11 +8,11 @@ class QTabBar;
 
 namespace ps {
 
-/// Logo and menus, workspaces in the middle, undo, redo and the search field on the right; 36 pixels.
+/// Logo and menus, workspaces in the middle, undo, redo, the search field and VR on the right; 36 pixels.
 class TopBar : public QWidget {
   Q_OBJECT
  public:
-  TopBar(QAction* undo, QAction* redo, QAction* search, QWidget* parent = nullptr);
+  TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, QWidget* parent = nullptr);
   QMenuBar* menus() const { return m_menus; }
   QTabBar* workspaces() const { return m_workspaces; }
   QWidget* searchField() const { return m_search; }

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// The editor's window in VR, against the scripted runtime: entering, what the eyes see, each ending.
+#include "core/io/projectio.h"
+#include "tests/ui/samplewindow.h"
+#include "tests/vr/scriptedrun.h"
+#include "ui/session/messagelog.h"
+#include "ui/vr/stand.h"
+#include "ui/window/statusline.h"
+#include "ui/window/vrmode.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
+#include <QtGui/QAction>
+
+#include <cmath>
+#include <optional>
+
+using namespace ps;
+
+namespace {
+
+constexpr int kSoon = 2000;  // ms: entering and leaving
+constexpr int kSide = 256;   // pixels of an eye
+
+const char* const kHead = R"([0.1, 1.5, 0.2, -0.25, 0, 0, 0.9682458])";  // looks down by 29 degrees
+
+/// Frames as long as a headset's, so that the window has its share of the machine; `more`: ", \"key\": value".
+std::string script(const QString& more = {}) {
+  return QStringLiteral(R"({"real_time": true, "period": 0.02, "view": {"width": %1, "height": %1},
+                            "keys": [{"frame": 0, "head": %2}]%3})")
+      .arg(QString::number(kSide), QString::fromLatin1(kHead), more)
+      .toStdString();
+}
+
+size_t threads() { return static_cast<size_t>(QDir(QStringLiteral("/proc/self/task")).entryList(QDir::Dirs).size()); }
+
+vr::HandPose head() { return {{0.1, 1.5, 0.2}, Quaternion(0.9682458, -0.25, 0, 0).normalized()}; }
+
+/// Of the script's head: half of 63 mm beside it, through a window of 90 degrees.
+Eye eyeOfScript(bool right) {
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.linear() = head().orientation.toRotationMatrix();
+  place.translation() = head().position + head().orientation * Vector3(right ? 0.0315 : -0.0315, 0, 0);
+  return eyeThrough(place.inverse().matrix(), -1, 1, -1, 1, 0.03, 100);
+}
+
+}  // namespace
+
+class VrModeTest : public SampleWindowTest {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void cleanup() {
+    if (vr().active()) vr().leave();
+    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+    if (m_window) m_window->statusLine()->say({});
+  }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void commandIsWhereOneLooksForIt();
+  void entersAndLeavesWhileTheSceneRuns();
+  void eyesShowWhatTheViewShows();
+  void matterMovesInTheHeadset();
+  void noRuntimeIsSaid();
+  void everyEndingIsSaidAndVrComesBack_data();
+  void everyEndingIsSaidAndVrComesBack();
+  void headsetOnTheTableIsLeft();
+  void anotherProjectComesBeforeTheWearer();
+  void staysLeaveNoThreads();
+  void windowClosesInVr();
+
+ private:
+  VrMode& vr() { return m_window->vr(); }
+  QAction* action() { return m_window->action(QStringLiteral("simulation.vr")); }
+  QString status() { return m_window->statusLine()->parts().join(QLatin1Char('|')); }
+  void enter() {
+    action()->trigger();
+    QVERIFY(action()->isChecked() && vr().active());
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 4 || !vr().active(), kLong);
+    QVERIFY(vr().active());
+  }
+  void leave() {
+    action()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+    QVERIFY(!action()->isChecked());
+  }
+};
+
+void VrModeTest::commandIsWhereOneLooksForIt() {
+  QVERIFY(action() && action()->isCheckable());
+  QCOMPARE(action()->shortcut(), QKeySequence(QStringLiteral("Ctrl+Shift+V")));
+  const auto entries = m_window->paletteEntries();
+  QVERIFY(std::any_of(entries.begin(), entries.end(),
+                      [](const PaletteEntry& entry) { return entry.title == QStringLiteral("VR mode"); }));
+}
+
+void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
+  const ScriptedRun run(script());
+  session().play();
+  QElapsedTimer clock;
+  clock.start();
+  enter();
+  const qint64 entered = clock.restart();
+  QVERIFY2(entered < kSoon, qPrintable(QString::number(entered)));
+  QTRY_VERIFY(status().contains(QStringLiteral("In VR")));
+  QVERIFY(session().playing());
+  const double before = session().now();
+  QTRY_VERIFY_WITH_TIMEOUT(session().now() > before, kLong);
+  clock.restart();
+  leave();
+  QVERIFY2(clock.elapsed() < kSoon, qPrintable(QString::number(clock.elapsed())));
+  QVERIFY(!status().contains(QStringLiteral("VR")));
+  QVERIFY(session().playing());
+  QVERIFY(run.lines("violation").empty());
+  QCOMPARE(run.lines("textures").back()["textures"].get<int>(), 0);
+}
+
+/// The same matter, furniture and light as the view's renderer draws from there. The drivers of a window and of a
+/// picture without one are the same; they may round otherwise.
+void VrModeTest::eyesShowWhatTheViewShows() {
+  backToTheStart();
+  const ScriptedRun run(script(QStringLiteral(R"(, "pictures": [30])")));
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 32, kLong);
+  leave();
+  const auto box = boxOf(*view()->snapshot(), view()->scene().environment);
+  const vr::Stand stand = vr::standBefore(head(), box);
+  const Look look = view()->look();
+  view()->doneCurrent();
+  HeadlessContext context;
+  Renderer renderer;
+  renderer.prepare(*view()->snapshot(), nullptr, 1, view()->scene(), look);
+  for (const bool right : {false, true}) {
+    const QImage picture = run.picture(30, right ? 1 : 0).convertToFormat(QImage::Format_RGBA8888);
+    QCOMPARE(picture.size(), QSize(kSide, kSide));
+    const auto wanted = renderImage(renderer, stand.toScene(eyeOfScript(right)), {kSide, kSide, false});
+    const QImage drawn(wanted.data(), kSide, kSide, 4 * kSide, QImage::Format_RGBA8888);
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) picture.save(folder + (right ? "/eye-right.png" : "/eye-left.png"));
+    if (!folder.isEmpty()) drawn.save(folder + (right ? "/drawn-right.png" : "/drawn-left.png"));
+    double difference = 0, contrast = 0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < 4 * kSide; ++x) {
+        difference += std::abs(picture.constScanLine(y)[x] - drawn.constScanLine(y)[x]);
+        contrast += std::abs(picture.constScanLine(y)[x] - picture.constScanLine(0)[x % 4]);
+      }
+    const double each = 4.0 * kSide * kSide;
+    QVERIFY2(difference / each < 1, qPrintable(QString::number(difference / each)));
+    QVERIFY2(contrast / each > 10, qPrintable(QString::number(contrast / each)));
+  }
+}
+
+void VrModeTest::matterMovesInTheHeadset() {
+  backToTheStart();
+  const ScriptedRun run(script(QStringLiteral(R"(, "pictures": [10, 120])")));
+  session().play();
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 122, kLong);
+  leave();
+  QVERIFY(run.picture(10, 0) != run.picture(120, 0));
+  session().pause();
+}
+
+void VrModeTest::noRuntimeIsSaid() {
+  const ScriptedRun run;
+  qputenv("XR_RUNTIME_JSON", run.file("none.json").toUtf8());
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+  QVERIFY(!action()->isChecked());
+  QVERIFY2(status().contains(QStringLiteral("No OpenXR runtime runs here")), qPrintable(status()));
+  QVERIFY(m_window->notice()->text().contains(QStringLiteral("No OpenXR runtime")));
+}
+
+void VrModeTest::everyEndingIsSaidAndVrComesBack_data() {
+  QTest::addColumn<QString>("more");
+  QTest::addColumn<QString>("sentence");
+  const auto row = [](const char* name, const QString& event, const char* sentence) {
+    QTest::newRow(name) << QStringLiteral(R"(, "events": [{%1}])").arg(event) << QString::fromLatin1(sentence);
+  };
+  row("no headset", R"("fail": "xrGetSystem", "result": "XR_ERROR_FORM_FACTOR_UNAVAILABLE")", "No headset");
+  QTest::newRow("no binding") << QStringLiteral(R"(, "extensions": ["XR_MNDX_egl_enable"])")
+                              << QStringLiteral("does not show OpenGL's pictures");
+  row("pictures refused", R"("fail": "xrCreateSwapchain", "result": "XR_ERROR_OUT_OF_MEMORY")", "no memory left");
+  row("session lost", R"("frame": 12, "session_lost": true)", "headset was lost");
+  row("loss announced", R"("frame": 12, "state": "LOSS_PENDING")", "about to be lost");
+  row("runtime about to stop", R"("frame": 12, "instance_loss": true)", "about to stop");
+  row("runtime dies", R"("frame": 12, "dies": "XR_ERROR_INSTANCE_LOST")", "has stopped");
+  row("left in the headset's menu", R"("frame": 12, "state": "EXITING")", "left in the headset");
+}
+
+void VrModeTest::everyEndingIsSaidAndVrComesBack() {
+  QFETCH(QString, more);
+  QFETCH(QString, sentence);
+  const std::string before = writeProject(document().project());
+  {
+    const ScriptedRun run(script(more));
+    action()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+    QVERIFY(!action()->isChecked());
+    QVERIFY2(status().contains(sentence), qPrintable(status()));
+    const QString said = session().log().messages().back().text;
+    QVERIFY2(said.contains(sentence) && said.endsWith('.') && said[0].isUpper(), qPrintable(said));
+    QVERIFY(run.lines("violation").empty());
+  }
+  QCOMPARE(writeProject(document().project()), before);
+  session().step();
+  const double then = session().now();
+  session().play();
+  QTRY_VERIFY_WITH_TIMEOUT(session().now() > then, kLong);
+  session().pause();
+  const ScriptedRun again(script());
+  enter();
+  QVERIFY(!status().contains(sentence));
+  leave();
+  QVERIFY(again.lines("violation").empty());
+}
+
+void VrModeTest::headsetOnTheTableIsLeft() {
+  const ScriptedRun run(script(QStringLiteral(R"(, "events": [{"frame": 12, "state": "IDLE"}])")));
+  enter();
+  QTRY_VERIFY_WITH_TIMEOUT(run.texts("session").back() == "ended", kLong);
+  QTest::qWait(100);
+  QVERIFY(vr().active() && action()->isChecked());
+  leave();
+  QVERIFY(run.lines("violation").empty());
+}
+
+void VrModeTest::anotherProjectComesBeforeTheWearer() {
+  const ScriptedRun run(script());
+  enter();
+  QSignalSpy shown(&session(), &Session::projectShown);
+  m_window->openFile(QStringLiteral(PS_SOURCE_DIR "/projects/candle.json"));
+  QVERIFY(shown.wait(kLong));
+  const uint64_t frames = vr().frames();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > frames + 3, kLong);
+  leave();
+  m_window->openFile(kSample);
+  QVERIFY(shown.wait(kLong));
+  session().pause();
+}
+
+void VrModeTest::staysLeaveNoThreads() {
+  const ScriptedRun run(script());
+  enter();
+  leave();
+  const size_t before = threads();
+  for (int i = 0; i < 20; ++i) {
+    enter();
+    leave();
+  }
+  QTRY_COMPARE(threads(), before);
+  QVERIFY(run.lines("violation").empty());
+  for (const nlohmann::json& line : run.lines("textures")) QCOMPARE(line["textures"].get<int>(), 0);
+}
+
+void VrModeTest::windowClosesInVr() {
+  const ScriptedRun run(script());
+  enter();
+  QVERIFY(m_window->close());
+  m_window.reset();
+  QCOMPARE(run.texts("session").back(), std::string("destroyed"));
+  open();
+}
+
+QTEST_MAIN(VrModeTest)
+#include "tst_vrmode.moc"

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "core/math/vector.h"
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+
+namespace ps::vr {
+
+inline constexpr size_t kLeft = 0, kRight = 1;
+
+/// Where something is, in the floor's space; metres.
+struct HandPose {
+  Vector3 position{0, 0, 0};
+  Quaternion orientation = Quaternion::Identity();
+};
+
+/// What a controller says at a time. Buttons are named after what they do (suggestions.h says which they are).
+struct HandInput {
+  std::optional<HandPose> grip;   ///< of the palm; nothing while the controller is asleep or out of sight
+  std::optional<HandPose> aim;    ///< -z points where the hand does
+  Vector3 velocity{0, 0, 0};      ///< of the grip, m/s; 0 where it is not known
+  double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
+  double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
+  bool steerPressed = false, first = false, second = false;
+};
+
+/// What a controller shall let feel.
+struct Vibration {
+  double amplitude = 0.5;  ///< 0..1
+  double frequency = 0;    ///< Hz; 0 leaves it to the controller
+  double duration = 0.01;  ///< s; 0 for the shortest that it can
+};
+
+}  // namespace ps::vr

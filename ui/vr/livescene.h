@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/vr/headset.h"
+#include "ui/vr/headsetlink.h"
+#include "ui/vr/stand.h"
+
+namespace ps::vr {
+
+/// The editor's scene, as a table before whoever wears the headset. Matter moves from each picture of it to the next in
+/// the time that lay between their comings, on the headset's clock: its frames go on while the solver works.
+class LiveScene : public HeadsetScene {
+ public:
+  /// With the headset's context current. Throws Error.
+  explicit LiveScene(std::shared_ptr<HeadsetLink> link) : m_link(std::move(link)) {}
+
+  std::array<std::optional<Vibration>, 2> prepare(const HeadsetFrame& frame) override;
+  void draw(size_t eye, const Eye& view, const RenderTarget& target) override;
+
+ private:
+  void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);
+  double share(const HeadsetFrame& frame) const;
+
+  std::shared_ptr<HeadsetLink> m_link;
+  Renderer m_renderer;
+  std::shared_ptr<const HeadsetView> m_view = std::make_shared<HeadsetView>();
+  SnapshotPtr m_before;
+  double m_came = 0, m_lasts = 0;  ///< s: when the matter did, and how long it takes to get there from that before
+  Stand m_stand;
+  /// What the renderer has prepared: while only the head moves, it stays.
+  std::shared_ptr<const HeadsetView> m_prepared;
+  double m_share = 1;
+};
+
+}  // namespace ps::vr

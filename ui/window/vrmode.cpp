@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/vrmode.h"
+
+#include "core/base/error.h"
+#include "ui/document/document.h"
+#include "ui/session/recordedview.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/session/transitions.h"
+#include "ui/session/wording.h"
+#include "ui/tools/toolbox.h"
+#include "ui/viewport/viewport.h"
+#include "ui/vr/livescene.h"
+#include "ui/window/headsetcontext.h"
+#include "ui/window/noticebar.h"
+#include "ui/window/notices.h"
+#include "ui/window/statusline.h"
+
+#include <QtGui/QAction>
+
+namespace ps {
+namespace {
+
+constexpr int kLook = 8;         // ms between looks at the headset
+constexpr int kShowAgain = 200;  // ms after which what nobody tells of, like the theme, is shown all the same
+const QString kTopic = QStringLiteral("VR");
+
+/// As graphics drivers' errors are told, they go on from somebody's words.
+QString asSentence(const std::string& text) {
+  const QString said = sentence(QString::fromStdString(text));
+  return said.left(1).toUpper() + said.mid(1);
+}
+
+}  // namespace
+
+VrMode::VrMode(const Parts& parts) : m_parts(parts) {
+  m_timer.setInterval(kLook);
+  m_timer.setTimerType(Qt::PreciseTimer);
+  connect(&m_timer, &QTimer::timeout, this, &VrMode::look);
+  m_parts.action.setCheckable(true);
+  connect(&m_parts.action, &QAction::triggered, this, [this](bool on) { on ? enter() : leave(); });
+  follow();
+}
+
+VrMode::~VrMode() = default;
+
+/// After the view, which has what it draws by then.
+void VrMode::follow() {
+  const auto changed = [this] { m_changed = true; };
+  connect(&m_parts.session, &Session::snapshotArrived, this, [this] {
+    if (m_headset) show();
+  });
+  connect(&m_parts.session, &Session::projectShown, this, [this] {
+    ++m_project;
+    m_changed = true;
+  });
+  connect(&m_parts.session.document(), &Document::changed, this, changed);
+  connect(&m_parts.session.recorded(), &RecordedView::ghostChanged, this, changed);
+  connect(&m_parts.session.transitions(), &Transitions::changed, this, changed);
+  connect(&m_parts.tools.selection(), &Selection::changed, this, changed);
+  connect(&m_parts.tools, &Toolbox::toolChanged, this, changed);
+  connect(&m_parts.tools, &Toolbox::brushChanged, this, changed);
+}
+
+void VrMode::enter() {
+  if (m_headset) return;
+  m_leaving = false;
+  m_parts.status.say({});
+  m_parts.notices.bar().close(kTopic);
+  try {
+    if (!m_parts.view) throw Error("VR needs OpenGL 4.3, which there is none of here; a graphics driver brings it.");
+    m_context = std::make_unique<HeadsetContext>(m_parts.view->context());
+    m_link = std::make_shared<vr::HeadsetLink>();
+    show();
+    vr::HeadsetSetup setup;
+    setup.makeCurrent = [this] { m_context->makeCurrent(); };
+    setup.release = [this] { m_context->release(); };
+    setup.makeScene = [link = m_link] { return std::make_unique<vr::LiveScene>(link); };
+    m_headset = std::make_unique<vr::Headset>(std::move(setup));
+  } catch (const std::exception& error) {
+    end({true, error.what()});
+    return;
+  }
+  m_timer.start();
+  showState();
+}
+
+void VrMode::leave() {
+  if (!m_headset) return;
+  m_leaving = true;
+  m_headset->leave();
+  showState();
+}
+
+uint64_t VrMode::frames() const { return m_headset ? m_headset->frames() : 0; }
+
+void VrMode::look() {
+  if (const auto ending = m_headset->ending()) {
+    end(*ending);
+    return;
+  }
+  if (m_changed || m_sinceShown.hasExpired(kShowAgain)) show();
+  showState();
+}
+
+void VrMode::show() {
+  Viewport& view = *m_parts.view;
+  auto shown = std::make_shared<vr::HeadsetView>();
+  shown->matter = view.snapshot();
+  shown->goesOn = m_parts.session.previousSnapshot() != nullptr;
+  shown->scene = view.scene();
+  shown->look = view.look();
+  shown->project = m_project;
+  const auto before = m_link->shown();
+  if (before && before->project == m_project) {
+    shown->box = before->box;
+  } else {
+    static const Snapshot kEmpty;
+    shown->box = boxOf(shown->matter ? *shown->matter : kEmpty, shown->scene.environment);
+  }
+  m_link->show(std::move(shown));
+  m_changed = false;
+  m_sinceShown.start();
+}
+
+/// The thread is done by then, or as good as.
+void VrMode::end(const vr::Ending& ending) {
+  m_timer.stop();
+  m_headset.reset();
+  m_context.reset();
+  m_link.reset();
+  const QString said = ending.failed ? asSentence(ending.sentence)
+                       : m_leaving   ? QString()
+                                     : QStringLiteral("VR was left in the headset; the scene goes on here.");
+  const MessageLevel level = ending.failed ? MessageLevel::Warning : MessageLevel::Info;
+  showState();
+  m_parts.status.say(said, level);
+  if (!said.isEmpty()) m_parts.notices.message(level, kTopic, said);
+  Q_EMIT ended(said);
+}
+
+void VrMode::showState() {
+  m_parts.action.setChecked(m_headset != nullptr);
+  m_parts.status.setHeadset(!m_headset                ? QString()
+                            : m_leaving               ? QStringLiteral("Leaving VR")
+                            : m_headset->frames() > 0 ? QStringLiteral("In VR")
+                                                      : QStringLiteral("Entering VR"));
+}
+
+}  // namespace ps

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QObject>
+#include <QtCore/QTimer>
+
+#include <cstdint>
+#include <memory>
+
+class QAction;
+
+namespace ps {
+
+namespace vr {
+class Headset;
+class HeadsetLink;
+struct Ending;
+}  // namespace vr
+
+class HeadsetContext;
+class Notices;
+class Session;
+class StatusLine;
+class Toolbox;
+class Viewport;
+
+/// The stay in a headset: an action enters and leaves it. It shows there what the view shows; the run goes on as it is.
+/// Nothing here waits for the headset's thread, which starts and ends the stay by itself; only when this object goes
+/// during a stay does it wait until that is left.
+class VrMode : public QObject {
+  Q_OBJECT
+ public:
+  /// `view`: nullptr where there is no picture. All must outlive it.
+  struct Parts {
+    Session& session;
+    Viewport* view;
+    Toolbox& tools;
+    Notices& notices;
+    StatusLine& status;
+    QAction& action;
+  };
+  explicit VrMode(const Parts& parts);
+  ~VrMode() override;
+
+  void enter();
+  void leave();
+  bool active() const { return m_headset != nullptr; }
+  uint64_t frames() const;  ///< that the headset got in this stay
+
+ Q_SIGNALS:
+  void ended(const QString& sentence);  ///< "": as it was asked for here
+
+ private:
+  void follow();
+  void look();
+  void show();
+  void end(const vr::Ending& ending);
+  void showState();
+
+  const Parts m_parts;
+  std::unique_ptr<HeadsetContext> m_context;
+  std::shared_ptr<vr::HeadsetLink> m_link;
+  std::unique_ptr<vr::Headset> m_headset;
+  bool m_leaving = false;
+  QTimer m_timer{this};
+  bool m_changed = false;  ///< there is something else to show
+  QElapsedTimer m_sinceShown;
+  uint64_t m_project = 1;  ///< counts those that were shown
+};
+
+}  // namespace ps
