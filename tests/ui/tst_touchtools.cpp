@@ -271,6 +271,30 @@ class TestTouchTools : public QObject {
     QCOMPARE(iron(), size_t{0});
   }
 
+  /// In a hole that an eraser has made there is something at the start: no project can say what is drawn there.
+  void whatHasNoRoomAtTheStartIsOfTheRunAlone() {
+    m_engine->stepOnce();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
+    take("cube", 0.06);
+    Pointer eraser = at(kTop);
+    eraser.control = true;
+    m_tools->tool().press(eraser);
+    m_tools->tool().release(eraser);
+    QVERIFY(QTest::qWaitFor([&] { return m_link->strokesOfTheRun() == 1; }));
+    take("cube", 0.015);
+    paintAt(Vector3(0, 0.09, 0));
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    QVERIFY(std::get<VoxelShape>(m_document->project().bodies[1].shape).runs.empty());
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{2});
+    m_document->undoStack().undo();
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{1});
+    m_document->undoStack().redo();
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{2});
+    m_link->reset();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 0; }));
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{0});
+  }
+
   void whatIsLockedIsNotPainted() {
     takePaint();
     m_document->setBodiesLocked({"ice"}, true);

@@ -46,6 +46,7 @@ struct StrokeRecord {
   VoxelShape lattice;                     ///< origin and spacing only
   std::vector<SceneEdit> edits;           ///< what it changes in the document
   MatterRef matter = newMatter();         ///< its particles
+  bool onlyNow = false;                   ///< none of what it drew has room at the start
   /// What it did to the matter that was there: "Heat matter"; the document's bodies are as before. "": it drew or
   /// erased.
   std::string deed{};

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 
 #include <algorithm>
+#include <functional>
 
 // Why matter is named: particles have moved since a stroke made them, so only the engine, which knows their ids, tells
 // them apart, and a reset gives all particles new ids. Right after one, before anything has moved, the cells of a
@@ -225,7 +226,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
   std::vector<NameMatter> named;
   for (const auto& [weak, done, way] : m_strokes) {
     const auto stroke = weak.lock();
-    if (!stroke || !done || stroke->erase || !stroke->deed.empty()) continue;
+    if (!stroke || !done || stroke->erase || stroke->onlyNow || !stroke->deed.empty()) continue;
     if (!stroke->material.empty()) {
       const std::vector<NameMatter> painted = paintedMatter(*stroke, m_document);
       if (!painted.empty()) keyOf(stroke->matter);
@@ -375,10 +376,13 @@ size_t SceneLink::strokesOfTheRun() const {
   if (!snapshot) return 0;
   const auto kept = keptNames();
   const std::vector<MatterKey> known = kept ? kept->keys() : std::vector<MatterKey>{};
+  const auto isKnown = [&](MatterKey key) { return std::find(known.begin(), known.end(), key) != known.end(); };
   const auto& done = snapshot->erasedOrPainted;
-  return static_cast<size_t>(std::count_if(done.begin(), done.end(), [&](MatterKey key) {
-    return std::find(known.begin(), known.end(), key) == known.end();
-  }));
+  const auto drawn = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
+    const auto stroke = one.done ? one.stroke.lock() : nullptr;
+    return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isKnown(*stroke->matter);
+  });
+  return static_cast<size_t>(std::count_if(done.begin(), done.end(), std::not_fn(isKnown)) + drawn);
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) {

@@ -53,7 +53,7 @@ class SceneLink : public QObject {
   /// Whether time passes in the scene.
   bool runs() const;
   /// Strokes of which neither the project's bodies nor its state know: they erased or painted after the start, where
-  /// matter no longer stands where bodies put it.
+  /// matter no longer stands where bodies put it, or drew where there is no room at the start.
   size_t strokesOfTheRun() const;
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);

@@ -277,6 +277,7 @@ void LiveStroke::keep() {
     if (m_atStart) collectPaint(*record);
   } else if (!record->erase) {
     const auto free = freeAtStart(project, m_body->id, record->lattice, record->cells);
+    record->onlyNow = !m_atStart && free.empty();
     record->edits.push_back(paintEdit(project, *m_body, free, record->palette, m_stroke));
   } else if (m_atStart) {
     // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.

@@ -301,9 +301,9 @@ void FileActions::onSaved(const QString& path, bool present) {
       QStringLiteral("state"), MessageLevel::Info,
       QStringLiteral("Saved without %1 made after 0 s.")
           .arg(strokes == 1 ? QStringLiteral("one stroke") : QStringLiteral("%1 strokes").arg(strokes)),
-      state ? QStringLiteral("The project opens at a state from before they erased or painted.")
-            : QStringLiteral("A project begins at its start. What was erased or painted while it ran is in its present "
-                             "state alone."),
+      state ? QStringLiteral("The project opens at a state from before they were made.")
+            : QStringLiteral("A project begins at its start. What was erased or painted while it ran, or drawn where "
+                             "something stands at the start, is in its present state alone."),
       {{QStringLiteral("Save with the present state"), [this] { saveWithState(); }}});
 }
 
