@@ -7,6 +7,7 @@
 #include "ui/session/selection.h"
 #include "ui/tools/picking.h"
 #include "ui/tools/placing.h"
+#include "ui/tools/porthandles.h"
 #include "ui/tools/selecttool.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
@@ -234,6 +235,24 @@ class TestPicking : public QObject {
     down.section = pointer.section;
     const auto floor = pickAt(project, {}, down);
     QVERIFY(floor && floor->item == kFloor);
+  }
+
+  /// Nor is a tap in front of the section, unless it is the one that is selected.
+  void aTapThatIsCutAwayIsNotTakenHoldOf() {
+    Emitter tap;
+    tap.id = "tap", tap.point = Vector3(0, 0.3, 0.2);
+    const std::vector<Emitter> taps{tap};
+    Pointer pointer;
+    pointer.ray = {{0, 0.3, 1}, {0, 0, -1}};
+    PortSet ports{&taps, nullptr, {}};
+    QVERIFY(handleAt(ports, pointer));
+    ports.section = Section{{Vector3(0, 0, -1), -0.1}};
+    QVERIFY(!handleAt(ports, pointer));
+    ports.selected = Port{false, "tap"};
+    QVERIFY(handleAt(ports, pointer));
+    ports.selected.reset();
+    ports.section = Section{{Vector3(0, 0, 1), 0.1}};
+    QVERIFY(handleAt(ports, pointer));
   }
 
   /// By the tool: a click on a floor selects it, on nothing nothing; what is selected is outlined.

@@ -13,7 +13,7 @@ namespace ps {
 
 std::optional<PortHandle> HandleTool::handleUnder(const Pointer& pointer) const {
   const Project& project = box().document().project();
-  return handleAt({&project.emitters, &project.sinks, box().selection().port()}, pointer);
+  return handleAt({&project.emitters, &project.sinks, box().selection().port(), pointer.section}, pointer);
 }
 
 void HandleTool::hover(const Pointer& pointer) { m_hovered = handleUnder(pointer); }

@@ -22,11 +22,13 @@ struct PortHandle {
   bool operator==(const PortHandle&) const = default;
 };
 
-/// Emitters and sinks, and which of them is selected: that one shows its knobs.
+/// Emitters and sinks, and which of them is selected: that one shows its knobs. Others do not show where a section cuts
+/// them away.
 struct PortSet {
   const std::vector<Emitter>* emitters = nullptr;
   const std::vector<Sink>* sinks = nullptr;
   std::optional<Port> selected;
+  std::optional<Section> section{};
 };
 
 /// A mouth is a circle with the jet as a line, a sink a box of wire.
@@ -49,14 +51,16 @@ std::vector<PortHandle> knobsOf(const Port& port, const Sink& sink, double least
 Vector3 anchorOf(const Emitter& emitter);
 Vector3 anchorOf(const Sink& sink);
 
-/// visit(port, item) for each port, the selected one first or last.
+/// visit(port, item) for each port that shows, the selected one first or last.
 template <class Visit>
 void forPorts(const PortSet& ports, bool selectedFirst, Visit&& visit) {
   const auto pass = [&](bool marked) {
     const auto all = [&](const auto& items, bool isSink) {
       for (const auto& item : items) {
         const Port port{isSink, item.id};
-        if ((ports.selected == port) == marked) visit(port, item);
+        const bool selected = ports.selected == port;
+        const bool shows = selected || !ports.section || ports.section->shows(anchorOf(item));
+        if (shows && selected == marked) visit(port, item);
       }
     };
     if (ports.emitters) all(*ports.emitters, false);

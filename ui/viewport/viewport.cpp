@@ -402,7 +402,7 @@ void Viewport::paintPortsOver(QPainter& painter) const {
   const Project& project = m_document.project();
   const ToolPicture picture = m_tools.tool().picture();
   PortView view;
-  view.ports = {&project.emitters, &project.sinks, m_selection.port()};
+  view.ports = {&project.emitters, &project.sinks, m_selection.port(), section()};
   view.camera = m_navigator.camera();
   view.size = size();
   view.hovered = picture.hovered;

@@ -63,7 +63,8 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
 
 std::optional<PortHandle> Viewport::portHandleAt(const QPointF& position) const {
   const Project& project = m_document.project();
-  return handleAt({&project.emitters, &project.sinks, m_selection.port()}, pointerAt(position, {}));
+  const Pointer pointer = pointerAt(position, {});
+  return handleAt({&project.emitters, &project.sinks, m_selection.port(), pointer.section}, pointer);
 }
 
 /// What a drag does to the view, whatever tool is in hand.
