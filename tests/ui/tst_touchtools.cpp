@@ -251,6 +251,30 @@ class TestTouchTools : public QObject {
     QVERIFY(again.runs == voxels.runs);
   }
 
+  /// More of a material that a part of it was painted with goes on with the same body.
+  void aSketchOfSeveralMaterialsIsDrawnOn() {
+    m_tools->activate(kBrushTool);
+    take("sphere", 0.04);
+    const Vector3 beside(0.3, 0, 0);
+    paintAt(beside);
+    takePaint();
+    paintAt(beside + Vector3(0, 0.07, 0));
+    const size_t painted = iron();
+    QVERIFY(painted > 0);
+    take("cube", 0.03);  // of iron
+    paintAt(beside + Vector3(0, 0.07, 0));
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    QVERIFY(iron() > painted);
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies[1].shape);
+    QCOMPARE(voxels.palette.size(), size_t{2});
+    QCOMPARE(voxels.strokes.back().palette, 1);
+    m_link->reset();
+    const size_t cells = iron();
+    QVERIFY(cells > painted);
+    m_document->undoStack().undo();
+    QCOMPARE(iron(), painted);
+  }
+
   /// Of the matter as it stands, which no body's start can say.
   void paintingInARunChangesMatterAlone() {
     takePaint();

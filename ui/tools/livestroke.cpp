@@ -28,14 +28,19 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
   return project.materials.empty() ? nullptr : &project.materials.front();
 }
 
-/// A body that takes more of the same matter: sketched, free, of one material at one temperature, held or not as the
-/// brush draws.
-bool takesMore(const Body& body, const std::string& material, const BrushSettings& brush, const SketchGrid& grid) {
+/// The palette entry of which a body takes more: it is sketched and free, held or not as the brush draws, and has
+/// matter of that material at that temperature.
+std::optional<int> takesMore(const Body& body, const std::string& material, const BrushSettings& brush,
+                             const SketchGrid& grid) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  return voxels && !body.locked && body.visible && voxels->palette.size() == 1 && voxels->origin == grid.origin &&
-         voxels->spacing == grid.spacing && voxels->palette[0].material == material &&
-         voxels->palette[0].temperature == brush.temperature &&
-         toggleOf(body.parameters, bodyParameters(), "held") == brush.held;
+  if (!voxels || body.locked || !body.visible || voxels->origin != grid.origin || voxels->spacing != grid.spacing ||
+      toggleOf(body.parameters, bodyParameters(), "held") != brush.held)
+    return std::nullopt;
+  for (size_t k = 0; k < voxels->palette.size(); ++k) {
+    if (voxels->palette[k].material == material && voxels->palette[k].temperature == brush.temperature)
+      return static_cast<int>(k);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -54,7 +59,8 @@ StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugin
 
 /// The sketched body that takes more of the same matter and has some within the stamp at a place, where the document
 /// has it: what moved away goes on without what is drawn where it was.
-const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const {
+const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const std::string& material,
+                               int& palette) const {
   if (!now.bodyIds) return nullptr;
   const std::vector<Body>& bodies = m_box.document().project().bodies;
   std::vector<const Body*> takers(now.bodyIds->size());
@@ -71,7 +77,9 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
     if (!body || ((place - point).cwiseAbs().array() > reach.array()).any()) continue;
     const auto [known, isNew] = cellsOf.try_emplace(body);
     if (isNew) known->second = VoxelCanvas(std::get<VoxelShape>(body->shape).runs).cells();
-    if (known->second.contains(m_setup.grid.cellAt(place))) return body;
+    if (!known->second.contains(m_setup.grid.cellAt(place))) continue;
+    palette = takesMore(*body, material, m_brush, m_setup.grid).value();
+    return body;
   }
   return nullptr;
 }
@@ -82,7 +90,7 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& pal
   const Project& project = document.project();
   const SceneMaterial* material = sceneMaterial(project, brush.material);
   palette = 0;
-  if (const Body* body = bodyAt(now, point, material->id)) return *body;
+  if (const Body* body = bodyAt(now, point, material->id, palette)) return *body;
   Body body;
   body.id = m_box.document().freeBodyId("sketch-" + material->id);
   const std::string label = material->label.empty() ? material->id : material->label;

@@ -48,7 +48,7 @@ class LiveStroke {
   void keep();
   QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
   Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
-  const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material) const;
+  const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material, int& palette) const;
   void feed(std::vector<api::StrokeSample> samples);
   template <class Work>
   QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
