@@ -102,8 +102,10 @@ class TestBrushWindow : public SampleWindowTest {
   void pen(QPointingDevice::PointerType end, double pressure) {
     static const QPointingDevice eraser(QStringLiteral("eraser"), 17, QInputDevice::DeviceType::Stylus, end,
                                         QInputDevice::Capability::Pressure, 1, 1);
-    QTabletEvent event(QEvent::TabletMove, &eraser, at(kMiddle), view()->mapToGlobal(at(kMiddle)), pressure, 0, 0, 0, 0,
-                       0, Qt::NoModifier, Qt::NoButton, Qt::NoButton);
+    const bool presses = pressure > 0;
+    QTabletEvent event(presses ? QEvent::TabletPress : QEvent::TabletMove, &eraser, at(kMiddle),
+                       view()->mapToGlobal(at(kMiddle)), pressure, 0, 0, 0, 0, 0, Qt::NoModifier,
+                       presses ? Qt::LeftButton : Qt::NoButton, presses ? Qt::LeftButton : Qt::NoButton);
     QApplication::sendEvent(view(), &event);
   }
 };

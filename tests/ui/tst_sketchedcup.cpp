@@ -40,6 +40,7 @@ class TestSketchedCup : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot() && session().snapshot()->position.empty(), kLong);
     session().pause();
     view()->show(StandardView::Scene);
+    QCOMPARE(document().setParameter({Owner::Solver, "", "thermal_time_scale"}, 100.0), QString());
   }
   void cleanupTestCase() { m_window.reset(); }
 
@@ -98,7 +99,7 @@ class TestSketchedCup : public SampleWindowTest {
     QVERIFY2(count > 30, qPrintable(QString::number(count)));
     const double start = meanOf(m_cup).y();
     playOn(0.3);
-    QCOMPARE(meanOf(m_cup).y(), start);  // still held
+    QVERIFY(std::abs(meanOf(m_cup).y() - start) < 1e-6);  // still held
     key(Qt::Key_Return);
     playOn(1.5);
     QVERIFY2(meanOf(m_cup).y() < start - 0.05, qPrintable(QString::number(meanOf(m_cup).y())));  // it has come down

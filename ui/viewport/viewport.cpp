@@ -59,6 +59,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
       m_tools(tools) {
   installViewportAccessibility();
   setMouseTracking(true);
+  setTabletTracking(true);  // which end of the pen hovers
   setAcceptDrops(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(480, 300);
