@@ -71,11 +71,11 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   setup.grid = {{0, 0, 0}, 0.02};
   const api::ParameterList list = plugins.parameters(info.id);
   for (size_t i = 0; i < list.count; ++i) setup.parameters.push_back(list[i].defaultValue);
-  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}}};
+  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}, {1, 0, 0}}};
   const api::BrushPlugin& brush = *plugins.brush(info.id);
   if (plugins.needs(info.id, api::kTouchesMatter)) {
-    if (touchesOf(brush, setup, api::EditKind::Add, {samples.data(), 1}).empty())
-      return "a hand of 5 cm radius that stays in matter does nothing";
+    if (touchesOf(brush, setup, api::EditKind::Add, samples).empty())
+      return "a hand of 5 cm radius that goes through matter does nothing";
     return {};
   }
   const bool paints = plugins.needs(info.id, api::kPaintsMatter);

@@ -145,7 +145,8 @@ api::StrokeContext contextOf(const StrokeSetup& setup) {
           double3Of(up),
           double3Of(side),
           double3Of(side.cross(up)),
-          {setup.parameters.data(), setup.parameters.size()}};
+          {setup.parameters.data(), setup.parameters.size()},
+          double3Of(setup.look)};
 }
 
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,

@@ -54,6 +54,7 @@ struct StrokeSetup {
   Vector3 up{0, 1, 0};             ///< away from what is drawn on; any length, zero counts as upright
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
   std::optional<VoxelShape::Symmetry> symmetry{};
+  Vector3 look{0, 0, 0};  ///< unit vector, or zero: see api::StrokeContext
 };
 
 /// A brush threw, or gave what cannot be.

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 using namespace ps;
 
@@ -175,6 +176,37 @@ class TestTouchTools : public QObject {
     QVERIFY(!tool.cancel());
   }
 
+  /// Across the top of the block, as deep as it is: in two, as one step, and Control welds.
+  void aHandCutsAndWelds() {
+    take("cut", 0.3);
+    m_engine->play();
+    QCOMPARE(pieces(), size_t{1});
+    const auto across = [&](bool control) {
+      Tool& tool = m_tools->tool();
+      for (int step = 0; step <= 8; ++step) {
+        Pointer pointer = at(Vector3(0.004, kTop.y(), 0.06 - 0.015 * step));
+        pointer.control = control;
+        pointer.seconds = 0.02 * step;
+        step == 0 ? static_cast<void>(tool.press(pointer)) : tool.drag(pointer);
+        QTest::qWait(20);
+      }
+      tool.release(at(kTop));
+    };
+    across(false);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("Cut matter"));
+    QTRY_COMPARE(pieces(), size_t{2});
+    m_document->undoStack().undo();
+    QTRY_COMPARE(pieces(), size_t{1});
+    m_document->undoStack().redo();
+    QTRY_COMPARE(pieces(), size_t{2});
+    across(true);
+    QCOMPARE(m_document->undoStack().count(), 2);
+    QTRY_COMPARE(pieces(), size_t{1});
+    m_document->undoStack().undo();
+    QTRY_COMPARE(pieces(), size_t{2});
+  }
+
   /// The way to a brush that draws, and from the eraser, is the one that the keys go.
   void drawingComesBack() {
     m_tools->activate("erase");
@@ -323,6 +355,16 @@ class TestTouchTools : public QObject {
     return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {
       const uint32_t* first = engine.particles().material();
       return static_cast<size_t>(std::count(first, first + engine.particles().size(), 1U));
+    });
+  }
+
+  /// What hangs together, single grains left out.
+  size_t pieces() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {
+      const std::vector<uint32_t> all = engine.solver().pieces();
+      std::set<uint32_t> some(all.begin(), all.end());
+      some.erase(Solver::kNoPiece);
+      return some.size();
     });
   }
 

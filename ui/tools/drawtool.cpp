@@ -67,8 +67,8 @@ bool DrawTool::press(const Pointer& pointer) {
 }
 
 void DrawTool::beginTouch(const Pointer& pointer) {
-  const QString problem =
-      m_touch.begin(pointer.control != m_erases, m_cursor->centre, m_plane.normal, pointer.pressure);
+  const QString problem = m_touch.begin(pointer.control != m_erases, m_cursor->centre, m_plane.normal,
+                                        pointer.ray.direction.normalized(), pointer.pressure);
   if (!problem.isEmpty()) return refuse(problem);
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
   m_hand = pointer;
