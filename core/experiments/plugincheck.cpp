@@ -78,11 +78,11 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
       return "a hand of 5 cm radius that goes through matter does nothing";
     return {};
   }
-  const bool paints = plugins.needs(info.id, api::kPaintsMatter);
-  const api::EditKind kind = paints ? api::EditKind::Paint : api::EditKind::Add;
+  const api::EditKind kind = kindOf(brush, false);
   StrokeEdits edits = applyBrush(brush, setup, kind, samples);
   if (edits.of(kind).empty())
-    return std::string("a stroke of two samples and 5 cm radius ") + (paints ? "paints" : "draws") + " nothing";
+    return std::string("a stroke of two samples and 5 cm radius ") +
+           (kind == api::EditKind::Add ? "draws" : "changes") + " nothing";
   return {};
 }
 

@@ -207,6 +207,56 @@ class TestTouchTools : public QObject {
     QTRY_COMPARE(pieces(), size_t{2});
   }
 
+  /// What was drawn is rounded, in the document and in the scene, as one step; a reset makes the same, and its strokes
+  /// do when they are drawn again.
+  void aSketchIsSmoothed() {
+    m_tools->activate(kBrushTool);
+    take("cube", 0.1);
+    const Vector3 beside(0.3, 0, 0);
+    paintAt(beside);
+    QVERIFY(count() > 0);
+    const std::string before = writeProject(m_document->project());
+    const size_t drawn = count();
+    take("smooth", 0.25);
+    QVERIFY(m_tools->reworks() && !m_tools->tool().words().contains(QStringLiteral("water")));
+    const int steps = m_document->undoStack().count();
+    paintAt(beside + Vector3(0, 0.2, 0));
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("smoothing stroke"));
+    const size_t smooth = count();
+    QVERIFY2(smooth < drawn && smooth > drawn / 2, qPrintable(QString::number(smooth)));
+    const std::string after = writeProject(m_document->project());
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies[1].shape);
+    QCOMPARE(voxels.strokes.size(), size_t{2});
+    QCOMPARE(VoxelCanvas(voxels.runs).size() + 125, smooth);
+    const FreeOf all = [](const SketchGrid&, const CellSet& some) { return some; };
+    const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
+    QVERIFY(redrawn(voxels, kSpacing, all, brushOf).runs == voxels.runs);
+    m_document->undoStack().undo();
+    QCOMPARE(count(), drawn);
+    QCOMPARE(writeProject(m_document->project()), before);
+    m_document->undoStack().redo();
+    QCOMPARE(count(), smooth);
+    QCOMPARE(writeProject(m_document->project()), after);
+    m_link->reset();
+    QCOMPARE(count(), smooth);
+  }
+
+  /// Bodies that were not drawn, and scenes that have begun.
+  void whatCannotBeSmoothedIsSaid() {
+    take("smooth", 0.1);
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    paintAt(kTop);
+    QCOMPARE(refused.count(), 1);
+    QVERIFY(refused[0][1].toString().contains(QStringLiteral("drawn")));
+    m_engine->stepOnce();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
+    paintAt(kTop);
+    QCOMPARE(refused.count(), 2);
+    QVERIFY(refused[1][1].toString().contains(QStringLiteral("Home")));
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
   /// The way to a brush that draws, and from the eraser, is the one that the keys go.
   void drawingComesBack() {
     m_tools->activate("erase");
@@ -358,6 +408,9 @@ class TestTouchTools : public QObject {
     });
   }
 
+  size_t count() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) { return engine.particles().size(); });
+  }
   /// What hangs together, single grains left out.
   size_t pieces() {
     return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {

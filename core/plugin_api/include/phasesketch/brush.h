@@ -19,6 +19,11 @@ inline constexpr const char* kTouchesMatter = "touches_matter";
 /// EditKind::Paint, or Remove where its user erases with it.
 inline constexpr const char* kPaintsMatter = "paints_matter";
 
+/// Capability of a brush that rounds what is drawn, instead of drawing cells: extension(kSmoothsMatter) is not nullptr,
+/// and its metadata list the name. Its stroke() gets and submits EditKind::Smooth, or Remove where its user erases with
+/// it.
+inline constexpr const char* kSmoothsMatter = "smooths_matter";
+
 struct StrokeSample {
   Double3 position;           ///< m
   double pressure;            ///< 0 .. 1
@@ -48,6 +53,7 @@ enum class EditKind : uint32_t {
   Add,     ///< free cells are filled with the material that is drawn with
   Remove,  ///< what stands in cells goes
   Paint,   ///< what stands in cells becomes that material, as warm as it is; free cells stay free
+  Smooth,  ///< of these cells, filled ones at edges and bumps are emptied, and free ones in hollows are filled
 };
 
 /// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.
