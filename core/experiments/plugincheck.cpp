@@ -71,18 +71,18 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   setup.grid = {{0, 0, 0}, 0.02};
   const api::ParameterList list = plugins.parameters(info.id);
   for (size_t i = 0; i < list.count; ++i) setup.parameters.push_back(list[i].defaultValue);
-  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}}};
+  const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}, {1, 0, 0}}};
   const api::BrushPlugin& brush = *plugins.brush(info.id);
   if (plugins.needs(info.id, api::kTouchesMatter)) {
-    if (touchesOf(brush, setup, api::EditKind::Add, {samples.data(), 1}).empty())
-      return "a hand of 5 cm radius that stays in matter does nothing";
+    if (touchesOf(brush, setup, api::EditKind::Add, samples).empty())
+      return "a hand of 5 cm radius that goes through matter does nothing";
     return {};
   }
-  const bool paints = plugins.needs(info.id, api::kPaintsMatter);
-  const api::EditKind kind = paints ? api::EditKind::Paint : api::EditKind::Add;
+  const api::EditKind kind = kindOf(brush, false);
   StrokeEdits edits = applyBrush(brush, setup, kind, samples);
   if (edits.of(kind).empty())
-    return std::string("a stroke of two samples and 5 cm radius ") + (paints ? "paints" : "draws") + " nothing";
+    return std::string("a stroke of two samples and 5 cm radius ") +
+           (kind == api::EditKind::Add ? "draws" : "changes") + " nothing";
   return {};
 }
 

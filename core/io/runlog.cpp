@@ -195,7 +195,7 @@ struct Place : Plain {
   bool isDefault(const api::Double3& place) const { return place.x == 0 && place.y == 0 && place.z == 0; }
 };
 struct Kind : Plain {
-  static constexpr const char* kNames[] = {"heat", "push", "hold"};
+  static constexpr const char* kNames[] = {"heat", "push", "hold", "cut", "weld"};
   Json schema() const { return namesSchema({std::begin(kNames), std::end(kNames)}); }
   void read(Json& value, api::TouchKind& out, const PluginRegistry&) const {
     const auto* name = std::find(std::begin(kNames), std::end(kNames), value.get<std::string>());
@@ -213,7 +213,8 @@ const FieldTable<api::Touch>& touchFields() {
                field("power", &api::Touch::power, Number{-kMost, kMost, "W"}, ""),
                field("limit", &api::Touch::limit, Number{0, 1e4, "K"}, ""),
                field("force", &api::Touch::force, Number{0, kMost, "N"}, ""),
-               field("velocity", &api::Touch::velocity, Place{}, ""), field("spin", &api::Touch::spin, Place{}, "")}};
+               field("velocity", &api::Touch::velocity, Place{}, ""), field("spin", &api::Touch::spin, Place{}, ""),
+               field("normal", &api::Touch::normal, Place{}, "")}};
   return table;
 }
 const FieldTable<TouchMatter>& touchMatterFields() {

@@ -125,7 +125,8 @@ struct ReturnToState {
 /// before it; `still` acts in each frame after that, and none lets go. Heat is W of the thermal clock that was asked
 /// for, booked as heaters; what is fixed takes it like all other matter. What is fixed is neither pushed nor held; the
 /// work of a hand is work from outside, between two frames. Only `still` holds: what is within when it comes first.
-/// Refused with numbers that cannot be, and heat without a thermal model.
+/// What a path cuts and welds it does at once, before all else. Refused with numbers that cannot be, and heat without a
+/// thermal model.
 struct TouchMatter {
   std::vector<api::Touch> path{};
   uint32_t samples = 1;  ///< 1 at least
@@ -134,7 +135,8 @@ struct TouchMatter {
   MatterKey key = 0;                  ///< notes what each particle got
 };
 /// Lets go, and takes from each particle the heat that it got by a key, wherever it is by now, but leaves it at 1 K at
-/// least; what has gone gives nothing back. What a key painted is of its own material again: see Solver::unpaint().
+/// least; what has gone gives nothing back. What a key cut is tied again, what it welded no more: see Solver::undo().
+/// What it painted is of its own material again: see Solver::unpaint().
 struct UndoTouch {
   MatterKey key = 0;
 };

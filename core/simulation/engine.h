@@ -76,6 +76,11 @@ class Engine {
   bool addHeat(std::span<double> joules);
   /// Changes their velocities: see Solver::addVelocities().
   void addVelocities(std::span<const Vector3> change);
+  /// Cuts and welds, and what undo does about them: see Solver::cut().
+  TieChange cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared);
+  TieChange weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared);
+  void undo(const TieChange& change);
+  void redo(const TieChange& change);
   /// Ids of live particles whose centre lies in one of the cells of a lattice.
   std::vector<uint32_t> particlesIn(const VoxelShape& lattice, const std::vector<std::array<int, 3>>& cells) const;
 

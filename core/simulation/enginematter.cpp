@@ -102,6 +102,14 @@ PaintedMatter Engine::paint(const std::vector<uint32_t>& ids, const std::string&
 void Engine::unpaint(const PaintedMatter& painted) { m->solver->unpaint(painted); }
 bool Engine::addHeat(std::span<double> joules) { return m->solver->addHeat(joules); }
 void Engine::addVelocities(std::span<const Vector3> change) { m->solver->addVelocities(change); }
+TieChange Engine::cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared) {
+  return m->solver->cut(blades, isSpared);
+}
+TieChange Engine::weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared) {
+  return m->solver->weld(balls, isSpared);
+}
+void Engine::undo(const TieChange& change) { m->solver->undo(change); }
+void Engine::redo(const TieChange& change) { m->solver->redo(change); }
 void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,

@@ -66,8 +66,8 @@ void Hand::require(const TouchMatter& command, const Engine& engine) {
   for (const auto* touches : {&command.path, &command.still}) {
     if (!std::all_of(touches->begin(), touches->end(), canBe))
       throw InputError(
-          "A hand needs finite numbers, a radius above 0, a falloff of 0 to 1, a limit of 1 to 10000 K, and "
-          "no more than 100 m/s");
+          "A hand needs finite numbers, a radius above 0, a falloff of 0 to 1, a limit of 1 to 10000 K, "
+          "no more than 100 m/s, and a blade's normal of length 1");
     if (std::any_of(touches->begin(), touches->end(), heats) && engine.project().solver.thermalModel.empty())
       throw InputError("The scene has no thermal model, so nothing can be heated or cooled: choose one under Solver");
   }
@@ -90,12 +90,28 @@ void Hand::forEach(Visit&& visit) const {
   for (const api::Touch& touch : m_still) visit(touch, 1.0);
 }
 
-HeatById Hand::act(Engine& engine) {
+HandDeeds Hand::act(Engine& engine) {
   const std::vector<uint8_t> isSpared = flagged(engine, m_spared);
-  HeatById got = heat(engine, isSpared);
+  HandDeeds done;
+  done.ties = changeTies(engine, isSpared);  // first: it may sort the particles
+  done.heat = heat(engine, isSpared);
   push(engine, isSpared);
   m_path.clear();
-  return got;
+  return done;
+}
+
+std::vector<TieChange> Hand::changeTies(Engine& engine, const std::vector<uint8_t>& isSpared) const {
+  std::vector<Blade> blades, balls;
+  forEach([&](const api::Touch& touch, double) {
+    if (touch.kind == api::TouchKind::Cut)
+      blades.push_back({vectorOf(touch.centre), touch.radius, vectorOf(touch.normal)});
+    if (touch.kind == api::TouchKind::Weld) balls.push_back({vectorOf(touch.centre), touch.radius, {}});
+  });
+  std::vector<TieChange> changes;
+  if (!blades.empty()) changes.push_back(engine.cut(blades, isSpared));
+  if (!balls.empty()) changes.push_back(engine.weld(balls, isSpared));
+  std::erase_if(changes, [](const TieChange& change) { return change.empty(); });
+  return changes;
 }
 
 HeatById Hand::heat(Engine& engine, const std::vector<uint8_t>& isSpared) const {

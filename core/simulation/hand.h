@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/command.h"
+#include "core/solver/matter.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,15 +16,21 @@ class Engine;
 /// J by the particles' ids, ascending.
 using HeatById = std::vector<std::pair<uint32_t, double>>;
 
+/// What a hand has done that undo takes back.
+struct HandDeeds {
+  HeatById heat;                ///< that each particle got
+  std::vector<TieChange> ties;  ///< one after the other
+};
+
 /// A hand that is in matter: where it has been since the last frame, what it does where it is, and what it holds.
 class Hand {
  public:
   /// Throws InputError for what cannot be done.
   static void require(const TouchMatter& command, const Engine& engine);
   void move(const TouchMatter& command);
-  /// What it does in one frame, at its start; the heat that each particle got. Matter within several balls gets it from
-  /// each, as far as their limits go.
-  HeatById act(Engine& engine);
+  /// What it does in one frame, at its start. Matter within several balls gets heat from each, as far as their limits
+  /// go.
+  HandDeeds act(Engine& engine);
   /// It has let go, and all that it did is done.
   bool isGone() const { return m_path.empty() && m_still.empty(); }
 
@@ -40,6 +47,8 @@ class Hand {
   /// Calls something with each touch that acts in a frame, and its share of the frame.
   template <class Visit>
   void forEach(Visit&& visit) const;
+  /// All cuts, then all welds.
+  std::vector<TieChange> changeTies(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   void push(Engine& engine, const std::vector<uint8_t>& isSpared);
   void hold(const Engine& engine, const api::Touch& touch, std::optional<std::vector<Held>>& held,

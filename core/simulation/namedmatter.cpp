@@ -96,7 +96,9 @@ std::vector<MatterKey> NamedMatter::hands() const {
 void NamedMatter::act(Engine& engine) {
   for (auto& [key, entry] : m_entries) {
     if (!entry.hand) continue;
-    addTo(entry.heat, entry.hand->act(engine));
+    HandDeeds done = entry.hand->act(engine);
+    addTo(entry.heat, done.heat);
+    std::move(done.ties.begin(), done.ties.end(), std::back_inserter(entry.ties));
     if (entry.hand->isGone()) entry.hand.reset();
   }
 }
@@ -169,6 +171,19 @@ void NamedMatter::unpaint(Engine& engine, std::vector<Coat>& painted, std::vecto
   painted.clear();
 }
 
+/// The last one first.
+void NamedMatter::undoTies(Engine& engine, Entry& entry) {
+  for (auto change = entry.ties.rbegin(); change != entry.ties.rend(); ++change) engine.undo(*change);
+  std::move(entry.ties.begin(), entry.ties.end(), std::back_inserter(entry.untied));
+  entry.ties.clear();
+}
+
+void NamedMatter::redoTies(Engine& engine, Entry& entry) {
+  for (const TieChange& change : entry.untied) engine.redo(change);
+  std::move(entry.untied.begin(), entry.untied.end(), std::back_inserter(entry.ties));
+  entry.untied.clear();
+}
+
 void NamedMatter::apply(Engine& engine, const PaintCells& command) {
   std::vector<Coat> coats{
       {sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared), command.material}};
@@ -222,6 +237,7 @@ void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
   entry.hand.reset();
   if (!entry.heat.empty()) entry.taken = negated(giveHeat(engine, negated(entry.heat)));  // else it is taken already
   entry.heat.clear();
+  undoTies(engine, entry);
   unpaint(engine, entry.painted, entry.bare);
   paint(engine, entry.before, entry.stripped);
 }
@@ -231,6 +247,7 @@ void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
   if (found == m_entries.end()) return;
   found->second.heat = giveHeat(engine, found->second.taken);
   found->second.taken.clear();
+  redoTies(engine, found->second);
   unpaint(engine, found->second.stripped, found->second.before);
   paint(engine, found->second.bare, found->second.painted);
 }

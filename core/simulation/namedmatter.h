@@ -57,19 +57,22 @@ class NamedMatter {
     std::vector<ExtractedMatter> extracted;  ///< what is out of the scene now
     bool afterStart = false;                 ///< of cells: the scene had begun
     std::optional<Hand> hand;
-    HeatById heat, taken;             ///< what it gave, and what of it was taken back
-    std::vector<Coat> painted, bare;  ///< one after the other: what it painted, and what of it was taken back
+    HeatById heat, taken;                 ///< what it gave, and what of it was taken back
+    std::vector<TieChange> ties, untied;  ///< likewise what it cut and welded
+    std::vector<Coat> painted, bare;      ///< one after the other: what it painted, and what of it was taken back
     /// What it had painted before a reset, with the material that undo gives, and what undo has given it.
     std::vector<Coat> before, stripped;
     bool isPresent() const {
-      return extracted.empty() && heat.empty() && taken.empty() && !hand && painted.empty() && bare.empty() &&
-             before.empty() && stripped.empty();
+      return extracted.empty() && heat.empty() && taken.empty() && ties.empty() && untied.empty() && !hand &&
+             painted.empty() && bare.empty() && before.empty() && stripped.empty();
     }
   };
   static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);
   static void paint(Engine& engine, std::vector<Coat>& coats, std::vector<Coat>& painted);
   static void unpaint(Engine& engine, std::vector<Coat>& painted, std::vector<Coat>& coats);
+  static void undoTies(Engine& engine, Entry& entry);
+  static void redoTies(Engine& engine, Entry& entry);
   std::map<MatterKey, Entry> m_entries;
 };
 

@@ -52,7 +52,9 @@ bool canBe(const api::Touch& touch) {
                     (touch.kind != api::TouchKind::Heat || (touch.limit >= kColdest && touch.limit <= kHottest));
   const bool motion = touch.force >= 0 && touch.force <= kStrongest && vectorOf(touch.velocity).norm() <= kFastest &&
                       vectorOf(touch.spin).norm() <= kQuickest;
-  return touch.kind <= api::TouchKind::Hold && place && heat && motion;
+  const double normal = vectorOf(touch.normal).norm();
+  const bool blade = normal == 0 || (touch.kind == api::TouchKind::Cut && std::abs(normal - 1) < 1e-6);
+  return touch.kind <= api::TouchKind::Weld && place && heat && motion && blade;
 }
 
 Reached reach(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {

@@ -2,6 +2,7 @@
 #include "core/sketch/redraw.h"
 
 #include "core/base/error.h"
+#include "core/sketch/smoothing.h"
 #include "core/sketch/stroke.h"
 
 namespace ps {
@@ -18,6 +19,9 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf
     const StrokeEdits edits = replayStroke(*brush, stroke, grid);
     canvas.erase(edits.removed);
     canvas.paint(freeOf(grid, edits.added), stroke.palette);
+    const Smoothed smooth = edits.smoothed.empty() ? Smoothed{} : smoothed(canvas, edits.smoothed);
+    canvas.erase(smooth.emptied);
+    for (const auto& [palette, cells] : smooth.filled) canvas.paint(freeOf(grid, cells), palette);
     if (edits.painted.empty()) continue;
     out.runs = canvas.runs();
     const Repainted painted =

@@ -16,9 +16,9 @@ using BrushOf = std::function<const api::BrushPlugin*(const std::string& id)>;
 using FreeOf = std::function<CellSet(const SketchGrid& grid, const CellSet& cells)>;
 
 /// A sketch drawn again from its strokes alone, in their order, on a lattice of `spacing` m: an adding stroke fills the
-/// cells that are free, an erasing one empties them, one that paints makes those that are filled of its material. What
-/// cells it had and no stroke explains is gone. Throws InputError where a brush is missing, or a stroke cannot be
-/// drawn.
+/// cells that are free, an erasing one empties them, one that paints makes those that are filled of its material, one
+/// that smooths rounds what is there by then. What cells it had and no stroke explains is gone. Throws InputError where
+/// a brush is missing, or a stroke cannot be drawn.
 VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf);
 
 }  // namespace ps

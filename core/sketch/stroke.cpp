@@ -43,7 +43,7 @@ class Collector final : public api::EditSink {
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
     if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
-    if (kind > api::EditKind::Paint) throw BrushFault("it submitted cells for an edit that there is not");
+    if (kind > api::EditKind::Smooth) throw BrushFault("it submitted cells for an edit that there is not");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());
@@ -59,7 +59,8 @@ class Collector final : public api::EditSink {
   void flush() {
     m_edits.of(m_kind).add(m_pending);
     size_t all = 0;
-    for (const api::EditKind kind : {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint}) {
+    for (const api::EditKind kind :
+         {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint, api::EditKind::Smooth}) {
       CellSet& cells = m_edits.of(kind);
       if (kind != m_kind && !cells.empty()) cells.remove(m_pending);
       all += cells.size();
@@ -145,7 +146,8 @@ api::StrokeContext contextOf(const StrokeSetup& setup) {
           double3Of(up),
           double3Of(side),
           double3Of(side.cross(up)),
-          {setup.parameters.data(), setup.parameters.size()}};
+          {setup.parameters.data(), setup.parameters.size()},
+          double3Of(setup.look)};
 }
 
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
@@ -190,6 +192,7 @@ bool isInScene(const Environment& environment, const SketchGrid& grid, const api
 
 api::EditKind kindOf(const api::BrushPlugin& brush, bool erase) {
   if (erase) return api::EditKind::Remove;
+  if (brush.extension(api::kSmoothsMatter)) return api::EditKind::Smooth;
   return brush.extension(api::kPaintsMatter) ? api::EditKind::Paint : api::EditKind::Add;
 }
 

@@ -40,9 +40,10 @@ std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample>
 
 /// What a stroke asks for: sets without a common cell (the later edit of a cell wins).
 struct StrokeEdits {
-  CellSet added, removed, painted;
-  bool empty() const { return added.empty() && removed.empty() && painted.empty(); }
+  CellSet added, removed, painted, smoothed;
+  bool empty() const { return added.empty() && removed.empty() && painted.empty() && smoothed.empty(); }
   CellSet& of(api::EditKind kind) {
+    if (kind == api::EditKind::Smooth) return smoothed;
     return kind == api::EditKind::Add ? added : kind == api::EditKind::Remove ? removed : painted;
   }
 };
@@ -54,6 +55,7 @@ struct StrokeSetup {
   Vector3 up{0, 1, 0};             ///< away from what is drawn on; any length, zero counts as upright
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
   std::optional<VoxelShape::Symmetry> symmetry{};
+  Vector3 look{0, 0, 0};  ///< unit vector, or zero: see api::StrokeContext
 };
 
 /// A brush threw, or gave what cannot be.
@@ -73,7 +75,7 @@ api::StrokeContext contextOf(const StrokeSetup& setup);
 /// kMaxStrokeCells, and BrushFault for what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
-/// The same into a set of cells: Add puts cells in, Remove takes them out, Paint leaves them.
+/// The same into a set of cells: Add puts cells in, Remove takes them out, Paint and Smooth leave them.
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                 std::span<const api::StrokeSample> samples, CellSet& cells);
 /// Whether a cell's particle has room within the scene's bounds and before its walls.

@@ -41,7 +41,7 @@ std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& sam
 }
 
 api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image) {
-  for (api::Double3* axis : {&context.up, &context.side, &context.front})
+  for (api::Double3* axis : {&context.up, &context.side, &context.front, &context.look})
     *axis = double3Of(image.turn * vectorOf(*axis));
   return context;
 }

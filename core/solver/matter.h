@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/vector.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/report.h"
 
@@ -39,6 +40,22 @@ struct CopiedConstraints;
 struct ExtractedMatter {
   CopiedParticles particles;
   std::shared_ptr<const CopiedConstraints> constraints;
+};
+
+/// Where a hand cuts: ties that go through a disc, or, without a normal, that have a part within a ball.
+struct Blade {
+  Vector3 centre;  ///< m
+  double radius;   ///< m
+  Vector3 normal;  ///< unit vector, or zero
+  bool isDisc() const { return normal.squaredNorm() > 0; }
+};
+
+/// Ties that a hand broke or made, by the ids of particles; opaque to its keeper.
+struct TieChange {
+  bool made = false;
+  std::vector<uint64_t> cuts;  ///< pairs that it parted, or that are parted no more: see Cuts
+  std::shared_ptr<const CopiedConstraints> ties;
+  bool empty() const { return cuts.empty() && !ties; }
 };
 
 /// What particles were before they were made of another material, and after; opaque to its keeper.

@@ -179,6 +179,13 @@ void Solver::Impl::matterChanged(double energyBefore, bool others) {
   lastGoodValid = false;
 }
 
+TieChange Solver::Impl::tiesChanged(TieChange change) {
+  if (change.empty()) return change;
+  structureChanged = true;
+  lastGoodValid = false;
+  return change;
+}
+
 std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   const size_t count = spawn.position.size();
   if (count == 0) return {};
@@ -329,6 +336,31 @@ void Solver::addVelocities(std::span<const Vector3> change) {
     api::Float4& velocity = store.velocity()[i];
     if (velocity.w > 0) assignTo(velocity, vectorOf(velocity) + change[i]);
   }
+}
+
+TieChange Solver::cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared) {
+  m->configure();
+  m->freshLists();
+  return m->tiesChanged(m->constraints.cut(m->store, m->neighbours, blades, isSpared));
+}
+
+TieChange Solver::weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared) {
+  m->configure();
+  m->freshLists();
+  return m->tiesChanged(m->constraints.weld(m->store, m->neighbours, balls, isSpared));
+}
+
+void Solver::undo(const TieChange& change) { m->changeTies(change, !change.made); }
+void Solver::redo(const TieChange& change) { m->changeTies(change, change.made); }
+
+void Solver::Impl::changeTies(const TieChange& change, bool made) {
+  configure();
+  freshLists();
+  if (made)
+    constraints.tie(store, neighbours, change);
+  else
+    constraints.sever(store, neighbours, change);
+  tiesChanged(change);
 }
 
 StepReport Solver::step() {

@@ -119,6 +119,18 @@ class Solver {
   /// from outside, as carry() has it.
   void addVelocities(std::span<const Vector3> change);
 
+  /// Breaks ties across blades, and parts groups there, except of bodies that are spared, by their index. Between two
+  /// frames; what they had stored goes, as where ties melt. Those who were tied there are not joined again by
+  /// themselves while both stay solid. What it did, for undo.
+  TieChange cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared);
+  /// Ties what is solid and touches within the balls of blades, of bodies whose structure offers that (kWeldsMatter),
+  /// at rest as it stands. It may join by itself again there.
+  TieChange weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared);
+  /// Takes a cut or a weld back by the particles' ids, wherever they are by now, or makes it again. Ties whose
+  /// particles are not all alive stay away; those that come back are as long at rest as they were.
+  void undo(const TieChange& change);
+  void redo(const TieChange& change);
+
   /// One frame. On NotFinite the state goes back to where the last good frame began, clocks and all.
   StepReport step();
 

@@ -81,4 +81,15 @@ inline constexpr HeatValues kHeating{100, 1273.15, 0.5}, kCooling{100, 195.15, 0
 void exchangeHeat(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, bool cools,
                   const HeatValues& values, api::TouchSink& sink);
 
+/// Cuts along the way by a blade as wide as the ball, which goes with the hand and is seen from its edge: a hand that
+/// stays cuts nothing. Where nobody looks it stands on what is drawn on. Where `whole`, all of the ball cuts.
+void cutAlong(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, bool whole,
+              api::TouchSink& sink);
+/// Welds what touches within the ball.
+void weldAlong(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, api::TouchSink& sink);
+inline constexpr api::ParameterDeclaration kWholeBall[] = {
+    {"whole", "Whole ball", "", "", api::ParameterKind::Toggle, api::Scale::Linear, 0, 0, 1, 0, 1, "", 1, 0, "",
+     "Brush", "Cuts all ties that reach into the ball, so that what is within crumbles, instead of along a blade.",
+     "off: a knife, on: a grinder", ""}};
+
 }  // namespace ps::brushes

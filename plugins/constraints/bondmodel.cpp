@@ -265,6 +265,7 @@ void BondModel::addBond(const ParticleView& p, uint32_t i, uint32_t j, const Len
 const void* BondModel::extension(const char* name) const noexcept {
   if (std::string_view(name) == api::kStructureCount) return static_cast<const api::StructureCount*>(this);
   if (std::string_view(name) == api::kSpringTies) return static_cast<const api::SpringTies*>(this);
+  if (std::string_view(name) == api::kWeldsMatter) return static_cast<const api::Welding*>(this);
   return std::string_view(name) == api::kHoldsFrozen ? this : nullptr;
 }
 
@@ -297,6 +298,24 @@ void BondModel::build(const ConstraintContext& context, const ParticleView& p, c
                           context.parameters[kReferenceTemperature]};
       addBond(p, i, j, length, sink);
       ++ties[i], ++ties[j];
+    }
+  }
+}
+
+/// As far as bonds of a lattice reach, so that one that is whole gets no others. Rigid bodies hold their own.
+void BondModel::weld(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
+                     api::Span<const uint32_t> members, api::ConstraintSink& sink) const {
+  const Joining joining(context, p);
+  std::vector<uint8_t> isMember(p.count, 0);
+  for (const uint32_t i : members) isMember[i] = 1;
+  for (const uint32_t i : members) {
+    const bool axial = context.parametersOf(p.body[i])[kNeighbours] > 0.5;
+    const float radius = (axial ? kAxialRadius : kLatticeRadius) * static_cast<float>(context.spacing);
+    for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
+      const uint32_t j = lists.index[q];
+      if (j < i || isMember[j] == 0 || (joining.isRigid(i) && joining.isRigid(j))) continue;
+      if (!(distanceSquared(p, i, j) < radius * radius)) continue;
+      addBond(p, i, j, {1, p.position[i].w + p.position[j].w, 0}, sink);
     }
   }
 }

@@ -19,7 +19,10 @@ namespace ps::constraint {
 /// At a surface the diagonal springs across it are missing. The axial ones there are stiffer by 3/32 for each spring
 /// that a particle lacks of 18, half by either end: with all of its neighbours a particle has E, and a row of single
 /// ones has E dx² too. A beam two particles thick sags 1.7 times too far, three 1.3, four 1.15, eight 1.05 times.
-class BondModel : public api::Described<api::StructuralPlugin>, public api::StructureCount, public api::SpringTies {
+class BondModel : public api::Described<api::StructuralPlugin>,
+                  public api::StructureCount,
+                  public api::SpringTies,
+                  public api::Welding {
  public:
   enum Parameter {
     kBondMax,
@@ -57,6 +60,8 @@ class BondModel : public api::Described<api::StructuralPlugin>, public api::Stru
   void topology(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::NeighbourView& lists, const api::ConstraintBatch& all,
                 api::ConstraintSink& sink) const override;
+  void weld(const api::ConstraintContext& context, const api::ParticleView& particles, const api::NeighbourView& lists,
+            api::Span<const uint32_t> members, api::ConstraintSink& sink) const override;
   double energy(const api::ConstraintContext& context, const api::ParticleView& particles,
                 const api::ConstraintBatch& batch) const override;
   void limits(const api::ConstraintContext& context, const api::ParticleView& particles,

@@ -239,7 +239,10 @@ void ClusterModel::topology(const ConstraintContext& context, const ParticleView
     for (size_t k = all.begin[g]; k < all.begin[g + 1]; ++k) volume += double{all.memberValues[kRestVolume][k]};
     rest.reserve(kept.size());
     for (const size_t k : kept) rest.push_back(shape.rest(k));
-    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, NewCluster::kReach * context.spacing);
+    const auto parted = [&](size_t a, size_t b) {
+      return context.cuts && context.cuts->between(all.particles[kept[a]], all.particles[kept[b]]);
+    };
+    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, NewCluster::kReach * context.spacing, parted);
     if (pieces.size() == 1 && kept.size() == before && before >= NewCluster::kLeastMembers) continue;
     sink.remove(g);
     for (const std::vector<size_t>& piece : pieces) {

@@ -14,6 +14,7 @@ bool isFluid(api::Motion motion) { return motion == api::Motion::Liquid || motio
 
 Joining::Joining(const api::ConstraintContext& context, const api::ParticleView& particles)
     : m_p(particles),
+      m_cuts(context.cuts),
       m_adhesion(context.materials.size * context.materials.size),
       m_fresh(fieldOf(particles, kFreshField)),
       m_keeper(fieldOf(particles, kKeeperField)) {

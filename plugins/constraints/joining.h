@@ -28,7 +28,8 @@ inline constexpr api::FieldDeclaration kJoiningFields[] = {
 /// last tie, both are frozen by their material's `freeze_bond_fraction`, and they are of one material or one of the two
 /// names the other's in its `adheres_to`. Sintering: both are dry, of one material that `sinters` (ice: Faraday 1860),
 /// below its melting point, and touch. Nothing else joins: a cooling iron ball is not welded to its table, neither is
-/// tin that sets on iron. It cannot do: strength that grows with time and pressure, as real sintering does.
+/// tin that sets on iron. What a hand has cut apart joins at the cut only where one of the two has been fluid since.
+/// It cannot do: strength that grows with time and pressure, as real sintering does.
 class Joining {
  public:
   Joining(const api::ConstraintContext& context, const api::ParticleView& particles);
@@ -41,10 +42,11 @@ class Joining {
   bool frozen(uint32_t i) const { return m_p.solidFraction[i] >= ruleOf(i).freezeFraction; }
   bool fresh(uint32_t i) const { return m_fresh[i] != 0; }
   bool dryJoiner(uint32_t i) const {
-    return ruleOf(i).sinters && m_p.temperature[i] < ruleOf(i).solidus && m_fresh[i] == 0;
+    return ruleOf(i).sinters && m_p.temperature[i] < ruleOf(i).solidus && m_fresh[i] == 0 && !cut(i);
   }
   bool mayFreeze(uint32_t i, uint32_t j) const {
-    return (fresh(i) || fresh(j)) && akin(m_p.material[i], m_p.material[j]) && frozen(i) && frozen(j);
+    return (fresh(i) || fresh(j)) && !(cut(i) && cut(j)) && akin(m_p.material[i], m_p.material[j]) && frozen(i) &&
+           frozen(j);
   }
   bool maySinter(uint32_t i, uint32_t j) const {
     return m_p.material[i] == m_p.material[j] && dryJoiner(i) && dryJoiner(j) && frozen(i) && frozen(j);
@@ -64,9 +66,11 @@ class Joining {
     bool sinters;
   };
   const Rule& ruleOf(uint32_t i) const { return m_rules[m_p.material[i]]; }
+  bool cut(uint32_t i) const { return m_cuts && m_cuts->at(i); }
   bool akin(uint32_t a, uint32_t b) const { return a == b || m_adhesion[a * m_rules.size() + b] != 0; }
 
   const api::ParticleView& m_p;
+  const api::CutView* m_cuts;
   std::vector<Rule> m_rules;
   std::vector<uint8_t> m_adhesion;  ///< of materials, two by two
   uint8_t *m_fresh, *m_keeper;

@@ -112,12 +112,13 @@ class PointCells {
 
 }  // namespace
 
-std::vector<std::vector<size_t>> piecesOf(const std::vector<Vector>& points, double radius) {
+std::vector<std::vector<size_t>> piecesOf(const std::vector<Vector>& points, double radius,
+                                          const std::function<bool(size_t, size_t)>& parted) {
   if (points.empty()) return {};
   DisjointSets sets(points.size());
   PointCells(points, radius).forPairs([&](uint32_t a, uint32_t b) {
     const Vector d = points[a] - points[b];
-    if (dot(d, d) < radius * radius) sets.unite(a, b);
+    if (dot(d, d) < radius * radius && !(parted && parted(a, b))) sets.unite(a, b);
   });
   return sets.sets();
 }

@@ -3,6 +3,7 @@
 #include "rotation.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace ps::constraint {
@@ -20,7 +21,8 @@ class DisjointSets {
   std::vector<size_t> m_parent;
 };
 
-/// Points that hang together by steps shorter than `radius`.
-std::vector<std::vector<size_t>> piecesOf(const std::vector<Vector>& points, double radius);
+/// Points that hang together by steps shorter than `radius`, but for those of pairs that are parted.
+std::vector<std::vector<size_t>> piecesOf(const std::vector<Vector>& points, double radius,
+                                          const std::function<bool(size_t, size_t)>& parted = {});
 
 }  // namespace ps::constraint

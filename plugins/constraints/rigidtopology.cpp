@@ -5,6 +5,7 @@
 #include "rigidpieces.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -99,7 +100,9 @@ class Reshaping {
     std::vector<Vector> rest;
     rest.reserve(kept.size());
     for (const size_t k : kept) rest.push_back(restPlace(k));
-    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kRigidReach * m_context.spacing);
+    std::function<bool(size_t, size_t)> parted;
+    if (m_context.cuts) parted = [&](size_t a, size_t b) { return isCut(kept[a], kept[b]); };
+    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kRigidReach * m_context.spacing, parted);
     const bool whole = pieces.size() == 1 && kept.size() == before && before >= fewest;
     m_gone[g] = whole ? 0 : 1;
     for (const std::vector<size_t>& members : pieces) {
@@ -114,10 +117,13 @@ class Reshaping {
     return {m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
             m_all.memberValues[RigidModel::kRestZ][k]};
   }
+  bool isCut(size_t k, size_t other) const {
+    return m_context.cuts && m_context.cuts->between(m_all.particles[k], m_all.particles[other]);
+  }
   bool hangTogether(size_t k, size_t other) const {
     const Vector d = restPlace(k) - restPlace(other);
     const double reach = kRigidReach * m_context.spacing;
-    return dot(d, d) < reach * reach;
+    return dot(d, d) < reach * reach && !isCut(k, other);
   }
   /// Whether a body that has hung together still does without those that have melted, told by what is near them alone:
   /// it does when all that each lump of them touched hangs together directly. False where that does not tell.
@@ -234,10 +240,13 @@ class Reshaping {
   bool returned(uint32_t i, uint32_t j) const {
     return m_p.body[i] == m_p.body[j] && std::max(m_touch[i], m_touch[j]) >= kReturned;
   }
+  /// They were cut apart, and are no more.
+  bool healed(uint32_t i, uint32_t j) const { return m_context.healed && m_context.healed->between(i, j); }
   /// How two members of different pieces hold on to each other now.
-  enum class Grip { None, Dry, Wet };
+  enum class Grip { None, Dry, Wet, Healed };
   Grip grip(uint32_t i, uint32_t j) const {
     const double d2 = squaredDistance(i, j), touch = kTouchReach * m_context.spacing;
+    if (healed(i, j) && d2 < kRigidReach * kRigidReach * m_context.spacing * m_context.spacing) return Grip::Healed;
     if (returned(i, j) && d2 < squaredReach(i)) return Grip::Wet;
     if (d2 < std::max(squaredReach(i), squaredReach(j)) && m_joining.mayFreeze(i, j)) return Grip::Wet;
     return d2 < touch * touch && m_joining.maySinter(i, j) ? Grip::Dry : Grip::None;
@@ -263,6 +272,7 @@ class Reshaping {
   /// Pieces whose members have touched for long enough become one.
   void growTogether() {
     std::vector<std::pair<uint32_t, uint32_t>> touching;  // particles
+    DisjointSets sets(m_pieces.size());
     const std::vector<uint8_t> border = findBorders();
     for (uint32_t i = 0; i < m_p.count; ++i) {
       if (m_pieceOf[i] == kNone) continue;
@@ -272,6 +282,7 @@ class Reshaping {
         if (m_pieceOf[j] == kNone || m_pieceOf[j] == m_pieceOf[i]) continue;
         const Grip g = grip(i, j);
         if (g == Grip::None) continue;
+        if (g == Grip::Healed) sets.unite(m_pieceOf[i], m_pieceOf[j]);
         touches = true;
         wet = wet || g == Grip::Wet;
         if (i < j) touching.emplace_back(i, j);
@@ -287,7 +298,6 @@ class Reshaping {
     }
     keepTouches();
     std::sort(held.begin(), held.end());
-    DisjointSets sets(m_pieces.size());
     for (size_t k = 0, next = 0; k < held.size(); k = next) {
       while (next < held.size() && held[next] == held[k]) ++next;
       if (next - k >= kLeastPairs) sets.unite(held[k].first, held[k].second);

@@ -300,7 +300,7 @@ void TestTouch::whatCannotBeIsRefused() {
   QVERIFY(refuses([&](api::Touch& t) { t.power = nan; }) && refuses([&](api::Touch& t) { t.centre.y = nan; }));
   QVERIFY(refuses([&](api::Touch& t) { t.radius = 0; }) && refuses([&](api::Touch& t) { t.falloff = 1.5; }));
   QVERIFY(refuses([&](api::Touch& t) { t.limit = 0; }) && refuses([&](api::Touch& t) { t.limit = 2e4; }));
-  QVERIFY(refuses([&](api::Touch& t) { t.kind = static_cast<api::TouchKind>(3); }));
+  QVERIFY(refuses([&](api::Touch& t) { t.kind = static_cast<api::TouchKind>(5); }));
   QVERIFY(refuses([&](api::Touch& t) { t.spin = {0, 1e6, 0}; }) && refuses([&](api::Touch& t) { t.force = -1; }));
   QVERIFY(!refuses([](api::Touch& t) { t.power = 0; }));
   engine.apply(UndoTouch{kKey});

@@ -913,6 +913,41 @@ class TestPluginHost : public QObject {
     QVERIFY_EXCEPTION_THROWN(touchesOf(*registry.brush("sphere"), setup, api::EditKind::Add, hand), BrushFault);
   }
 
+  /// A blade across the way of the hand, upright on what it goes along, in the mirror too; a hand that has not moved
+  /// has none. A weld is a ball everywhere, and each is the opposite of the other.
+  void ownBrushesCutAndWeld() {
+    const PluginRegistry registry{PluginRegistry::Options{}};
+    StrokeSetup setup;
+    setup.radius = 0.07;
+    setup.up = {0, 2, 0};
+    setup.symmetry = VoxelShape::Symmetry{"x", 1, Vector3(0, 0, 0)};
+    const std::vector<api::StrokeSample> hand{{{1, 2, 3}, 1, 0, {}}, {{1.01, 2, 3.01}, 1, 0.1, {0.6, 0, 0.8}}};
+    const auto touched = [&](const char* brush, api::EditKind edit) {
+      return touchesOf(*registry.brush(brush), setup, edit, hand);
+    };
+    for (const std::vector<api::Touch>& blades :
+         {touched("cut", api::EditKind::Add), touched("weld", api::EditKind::Remove)}) {
+      QCOMPARE(blades.size(), size_t{2});
+      for (size_t k = 0; k < 2; ++k) {
+        QVERIFY(blades[k].kind == api::TouchKind::Cut && blades[k].radius == 0.07);
+        const Vector3 normal = vectorOf(blades[k].normal), way(k == 0 ? 0.6 : -0.6, 0, 0.8);
+        QVERIFY(std::abs(normal.norm() - 1) < 1e-12 && std::abs(normal.dot(way)) < 1e-12 && normal.y() == 0);
+      }
+    }
+    for (const std::vector<api::Touch>& balls :
+         {touched("weld", api::EditKind::Add), touched("cut", api::EditKind::Remove)}) {
+      QCOMPARE(balls.size(), size_t{4});
+      for (const api::Touch& ball : balls) {
+        QVERIFY(ball.kind == api::TouchKind::Weld && ball.radius == 0.07);
+        QCOMPARE(vectorOf(ball.normal).norm(), 0.0);
+      }
+    }
+    setup.parameters = {1};
+    const std::vector<api::Touch> whole = touched("cut", api::EditKind::Add);
+    QCOMPARE(whole.size(), size_t{4});
+    QVERIFY(whole[0].kind == api::TouchKind::Cut && vectorOf(whole[0].normal).norm() == 0);
+  }
+
   void keysOfBrushesAreLetters_data() {
     QTest::addColumn<QJsonValue>("key");
     QTest::addColumn<bool>("sound");

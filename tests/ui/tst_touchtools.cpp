@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 using namespace ps;
 
@@ -173,6 +174,87 @@ class TestTouchTools : public QObject {
     tool.see(there.get());
     QCoreApplication::processEvents();
     QVERIFY(!tool.cancel());
+  }
+
+  /// Across the top of the block, as deep as it is: in two, as one step, and Control welds.
+  void aHandCutsAndWelds() {
+    take("cut", 0.3);
+    m_engine->play();
+    QCOMPARE(pieces(), size_t{1});
+    const auto across = [&](bool control) {
+      Tool& tool = m_tools->tool();
+      for (int step = 0; step <= 8; ++step) {
+        Pointer pointer = at(Vector3(0.004, kTop.y(), 0.06 - 0.015 * step));
+        pointer.control = control;
+        pointer.seconds = 0.02 * step;
+        step == 0 ? static_cast<void>(tool.press(pointer)) : tool.drag(pointer);
+        QTest::qWait(20);
+      }
+      tool.release(at(kTop));
+    };
+    across(false);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("Cut matter"));
+    QTRY_COMPARE(pieces(), size_t{2});
+    m_document->undoStack().undo();
+    QTRY_COMPARE(pieces(), size_t{1});
+    m_document->undoStack().redo();
+    QTRY_COMPARE(pieces(), size_t{2});
+    across(true);
+    QCOMPARE(m_document->undoStack().count(), 2);
+    QTRY_COMPARE(pieces(), size_t{1});
+    m_document->undoStack().undo();
+    QTRY_COMPARE(pieces(), size_t{2});
+  }
+
+  /// What was drawn is rounded, in the document and in the scene, as one step; a reset makes the same, and its strokes
+  /// do when they are drawn again.
+  void aSketchIsSmoothed() {
+    m_tools->activate(kBrushTool);
+    take("cube", 0.1);
+    const Vector3 beside(0.3, 0, 0);
+    paintAt(beside);
+    QVERIFY(count() > 0);
+    const std::string before = writeProject(m_document->project());
+    const size_t drawn = count();
+    take("smooth", 0.25);
+    QVERIFY(m_tools->reworks() && !m_tools->tool().words().contains(QStringLiteral("water")));
+    const int steps = m_document->undoStack().count();
+    paintAt(beside + Vector3(0, 0.2, 0));
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("smoothing stroke"));
+    const size_t smooth = count();
+    QVERIFY2(smooth < drawn && smooth > drawn / 2, qPrintable(QString::number(smooth)));
+    const std::string after = writeProject(m_document->project());
+    const auto& voxels = std::get<VoxelShape>(m_document->project().bodies[1].shape);
+    QCOMPARE(voxels.strokes.size(), size_t{2});
+    QCOMPARE(VoxelCanvas(voxels.runs).size() + 125, smooth);
+    const FreeOf all = [](const SketchGrid&, const CellSet& some) { return some; };
+    const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
+    QVERIFY(redrawn(voxels, kSpacing, all, brushOf).runs == voxels.runs);
+    m_document->undoStack().undo();
+    QCOMPARE(count(), drawn);
+    QCOMPARE(writeProject(m_document->project()), before);
+    m_document->undoStack().redo();
+    QCOMPARE(count(), smooth);
+    QCOMPARE(writeProject(m_document->project()), after);
+    m_link->reset();
+    QCOMPARE(count(), smooth);
+  }
+
+  /// Bodies that were not drawn, and scenes that have begun.
+  void whatCannotBeSmoothedIsSaid() {
+    take("smooth", 0.1);
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    paintAt(kTop);
+    QCOMPARE(refused.count(), 1);
+    QVERIFY(refused[0][1].toString().contains(QStringLiteral("drawn")));
+    m_engine->stepOnce();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
+    paintAt(kTop);
+    QCOMPARE(refused.count(), 2);
+    QVERIFY(refused[1][1].toString().contains(QStringLiteral("Home")));
+    QCOMPARE(m_document->undoStack().count(), 0);
   }
 
   /// The way to a brush that draws, and from the eraser, is the one that the keys go.
@@ -371,6 +453,19 @@ class TestTouchTools : public QObject {
     return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {
       const uint32_t* first = engine.particles().material();
       return static_cast<size_t>(std::count(first, first + engine.particles().size(), 1U));
+    });
+  }
+
+  size_t count() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) { return engine.particles().size(); });
+  }
+  /// What hangs together, single grains left out.
+  size_t pieces() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) {
+      const std::vector<uint32_t> all = engine.solver().pieces();
+      std::set<uint32_t> some(all.begin(), all.end());
+      some.erase(Solver::kNoPiece);
+      return some.size();
     });
   }
 

@@ -402,7 +402,9 @@ void TestCli::pluginsAreListed() {
       {"thesis_latent", R"(["opens_energy"])"}, {"thesis_diffusion", R"(["pair_rates"])"},
       {"heat", R"(["touches_matter"])"},        {"cool", R"(["touches_matter"])"},
       {"grab", R"(["touches_matter"])"},        {"push", R"(["touches_matter"])"},
-      {"stir", R"(["touches_matter"])"},        {"paint", R"(["paints_matter"])"}};
+      {"stir", R"(["touches_matter"])"},        {"cut", R"(["touches_matter"])"},
+      {"weld", R"(["touches_matter"])"},        {"paint", R"(["paints_matter"])"},
+      {"smooth", R"(["smooths_matter"])"}};
   for (const auto& plugin : list["plugins"]) {
     const auto found = capable.find(plugin["id"].get<std::string>());
     QCOMPARE(plugin["capabilities"].dump(), found == capable.end() ? "[]" : found->second);

@@ -4,6 +4,7 @@
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
 #include "core/sketch/redraw.h"
+#include "core/sketch/smoothing.h"
 #include "core/sketch/stroke.h"
 #include "core/sketch/symmetry.h"
 
@@ -23,7 +24,7 @@ using api::StrokeSample;
 namespace {
 
 /// Fills a ball; asks for the opposite of each edit first, so that the order of edits shows.
-class BallBrush final : public api::BrushPlugin {
+class BallBrush : public api::BrushPlugin {
  public:
   const char* label() const override { return "Ball"; }
   const char* help() const override { return ""; }
@@ -390,6 +391,87 @@ class TestSketch : public QObject {
                               {0, 0, 0, 1, 0}, {1, 0, 0, 2, 3}, {3, 0, 0, 1, 0}, {0, 1, 0, 1, 1}, {1, 1, 0, 2, 2}}));
     replaceRuns(shape, painted.before);
     QVERIFY(shape.runs == before);
+  }
+
+  /// Edges and corners of a block go, faces stay, and a hollow is filled with what is around it.
+  void blocksAreRounded() {
+    VoxelShape shape;
+    shape.palette = {{"ice", 260, {}}, {"tin", 250, {}}};
+    for (int z = 0; z < 8; ++z) {
+      for (int y = 0; y < 8; ++y) shape.runs.push_back({0, y, z, 8, y < 4 ? 0 : 1});
+    }
+    VoxelCanvas canvas(shape.runs);
+    canvas.erase(cellsOf({{4, 7, 4}, {4, 0, 4}}));
+    const CellSet before = canvas.cells();
+    const Smoothed change =
+        smoothed(canvas, cellsOf({{0, 0, 0}, {0, 0, 4}, {4, 7, 4}, {4, 0, 4}, {4, 4, 0}, {4, 8, 4}}));
+    QVERIFY(change.emptied == cellsOf({{0, 0, 0}, {0, 0, 4}}));
+    QVERIFY(change.filled.at(0) == cellsOf({{4, 0, 4}}) && change.filled.at(1) == cellsOf({{4, 7, 4}}));
+    // All of it at once comes to the same as piece by piece, and keeps most of its matter.
+    std::vector<Cell> all;
+    for (int z = -2; z < 10; ++z) {
+      for (int y = -2; y < 10; ++y) {
+        for (int x = -2; x < 10; ++x) all.push_back({x, y, z});
+      }
+    }
+    const Smoothed whole = smoothed(canvas, CellSet(all));
+    CellSet emptied;
+    for (size_t k = 0; k < all.size(); k += 100)
+      emptied.add(
+          smoothed(canvas, CellSet(std::span(all).subspan(k, std::min<size_t>(100, all.size() - k)))).emptied.cells());
+    QVERIFY(emptied == whole.emptied);
+    QVERIFY(emptied.size() > 60 && emptied.size() < before.size() / 4);
+    QVERIFY(smoothed(canvas, {}).empty());
+  }
+  /// A sheet and a wall that stands on a block stay; a grain on a face goes.
+  void whatIsThinStays() {
+    VoxelShape shape;
+    shape.palette = {{"ice", 260, {}}};
+    for (int z = 0; z < 9; ++z) {
+      for (int y = 0; y < 4; ++y) shape.runs.push_back({0, y, z, 9, 0});
+    }
+    for (int y = 4; y < 8; ++y) shape.runs.push_back({1, y, 4, 7, 0});
+    shape.runs.push_back({6, 4, 7, 1, 0});
+    for (int z = 0; z < 9; ++z) shape.runs.push_back({20, 5, z, 9, 0});
+    const VoxelCanvas canvas(shape.runs);
+    std::vector<Cell> upper;
+    for (const Cell& cell : canvas.cells().cells()) {
+      if (cell.y > 3) upper.push_back(cell);
+    }
+    // Of the wall the two lowest corners go, which lie on the block.
+    QVERIFY(smoothed(canvas, CellSet(upper)).emptied == cellsOf({{6, 4, 7}, {1, 4, 4}, {7, 4, 4}}));
+  }
+  void smoothingIsDrawnAgain() {
+    class Smoother final : public BallBrush {
+     public:
+      const void* extension(const char* name) const noexcept override {
+        return std::string_view(name) == api::kSmoothsMatter ? this : nullptr;
+      }
+    };
+    const BallBrush ball;
+    const Smoother smoother;
+    VoxelShape shape;
+    shape.spacing = 1;
+    shape.palette = {{"ice", 260, {}}};
+    VoxelShape::Stroke drawn, smoothing;
+    drawn.brush = "ball";
+    drawn.radius = 3;
+    drawn.samples = {{0, 0, 0, 1, 0}, {6, 0, 0, 1, 1}, {6, 6, 0, 1, 2}};
+    smoothing = drawn;
+    smoothing.brush = "smoother";
+    shape.strokes = {drawn, smoothing};
+    const SketchGrid grid{shape.origin, 1};
+    VoxelCanvas canvas;
+    canvas.paint(replayStroke(ball, drawn, grid).added, 0);
+    const Smoothed change = smoothed(canvas, replayStroke(smoother, smoothing, grid).smoothed);
+    QVERIFY(!change.empty());
+    canvas.erase(change.emptied);
+    for (const auto& [palette, cells] : change.filled) canvas.paint(cells, palette);
+    const auto brushOf = [&](const std::string& id) -> const api::BrushPlugin* {
+      return id == "ball" ? static_cast<const api::BrushPlugin*>(&ball) : &smoother;
+    };
+    const auto all = [](const SketchGrid&, const CellSet& cells) { return cells; };
+    QVERIFY(redrawn(shape, 1, all, brushOf).runs == canvas.runs());
   }
 
   void theLaterEditOfACellWins() {

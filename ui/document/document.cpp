@@ -247,6 +247,12 @@ void Document::addStroke(std::shared_ptr<StrokeRecord> stroke) {
   m_undo.push(new StrokeCommand(*this, std::move(stroke), text));
 }
 
+void Document::addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text) {
+  if (parts.size() > 1) m_undo.beginMacro(text);
+  for (const std::shared_ptr<StrokeRecord>& part : parts) m_undo.push(new StrokeCommand(*this, part, text));
+  if (parts.size() > 1) m_undo.endMacro();
+}
+
 void Document::setPinned(const std::string& address, bool pinned) {
   std::vector<std::string> pins = m_project.view.pinned;
   const auto found = std::find(pins.begin(), pins.end(), address);

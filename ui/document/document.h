@@ -101,6 +101,8 @@ class Document : public QObject {
   void setAdhesion(const std::string& id, const std::string& other, bool holds);
   /// Notes a stroke whose particles are in the engine already.
   void addStroke(std::shared_ptr<StrokeRecord> stroke);
+  /// Parts of one stroke, as one step; at least one.
+  void addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text);
 
   // Emitters and sinks. They stay within the scene's bounds.
   const Emitter* emitter(const std::string& id) const;

@@ -118,7 +118,7 @@ void BrushPanel::refresh() {
   };
   show(rowModels(brushParameters(), valuesOf(brush)));
   show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
-  if (m_tools.touchesMatter() || m_tools.paints()) {
+  if (m_tools.touchesMatter() || m_tools.reworks()) {
     for (const char* key : {"temperature", "draw_on", "plane_at", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }

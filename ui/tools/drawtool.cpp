@@ -19,7 +19,7 @@ constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes 
 DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {}
 
 bool DrawTool::touches() const { return box().touchesMatter(); }
-bool DrawTool::meetsMatter() const { return touches() || box().paints(); }
+bool DrawTool::meetsMatter() const { return touches() || box().reworks(); }
 
 void DrawTool::hover(const Pointer& pointer) {
   if (m_stroke.active() || m_touch.active()) return;
@@ -70,7 +70,8 @@ bool DrawTool::press(const Pointer& pointer) {
 }
 
 void DrawTool::beginTouch(const Pointer& pointer) {
-  const QString problem = m_touch.begin(erases(pointer), m_cursor->centre, m_plane.normal, pointer.pressure);
+  const QString problem = m_touch.begin(erases(pointer), m_cursor->centre, m_plane.normal,
+                                        pointer.ray.direction.normalized(), pointer.pressure);
   if (!problem.isEmpty()) return refuse(problem);
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
   m_hand = pointer;
@@ -146,7 +147,7 @@ bool DrawTool::isJoined(const Vector3& point, const Pointer& pointer) const {
 void DrawTool::drag(const Pointer& pointer) {
   if (m_touch.active() && m_cursor) return dragTouch(pointer);
   if (!m_stroke.active() || !m_cursor) return;
-  if (m_cursor->erase || box().paints()) {
+  if (m_cursor->erase || box().reworks()) {
     if (const auto matter = matterUnder(pointer)) {
       if (!isJoined(*matter, pointer)) {
         if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return endAsItIs(problem);
@@ -228,7 +229,8 @@ QString DrawTool::words() const {
   QStringList parts{m_erases ? QStringLiteral("Eraser") : QStringLiteral("Brush"), brushLabel().toLower(),
                     QStringLiteral("radius ") + lengthText(brush.radius)};
   for (const SceneMaterial& material : document.project().materials) {
-    if (!m_erases && !touches() && material.id == brush.material) parts << QString::fromStdString(material.label);
+    if (!m_erases && !touches() && !box().smooths() && material.id == brush.material)
+      parts << QString::fromStdString(material.label);
   }
   if (m_cursor) parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
   return parts.join(QStringLiteral(", "));
@@ -240,13 +242,14 @@ std::vector<Gesture> DrawTool::gestures() const {
     list = {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
             {QStringLiteral("Ctrl+Drag"), QStringLiteral("The opposite"), QStringLiteral("the opposite")}};
   } else {
-    const Gesture draw = box().paints() ? Gesture{{}, brushLabel(), QStringLiteral("paints")}
-                                        : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
+    const QString reworks = box().paints() ? QStringLiteral("paints") : QStringLiteral("smooths");
+    const Gesture draw = box().reworks() ? Gesture{{}, brushLabel(), reworks}
+                                         : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
     const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
     list = {m_erases ? erase : draw, m_erases ? draw : erase};
     list[0].keys = QStringLiteral("Drag");
     list[1].keys = QStringLiteral("Ctrl+Drag");
-    if (!m_erases && !box().paints())
+    if (!m_erases && !box().reworks())
       list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
     list.push_back({QStringLiteral("Alt+Click"), QStringLiteral("Takes the material of what is there"), {}});
   }

@@ -2,6 +2,7 @@
 #include "ui/tools/livestroke.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/sketch/smoothing.h"
 #include "core/sketch/symmetry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -14,9 +15,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -162,6 +165,8 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_fed.reset();
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
+  m_filled.clear();
+  m_smooths = false;
   m_record = std::make_shared<StrokeRecord>();
   m_record->erase = erase;
   m_record->lattice.origin = m_setup.grid.origin;
@@ -178,12 +183,41 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (plugin && kindOf(*plugin, erase) == api::EditKind::Paint) {
     m_record->material = sceneMaterial(m_box.document().project(), m_brush.material)->id;
+  } else if (plugin && kindOf(*plugin, erase) == api::EditKind::Smooth) {
+    if (const QString problem = whyNoSmoothing(now, point); !problem.isEmpty()) {
+      m_record.reset();
+      return problem;
+    }
   } else if (!erase) {
     m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
   }
   return move(point, 0, pressure);
+}
+
+/// "", and the sketch that has matter under the stamp is in hand, or why there is nothing to be rounded.
+QString LiveStroke::whyNoSmoothing(const Snapshot& now, const Vector3& point) {
+  if (!m_atStart) return QStringLiteral("What is drawn is smoothed before the first step. Press Home first.");
+  const double reach = m_brush.radius + m_setup.grid.spacing;
+  double least = reach * reach;
+  m_body.reset();
+  for (size_t i = 0; i < now.position.size() && now.bodyIds; ++i) {
+    const double away = (vectorOf(now.position[i]) - point).squaredNorm();
+    if (!(away < least) || now.body[i] >= now.bodyIds->size()) continue;
+    const Body* body = m_box.document().body((*now.bodyIds)[now.body[i]]);
+    const auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+    if (!voxels || body->locked || !body->visible || voxels->spacing != m_setup.grid.spacing) continue;
+    least = away;
+    if (!m_body || m_body->id != body->id) m_body = std::make_shared<const Body>(*body);
+  }
+  if (!m_body) return QStringLiteral("Only what was drawn can be smoothed, and is not locked: nothing of it is here.");
+  const auto& voxels = std::get<VoxelShape>(m_body->shape);
+  m_canvas = VoxelCanvas(voxels.runs);
+  m_setup.grid.origin = voxels.origin;
+  m_record->lattice.origin = voxels.origin;
+  m_record->erase = m_smooths = true;
+  return {};
 }
 
 QString LiveStroke::move(const Vector3& point, double seconds, double pressure) {
@@ -212,7 +246,7 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   if (samples.empty() || !plugin) return;
   if (m_fed) samples.insert(samples.begin(), *m_fed);
   m_fed = samples.back();
-  const api::EditKind kind = kindOf(*plugin, m_record->erase);
+  const api::EditKind kind = kindOf(*plugin, m_stroke.erase);
   std::optional<StrokeEdits> edits = inTime(
       m_brush.shape, [plugin, kind, setup = m_setup, samples] { return applyBrush(*plugin, setup, kind, samples); });
   if (!edits) throw BrushFault(kNotBack);
@@ -224,6 +258,7 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   }
   if (fresh.empty()) return;
   m_cells.add(fresh);
+  if (kind == api::EditKind::Smooth) return smooth(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
     m_box.link()->erase(*m_record, cells);
@@ -232,6 +267,57 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   } else {
     m_box.link()->paint(*m_record, m_body, cells);
   }
+}
+
+void LiveStroke::smooth(const std::vector<api::Cell>& fresh) {
+  const Environment& environment = m_box.document().project().environment;
+  const auto append = [&](StrokeRecord& record, const CellSet& cells) {
+    const auto indices = cells.indices();
+    record.cells.insert(record.cells.end(), indices.begin(), indices.end());
+    return indices;
+  };
+  const Smoothed change = smoothed(m_canvas, CellSet(fresh));
+  if (!change.emptied.empty()) m_box.link()->erase(*m_record, append(*m_record, change.emptied));
+  for (const auto& [palette, cells] : change.filled) {
+    std::vector<api::Cell> room;
+    std::copy_if(cells.cells().begin(), cells.cells().end(), std::back_inserter(room),
+                 [&](const api::Cell& cell) { return isInScene(environment, m_setup.grid, cell); });
+    if (room.empty()) continue;
+    std::shared_ptr<StrokeRecord>& filled = m_filled[palette];
+    if (!filled) {
+      filled = std::make_shared<StrokeRecord>();
+      filled->lattice = m_record->lattice;
+      filled->body = m_body->id;
+      filled->palette = palette;
+    }
+    m_box.link()->paint(*filled, m_body, append(*filled, CellSet(room)));
+  }
+}
+
+/// Both parts of it are one step, and its strokes are noted with the first of them.
+void LiveStroke::keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied) {
+  const Project& project = m_box.document().project();
+  const auto body =
+      std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& one) { return one.id == m_body->id; });
+  if (body == project.bodies.end()) return;
+  const auto index = static_cast<size_t>(body - project.bodies.begin());
+  std::vector<VoxelShape::Stroke> strokes;
+  if (!std::get<VoxelShape>(body->shape).strokes.empty()) strokes = pieces();
+  std::vector<std::shared_ptr<StrokeRecord>> parts;
+  if (!emptied->cells.empty()) {
+    auto edit = eraseEdit(*body, index, emptied->lattice, emptied->cells, std::exchange(strokes, {}));
+    if (edit) emptied->edits.push_back(std::move(*edit));
+    parts.push_back(emptied);
+  }
+  for (const auto& [palette, filled] : m_filled) {
+    const auto free = freeAtStart(project, body->id, filled->lattice, filled->cells);
+    SceneEdit edit = paintEdit(project, *m_body, free, palette, m_stroke);
+    std::get<CellsEdit>(edit).strokes = std::exchange(strokes, {});
+    filled->edits.push_back(std::move(edit));
+    parts.push_back(filled);
+  }
+  m_filled.clear();
+  if (!parts.empty()) m_box.document().addStrokes(parts, QStringLiteral("smoothing stroke"));
 }
 
 std::vector<VoxelShape::Stroke> LiveStroke::pieces() const {
@@ -279,6 +365,7 @@ void LiveStroke::keep() {
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
   if (m_cells.empty()) return;
+  if (m_smooths) return keepSmoothing(record);
   record->cells = m_cells.indices();
   const Project& project = m_box.document().project();
   if (!record->material.empty()) {
@@ -298,8 +385,11 @@ void LiveStroke::cancel() {
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
-  record->cells = m_cells.indices();
-  if (!m_cells.empty() && m_box.link()) m_box.link()->cancel(record);
+  if (!m_smooths) record->cells = m_cells.indices();
+  if (m_cells.empty() || !m_box.link()) return;
+  m_box.link()->cancel(record);
+  for (const auto& [palette, filled] : m_filled) m_box.link()->cancel(filled);
+  m_filled.clear();
 }
 
 }  // namespace ps

@@ -8,6 +8,7 @@
 
 #include <QtCore/QString>
 
+#include <map>
 #include <memory>
 
 namespace ps {
@@ -46,6 +47,9 @@ class LiveStroke {
 
  private:
   void keep();
+  QString whyNoSmoothing(const Snapshot& now, const Vector3& point);
+  void smooth(const std::vector<api::Cell>& fresh);
+  void keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied);
   QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
   Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
   const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material, int& palette) const;
@@ -59,12 +63,14 @@ class LiveStroke {
   Toolbox& m_box;
   BrushSettings m_brush;  ///< as it was when the stroke began
   std::shared_ptr<StrokeRecord> m_record;
-  std::shared_ptr<const Body> m_body;  ///< that an adding stroke paints, as it was before
-  bool m_atStart = false;
+  std::shared_ptr<const Body> m_body;  ///< that an adding or smoothing stroke changes, as it was before
+  bool m_atStart = false, m_smooths = false;
   std::unique_ptr<StrokeResampler> m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   StrokeSetup m_setup;
   CellSet m_cells;
+  VoxelCanvas m_canvas;                                   ///< that a smoothing stroke rounds, as it was before
+  std::map<int, std::shared_ptr<StrokeRecord>> m_filled;  ///< what it fills, by palette entry
   VoxelShape::Stroke m_stroke;
   std::vector<VoxelShape::Stroke> m_pieces;  ///< before it was lifted
 };

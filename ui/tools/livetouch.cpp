@@ -22,6 +22,10 @@ constexpr double kSmoothed = 0.05;  // s, over which the speed of a hand is a me
 bool any(const std::vector<api::Touch>& touches, api::TouchKind kind) {
   return std::any_of(touches.begin(), touches.end(), [&](const api::Touch& touch) { return touch.kind == kind; });
 }
+bool keeps(const std::vector<api::Touch>& touches) {
+  using enum api::TouchKind;
+  return any(touches, Heat) || any(touches, Cut) || any(touches, Weld);
+}
 
 }  // namespace
 
@@ -36,17 +40,18 @@ QString LiveTouch::whyNot() const {
   return {};
 }
 
-QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, double pressure) {
+QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, double pressure) {
   if (const QString problem = whyNot(); !problem.isEmpty()) return problem;
   const PluginRegistry& plugins = *m_box.document().plugins();
   m_brush = m_box.brush().shape;
   m_kind = opposite ? api::EditKind::Remove : api::EditKind::Add;
   m_setup = strokeSetup(m_box.brush(), plugins, m_box.spacing(), up);
+  m_setup.look = look;
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_record = std::make_shared<StrokeRecord>();
   m_record->deed = pluginLabel(&plugins, m_brush).toStdString() + " matter";
   if (opposite) m_record->deed += ", the opposite";
-  m_heats = m_holds = false;
+  m_heats = m_holds = m_keeps = false;
   m_place.reset();
   m_velocity = {0, 0, 0};
   return move(point, 0, pressure);
@@ -90,6 +95,7 @@ QString LiveTouch::send(std::vector<api::StrokeSample> way, const std::optional<
     auto& [path, still] = *asked;
     m_heats = m_heats || any(path, api::TouchKind::Heat) || any(still, api::TouchKind::Heat);
     m_holds = m_holds || any(still, api::TouchKind::Hold);
+    m_keeps = m_keeps || keeps(path) || keeps(still);
     if (m_heats && m_box.document().project().solver.thermalModel.empty()) {
       cancel();
       return QStringLiteral("The scene has no thermal model, so nothing can be heated. Choose one under Solver.");
@@ -119,7 +125,7 @@ QString LiveTouch::finish() {
   const QString problem = send(m_resampler->finish(), std::nullopt);
   if (!m_record) return problem;  // the brush failed
   const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
-  if (m_heats) m_box.document().addStroke(record);
+  if (m_keeps) m_box.document().addStroke(record);
   return problem;
 }
 

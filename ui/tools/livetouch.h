@@ -21,8 +21,9 @@ class LiveTouch {
  public:
   explicit LiveTouch(Toolbox& box) : m_box(box) {}
 
-  /// "" or why the hand does nothing. `opposite`: of what the brush is called; `up`: away from what it points at.
-  QString begin(bool opposite, const Vector3& point, const Vector3& up, double pressure);
+  /// "" or why the hand does nothing. `opposite`: of what the brush is called; `up`: away from what it points at;
+  /// `look`: unit vector along which one sees it.
+  QString begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, double pressure);
   /// "" or what went wrong; the hand then lets go. `seconds` since it began.
   QString move(const Vector3& point, double seconds, double pressure);
   /// The next place is not joined to the last one.
@@ -45,6 +46,7 @@ class LiveTouch {
   StrokeSetup m_setup;
   std::unique_ptr<StrokeResampler> m_resampler;
   bool m_heats = false, m_holds = false;
+  bool m_keeps = false;            ///< it does something that undo takes back
   std::optional<Vector3> m_place;  ///< m, the last one
   double m_seconds = 0;            ///< when it was there
   Vector3 m_velocity{0, 0, 0};     ///< m/s, of the hand

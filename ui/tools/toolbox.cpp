@@ -47,6 +47,11 @@ bool Toolbox::paints(const std::string& brush) const {
   return plugins && plugins->needs(brush, api::kPaintsMatter);
 }
 
+bool Toolbox::smooths(const std::string& brush) const {
+  const PluginRegistry* plugins = m_document.plugins();
+  return plugins && plugins->needs(brush, api::kSmoothsMatter);
+}
+
 /// Or the first one that draws where that cannot be had.
 void Toolbox::takeInstalled(const std::string& wanted) {
   const PluginRegistry& plugins = *m_document.plugins();

@@ -42,12 +42,16 @@ class Toolbox : public QObject {
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
   void nextShape();               ///< of those installed, by id
-  /// Takes a brush in hand; one that touches or paints matter puts the eraser aside.
+  /// Takes a brush in hand; one that does not draw puts the eraser aside.
   void takeBrush(const std::string& id);
   /// Whether the brush in hand works on the matter that is there, instead of drawing.
   bool touchesMatter() const { return touchesMatter(m_brush.shape); }
   /// Whether it makes that matter of another material.
   bool paints() const { return paints(m_brush.shape); }
+  /// Whether it rounds what is drawn.
+  bool smooths() const { return smooths(m_brush.shape); }
+  /// Whether it changes what is drawn, in one of these ways, instead of drawing.
+  bool reworks() const { return paints() || smooths(); }
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
   /// `up`: away from what it draws on.
@@ -83,7 +87,8 @@ class Toolbox : public QObject {
   void takeInstalled(const std::string& wanted);
   bool touchesMatter(const std::string& brush) const;
   bool paints(const std::string& brush) const;
-  bool draws(const std::string& brush) const { return !touchesMatter(brush) && !paints(brush); }
+  bool smooths(const std::string& brush) const;
+  bool draws(const std::string& brush) const { return !touchesMatter(brush) && !paints(brush) && !smooths(brush); }
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;

@@ -111,6 +111,9 @@ struct Solver::Impl {
   void settleEnergy() { energyOffset = heat.energy(store) - heat.ledger().net(); }
   /// `others`: who is there, or where, is no longer the same, so that lists are of no use.
   void matterChanged(double energyBefore, bool others = true);
+  /// By hand: renews what depends on them.
+  TieChange tiesChanged(TieChange change);
+  void changeTies(const TieChange& change, bool made);
   PaintedMatter::Books books() const { return {heat.ledger(), energyOffset}; }
   /// Of paint() and unpaint(): the state of particles at these ascending indices, whose material is another one by now,
   /// from their temperatures. `mass` in kg, one each; 0: as the room takes that it fills.

@@ -133,7 +133,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
   }
 }
 
-bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours) {
+bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours,
+                                     SplitGroups* split) {
   if (set.disabled) return false;
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
@@ -145,6 +146,7 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   }
   set.groups->forgetChanges();
   if (sink.edits().empty()) return false;
+  if (split) *split = set.groups->splitBy(store, sink.edits());
   set.groups->apply(sink.edits(), {store.body(), store.size()});
   m_graphValid = false;
   return true;

@@ -145,6 +145,7 @@ void ConstraintSystem::save(StateWriter& writer) const {
     saveStarts(writer, {room, "colours"}, set.colourStart);
     saveColumns(writer, {room, "values"}, set.values, set.count);
   }
+  if (!m_cuts.empty()) writer.array("constraints/cuts", m_cuts.pairs());
 }
 
 void ConstraintSystem::restoreLists(const StateReader& reader, std::string_view room, Set& set,
@@ -192,6 +193,7 @@ void ConstraintSystem::restore(const StateReader& reader, const ParticleStore& s
     set.disabled = set.disabled || aside[s] != 0;
   }
   restoreThin();
+  m_cuts = Cuts(reader.has("constraints/cuts") ? reader.array<uint64_t>("constraints/cuts") : std::vector<uint64_t>{});
   forgetMembers();
   m_graphValid = false;
 }

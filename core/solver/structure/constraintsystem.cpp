@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/solver/matter.h"
+#include "core/solver/structure/constraintsink.h"
 
 #include <algorithm>
 #include <array>
@@ -20,51 +21,6 @@ constexpr double kUsualTies = 6;
 constexpr double kMostTies = 32;  ///< that room is made for before they come
 
 }  // namespace
-
-struct ConstraintSystem::Edits {
-  std::vector<uint8_t> removed;   ///< per constraint; empty: none
-  std::vector<size_t> removedAt;  ///< the same as a list
-  std::vector<uint32_t> particles;
-  std::vector<float> values;
-  bool empty() const { return removedAt.empty() && particles.empty(); }
-};
-
-/// Collects what a plugin adds and removes; it takes effect when the call has returned.
-class ConstraintSystem::Sink final : public api::ConstraintSink {
- public:
-  Sink(ConstraintSystem& system, Set& set, const ParticleStore& store, Edits& edits)
-      : m_system(system), m_set(set), m_store(store), m_edits(edits) {}
-  void add(const uint32_t* particles, const float* values) override {
-    if (++m_calls % kProgressSlice == 0) tellProgress(m_set, kProgressSlice);
-    if (!particles || (!values && m_set.valueCount > 0)) throw Error("added a constraint by a null pointer");
-    for (size_t a = 0; a < m_set.arity; ++a) {
-      if (particles[a] >= m_store.size()) throw Error("added a constraint on a particle that does not exist");
-      for (size_t b = 0; b < a; ++b) {
-        if (particles[a] == particles[b]) throw Error("added a constraint that names a particle twice");
-      }
-    }
-    m_system.lookUp(m_set, m_store);
-    if (!m_set.keys.insert(m_system.keyOf(m_set, m_store, particles))) return;
-    m_edits.particles.insert(m_edits.particles.end(), particles, particles + m_set.arity);
-    m_edits.values.insert(m_edits.values.end(), values, values + m_set.valueCount);
-  }
-  void remove(size_t k) override {
-    if (k >= m_set.count) throw Error("removed a constraint that does not exist");
-    if (m_edits.removed.empty()) m_edits.removed.assign(m_set.count, 0);
-    if (m_edits.removed[k] != 0) return;
-    m_system.lookUp(m_set, m_store);
-    m_edits.removed[k] = 1;
-    m_edits.removedAt.push_back(k);
-    m_set.keys.erase(m_system.keyOf(m_set, m_store, m_set.particles.data() + k * m_set.arity));
-  }
-
- private:
-  ConstraintSystem& m_system;
-  Set& m_set;
-  const ParticleStore& m_store;
-  Edits& m_edits;
-  size_t m_calls = 0;
-};
 
 void ConstraintSystem::configure(const SolverSettings& settings, std::span<const BakedMaterial> materials) {
   m_settings = settings;
@@ -167,7 +123,9 @@ api::ConstraintContext ConstraintSystem::context(const Set& set, double dt, uint
       m_passes > 0 ? m_passes : static_cast<uint32_t>(std::max(m_settings.iterations, leastPasses())),
       {set.parametersOf.data(), set.parametersOf.size()},
       m_time,
-      m_held.empty() ? nullptr : m_held.data()};
+      m_held.empty() ? nullptr : m_held.data(),
+      m_cutView,
+      m_healedView};
   c.parameters = c.parametersOf(body);
   return c;
 }
@@ -387,25 +345,30 @@ void ConstraintSystem::removeParticles(const ParticleStore& store, std::span<con
 
 CopiedConstraints ConstraintSystem::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {
   CopiedConstraints copies;
+  copies.cuts = m_cuts.of(store, ascending);
   for (const Set& set : m_sets) {
     CopiedConstraints::Set& copied = copies.sets.emplace_back();
     copied.name = set.name;
     if (set.groups) copied.groups = set.groups->copy(store, ascending);
     for (size_t k = 0; k < set.count; ++k) {
       const uint32_t* particles = set.particles.data() + k * set.arity;
-      if (std::none_of(particles, particles + set.arity,
-                       [&](uint32_t i) { return std::binary_search(ascending.begin(), ascending.end(), i); })) {
-        continue;
+      if (std::any_of(particles, particles + set.arity,
+                      [&](uint32_t i) { return std::binary_search(ascending.begin(), ascending.end(), i); })) {
+        copyTie(set, store, k, copied);
       }
-      for (size_t a = 0; a < set.arity; ++a) copied.id.push_back(store.id()[particles[a]]);
-      for (size_t v = 0; v < set.valueCount; ++v) copied.values.push_back(set.values[v][k]);
     }
   }
   return copies;
 }
 
+void ConstraintSystem::copyTie(const Set& set, const ParticleStore& store, size_t k, CopiedConstraints::Set& copied) {
+  for (size_t a = 0; a < set.arity; ++a) copied.id.push_back(store.id()[set.particles[k * set.arity + a]]);
+  for (size_t v = 0; v < set.valueCount; ++v) copied.values.push_back(set.values[v][k]);
+}
+
 void ConstraintSystem::putBack(ParticleStore& store, const CopiedConstraints& copies) {
   forgetMembers();
+  m_cuts.add(copies.cuts);
   for (const CopiedConstraints::Set& copied : copies.sets) {
     const auto found = std::find_if(m_sets.begin(), m_sets.end(), [&](const Set& s) { return s.name == copied.name; });
     if (found == m_sets.end() || found->disabled) continue;
@@ -428,6 +391,8 @@ void ConstraintSystem::putBack(ParticleStore& store, const CopiedConstraints& co
 
 bool ConstraintSystem::topology(const ParticleStore& store, const Neighbours& neighbours) {
   bool changed = false;
+  m_cuts.dropLoose(store);
+  const CutsShown shown(*this, store);
   // What freezes beside a group may join it; who is left joins by springs.
   for (Set& set : m_sets) {
     if (set.groups) changed = groupTopology(set, store, neighbours) || changed;

@@ -9,6 +9,7 @@
 #include "core/solver/anyconstraint.h"
 #include "core/solver/report.h"
 #include "core/solver/settings.h"
+#include "core/solver/structure/cuts.h"
 #include "core/solver/structure/grouplists.h"
 #include "core/solver/structure/implicitties.h"
 #include "core/solver/structure/keyset.h"
@@ -25,6 +26,8 @@ namespace ps {
 
 class StateReader;
 class StateWriter;
+struct Blade;
+struct TieChange;
 
 /// Who is tied to whom, by structural constraints or as members of one group.
 struct StructureGraph {
@@ -53,8 +56,10 @@ struct CopiedConstraints {
     std::vector<uint32_t> id;   ///< arity per constraint
     std::vector<float> values;  ///< as many per constraint as the plugin declares
     std::vector<CopiedGroup> groups;
+    SplitGroups split;  ///< by a cut
   };
   std::vector<Set> sets;
+  std::vector<Cuts::Pair> cuts{};
 };
 
 /// Host of constraint plugins: owns their index lists and values, keeps them valid when particles are sorted, removed
@@ -77,6 +82,17 @@ class ConstraintSystem {
   CopiedConstraints copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
   /// Adds copied constraints again wherever all their particles live; puts members of groups back into them.
   void putBack(ParticleStore& store, const CopiedConstraints& copies);
+
+  /// Breaks ties of bodies that are not spared, by their index, and parts their groups: see Solver::cut().
+  TieChange cut(const ParticleStore& store, const Neighbours& neighbours, std::span<const Blade> blades,
+                std::span<const uint8_t> isSpared);
+  /// Ties what touches within the balls of blades, where a plugin offers that.
+  TieChange weld(const ParticleStore& store, const Neighbours& neighbours, std::span<const Blade> balls,
+                 std::span<const uint8_t> isSpared);
+  /// Makes the ties of a change, where all their particles live; then nothing is parted any more that it parted.
+  void tie(ParticleStore& store, const Neighbours& neighbours, const TieChange& change);
+  /// Breaks them, and parts what it parts.
+  void sever(const ParticleStore& store, const Neighbours& neighbours, const TieChange& change);
 
   /// Marks what ties and groups hold to those that go and can move, but for what is fixed.
   void takeAlong(const ParticleStore& store, std::vector<uint8_t>& goes);
@@ -181,7 +197,8 @@ class ConstraintSystem {
   };
   struct Edits;
   class Sink;
-  class Groups;  ///< collects the edits of groups
+  class Groups;     ///< collects the edits of groups
+  class CutsShown;  ///< while it lives, plugins see who is parted
 
   static size_t beginTying(const Set& set, size_t members);
   static void tellProgress(const Set& set, size_t steps);
@@ -231,6 +248,16 @@ class ConstraintSystem {
   void lookUp(Set& set, const ParticleStore& store) const;
   size_t takeColour(Set& set, const ParticleStore& store, const uint32_t* particles) const;
   void apply(Set& set, const ParticleStore& store, const Edits& edits);
+  static void copyTie(const Set& set, const ParticleStore& store, size_t k, CopiedConstraints::Set& copied);
+  // In cutting.cpp.
+  template <class Goes>
+  void breakTies(Set& set, const ParticleStore& store, CopiedConstraints::Set& copied, const Goes& goes);
+  void weldSet(Set& set, const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> within,
+               CopiedConstraints::Set& copied);
+  Set* find(const CopiedConstraints::Set& copied);
+  void reshapeGroups(const ParticleStore& store, const Neighbours& neighbours, std::span<const Cuts::Pair> pairs,
+                     CopiedConstraints* noted = nullptr);
+  void heal(const ParticleStore& store, const Neighbours& neighbours, std::span<const Cuts::Pair> pairs);
   // In constraintgaps.cpp.
   std::vector<Run> mergeColour(const Set& set, const ParticleStore& store, const Edits& edits,
                                std::span<const uint32_t> added, size_t colour, size_t first);
@@ -251,7 +278,7 @@ class ConstraintSystem {
   void deriveGroupVelocities(ParticleStore& store, uint32_t substep);
   void buildGroups(Set& set, const ParticleStore& store, const Neighbours& neighbours,
                    std::span<const uint32_t> members);
-  bool groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours);
+  bool groupTopology(Set& set, const ParticleStore& store, const Neighbours& neighbours, SplitGroups* split = nullptr);
   double groupEnergy(Set& set, const ParticleStore& store);
   void putGroupsBack(Set& set, ParticleStore& store, std::span<const CopiedGroup> copies);
 
@@ -278,6 +305,8 @@ class ConstraintSystem {
   std::vector<api::Float4> m_correction;
   std::vector<uint8_t> m_thin;
   ImplicitTies m_carried;
+  Cuts m_cuts;
+  const api::CutView *m_cutView = nullptr, *m_healedView = nullptr;
   uint32_t m_passes = 0;
   std::vector<uint8_t> m_held;       ///< by particle; empty: nothing is
   std::vector<uint32_t> m_openHeld;  ///< of findHeld(), still to be followed

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <utility>
 
 namespace ps {
@@ -132,6 +133,56 @@ void GroupLists::renumber(std::span<const uint32_t> newIndex) {
   m_body.resize(group);
   for (auto& column : m_values) column.resize(group);
   for (auto& column : m_memberValues) column.resize(place);
+}
+
+void GroupLists::noteChanges(std::span<const uint8_t> marked) {
+  for (size_t g = 0; g < count(); ++g) {
+    const std::span<const uint32_t> all = members(g);
+    if (std::any_of(all.begin(), all.end(), [&](uint32_t i) { return marked[i] != 0; })) m_changed[g] = 1;
+  }
+}
+
+SplitGroups GroupLists::splitBy(const ParticleStore& store, const Edits& edits) const {
+  SplitGroups split;
+  const auto idsOf = [&](std::span<const uint32_t> indices) {
+    std::vector<uint32_t> ids;
+    for (const uint32_t i : indices) ids.push_back(store.id()[i]);
+    return ids;
+  };
+  for (size_t g = 0; g < edits.removed.size(); ++g) {
+    if (edits.removed[g] == 0) continue;
+    CopiedGroup copied{idsOf(members(g)), {}, {}, {}};
+    for (const auto& column : m_values) copied.values.push_back(column[g]);
+    for (size_t k = m_begin[g]; k < m_begin[g + 1]; ++k) {
+      for (const auto& column : m_memberValues) copied.memberValues.push_back(column[k]);
+    }
+    split.before.push_back(std::move(copied));
+  }
+  for (size_t g = 0, begin = 0; g < edits.ends.size(); begin = edits.ends[g++])
+    split.after.push_back(idsOf(std::span(edits.particles).subspan(begin, edits.ends[g] - begin)));
+  return split;
+}
+
+void GroupLists::rejoin(const ParticleStore& store, const SplitGroups& split) {
+  if (split.before.empty()) return;
+  std::set<std::vector<uint32_t>> after(split.after.begin(), split.after.end());
+  Edits edits;
+  edits.removed.assign(count(), 0);
+  for (size_t g = 0; g < count(); ++g) {
+    std::vector<uint32_t> ids;
+    for (const uint32_t i : members(g)) ids.push_back(store.id()[i]);
+    edits.removed[g] = after.contains(ids) ? 1 : 0;
+  }
+  for (const CopiedGroup& copied : split.before) {
+    std::vector<uint32_t> indices;
+    for (const uint32_t id : copied.id) indices.push_back(static_cast<uint32_t>(store.indexOf(id)));
+    if (std::any_of(indices.begin(), indices.end(), [&](uint32_t i) { return i >= store.size(); })) continue;
+    edits.particles.insert(edits.particles.end(), indices.begin(), indices.end());
+    edits.ends.push_back(edits.particles.size());
+    edits.values.insert(edits.values.end(), copied.values.begin(), copied.values.end());
+    edits.memberValues.insert(edits.memberValues.end(), copied.memberValues.begin(), copied.memberValues.end());
+  }
+  apply(edits, {store.body(), store.size()});
 }
 
 std::vector<CopiedGroup> GroupLists::copy(const ParticleStore& store, std::span<const uint32_t> ascending) const {

@@ -20,6 +20,12 @@ struct CopiedGroup {
   std::vector<float> values, memberValues;
 };
 
+/// Groups that came apart by a cut, and the members of what came of them, by ids.
+struct SplitGroups {
+  std::vector<CopiedGroup> before;
+  std::vector<std::vector<uint32_t>> after;
+};
+
 /// Index lists and values of the groups of one constraint plugin. Groups lie in order of colour, and within a
 /// colour of body: those of one colour share no particle. Colours are dealt out anew, in order, whenever groups come or
 /// go, so that they depend on the history of the scene alone.
@@ -63,6 +69,13 @@ class GroupLists {
   /// newIndex[old index]; kGone drops the member, and the group with its last one.
   void renumber(std::span<const uint32_t> newIndex);
   void forgetChanges() { m_changed.assign(count(), 0); }
+  /// Groups with a member of those marked have changed.
+  void noteChanges(std::span<const uint8_t> marked);
+
+  /// What edits do, before they take effect.
+  SplitGroups splitBy(const ParticleStore& store, const Edits& edits) const;
+  /// Puts groups in the place of what came of them; those of which a member is gone stay apart.
+  void rejoin(const ParticleStore& store, const SplitGroups& split);
 
   std::vector<CopiedGroup> copy(const ParticleStore& store, std::span<const uint32_t> ascending) const;
   /// Members that were taken out join the group that now holds most of their old companions; without one the copied

@@ -48,6 +48,11 @@ class KeySet {
     table.slots[gap] = {};
     --table.count;
   }
+  bool contains(const TieKey& key) const {
+    const uint64_t hash = hashOf(key);
+    const Table& table = m_tables[hash >> 58];
+    return table.count > 0 && table.slots[find(table, key, hash)] == key;
+  }
   size_t size() const {
     size_t sum = 0;
     for (const Table& table : m_tables) sum += table.count;

@@ -19,6 +19,11 @@ inline constexpr const char* kTouchesMatter = "touches_matter";
 /// EditKind::Paint, or Remove where its user erases with it.
 inline constexpr const char* kPaintsMatter = "paints_matter";
 
+/// Capability of a brush that rounds what is drawn, instead of drawing cells: extension(kSmoothsMatter) is not nullptr,
+/// and its metadata list the name. Its stroke() gets and submits EditKind::Smooth, or Remove where its user erases with
+/// it.
+inline constexpr const char* kSmoothsMatter = "smooths_matter";
+
 struct StrokeSample {
   Double3 position;           ///< m
   double pressure;            ///< 0 .. 1
@@ -36,6 +41,8 @@ struct StrokeContext {
   /// that a brush that goes by them alone is drawn as its own mirror image.
   Double3 up, side, front;
   Span<const double> parameters;
+  /// Unit vector along which whoever touches matter looks, as the stroke began; zero where nobody knows. Mirrored too.
+  Double3 look{0, 0, 0};
 };
 
 struct Cell {
@@ -46,6 +53,7 @@ enum class EditKind : uint32_t {
   Add,     ///< free cells are filled with the material that is drawn with
   Remove,  ///< what stands in cells goes
   Paint,   ///< what stands in cells becomes that material, as warm as it is; free cells stay free
+  Smooth,  ///< of these cells, filled ones at edges and bumps are emptied, and free ones in hollows are filled
 };
 
 /// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.
@@ -61,6 +69,8 @@ enum class TouchKind : uint32_t {
   Heat,  ///< gives heat, or takes it
   Push,  ///< brings matter to a velocity
   Hold,  ///< takes hold of what is within when the hand begins, and carries it along until it ends
+  Cut,   ///< parts what is tied, for as long as it stays solid
+  Weld,  ///< ties solid matter to what it touches, across cuts and bodies
 };
 
 /// What a hand does to the matter within a ball, all the time that it is there. What a kind has no use for is 0.
@@ -77,6 +87,9 @@ struct Touch {
   double force = 0;  ///< N, the most that all matter within, or held, gets together, by its mass; not below 0
   /// Of Push: m/s in the centre, and rad/s about it, up to 100 and 1000.
   Double3 velocity{0, 0, 0}, spin{0, 0, 0};
+  /// Of Cut: unit vector across a blade, which is the disc through the ball's middle; ties that go through it are cut.
+  /// Zero: the whole ball cuts ties that have a part within.
+  Double3 normal{0, 0, 0};
 };
 
 /// Takes what a hand does. The touches of one call of touch() share the time of its samples evenly.
@@ -89,7 +102,8 @@ class TouchSink {
 };
 
 /// A brush's way with matter; see kTouchesMatter. It sees no particle: the host finds those within, books the heat that
-/// they get and takes it back by undo. What was pushed or held goes on as it was let go.
+/// they get, and takes it back by undo as it does with ties that were cut or welded. What was pushed or held goes on as
+/// it was let go.
 class MatterBrush {
  public:
   /// Turns the places where the hand has been since the last call into touches, for each sample as many as for any

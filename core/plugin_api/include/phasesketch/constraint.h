@@ -29,6 +29,20 @@ class StructureCount {
   ~StructureCount() = default;
 };
 
+/// Between whom a hand has cut, while both stay solid: nothing joins them again by itself.
+struct CutView {
+  const uint32_t* begin;    ///< partners of particle i: partner[begin[i]] .. partner[begin[i + 1] - 1]
+  const uint32_t* partner;  ///< indices
+  /// Whether a particle lies at a cut.
+  bool at(uint32_t i) const { return begin[i + 1] > begin[i]; }
+  bool between(uint32_t i, uint32_t j) const {
+    for (uint32_t k = begin[i]; k < begin[i + 1]; ++k) {
+      if (partner[k] == j) return true;
+    }
+    return false;
+  }
+};
+
 struct ConstraintContext {
   double dt;       ///< s: substep when projecting, frame in topology()
   double spacing;  ///< m, particle_spacing
@@ -46,6 +60,10 @@ struct ConstraintContext {
   /// Of each particle: 1 where ties connect it with something fixed, so that the host carries the pulls of SpringTies;
   /// nullptr where it carries none.
   const uint8_t* held = nullptr;
+  const CutView* cuts = nullptr;  ///< in topology(); nullptr where nothing is cut
+  /// In a topology() of its own, between two frames, the pairs that are cut no more by a weld or by undo: groups that
+  /// still touch by them are one again. Else nullptr.
+  const CutView* healed = nullptr;
   static constexpr uint32_t kNoBody = ~0u;
   /// Parameters of any body, by its index; the defaults of one that does not use this plugin.
   Span<const double> parametersOf(uint32_t index) const {
@@ -127,6 +145,21 @@ class StructuralPlugin : public ConstraintPlugin {
   virtual double energy(const ConstraintContext&, const ParticleView&, const ConstraintBatch&) const { return 0; }
 };
 
+/// Capability of structure of ties that joins what a hand welds: extension(kWeldsMatter) is its Welding.
+inline constexpr const char* kWeldsMatter = "welds_matter";
+
+/// See kWeldsMatter.
+class Welding {
+ public:
+  /// Between two frames: ties those of `members` (ascending indices of solid or fixed particles, all of bodies that use
+  /// the plugin) to each other that touch, at rest as they stand. May throw.
+  virtual void weld(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
+                    ConstraintSink&) const = 0;
+
+ protected:
+  ~Welding() = default;
+};
+
 /// See kSpringTies.
 class SpringTies {
  public:
@@ -178,7 +211,8 @@ struct GroupBatch {
   const uint32_t* particles;   ///< indices
   float* const* values;        ///< [declared value][group]
   float* const* memberValues;  ///< [declared member value][place]
-  /// 1 where members were erased, or put back by undo, since the last topology(): what is left may have fallen apart.
+  /// 1 where members were erased or cut apart, or undo took that back, since the last topology(): what is left may have
+  /// fallen apart.
   const uint8_t* changed;
 };
 
