@@ -23,6 +23,7 @@ struct HandInput {
   Vector3 velocity{0, 0, 0};      ///< of the grip, m/s; 0 where it is not known
   double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
   double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
+  bool pad = false;               ///< a pad steers, which means something where it is pressed
   bool steerPressed = false, first = false, second = false;
 };
 

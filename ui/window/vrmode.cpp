@@ -15,6 +15,7 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/statusline.h"
+#include "ui/window/vrhands.h"
 
 #include <QtGui/QAction>
 
@@ -23,6 +24,7 @@ namespace {
 
 constexpr int kLook = 8;         // ms between looks at the headset
 constexpr int kShowAgain = 200;  // ms after which what nobody tells of, like the theme, is shown all the same
+constexpr int kAsleep = 1000;    // ms without a word of hands, after which they do nothing any more
 const QString kTopic = QStringLiteral("VR");
 
 /// As graphics drivers' errors are told, they go on from somebody's words.
@@ -33,7 +35,7 @@ QString asSentence(const std::string& text) {
 
 }  // namespace
 
-VrMode::VrMode(const Parts& parts) : m_parts(parts) {
+VrMode::VrMode(const Parts& parts) : m_parts(parts), m_hands(std::make_unique<VrHands>(parts.session, parts.tools)) {
   m_timer.setInterval(kLook);
   m_timer.setTimerType(Qt::PreciseTimer);
   connect(&m_timer, &QTimer::timeout, this, &VrMode::look);
@@ -82,6 +84,7 @@ void VrMode::enter() {
     return;
   }
   m_timer.start();
+  m_sinceHands.start();
   showState();
 }
 
@@ -99,8 +102,19 @@ void VrMode::look() {
     end(*ending);
     return;
   }
-  if (m_changed || m_sinceShown.hasExpired(kShowAgain)) show();
+  useHands();
+  if (m_changed || m_hands->changed() || m_sinceShown.hasExpired(kShowAgain)) show();
   showState();
+}
+
+void VrMode::useHands() {
+  const std::vector<vr::HandsSeen> all = m_link->takeHands();
+  for (const vr::HandsSeen& hands : all) m_hands->act(hands, m_parts.view->snapshot());
+  if (!all.empty()) {
+    m_sinceHands.start();
+  } else if (m_sinceHands.hasExpired(kAsleep)) {
+    m_hands->letGo();  // the headset was taken off
+  }
 }
 
 void VrMode::show() {
@@ -118,6 +132,7 @@ void VrMode::show() {
     static const Snapshot kEmpty;
     shown->box = boxOf(shown->matter ? *shown->matter : kEmpty, shown->scene.environment);
   }
+  m_hands->describe(*shown);
   m_link->show(std::move(shown));
   m_changed = false;
   m_sinceShown.start();
@@ -127,6 +142,7 @@ void VrMode::show() {
 void VrMode::end(const vr::Ending& ending) {
   m_timer.stop();
   m_headset.reset();
+  m_hands->letGo();
   m_context.reset();
   m_link.reset();
   const QString said = ending.failed ? asSentence(ending.sentence)

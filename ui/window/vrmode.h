@@ -23,8 +23,10 @@ class Session;
 class StatusLine;
 class Toolbox;
 class Viewport;
+class VrHands;
 
-/// The stay in a headset: an action enters and leaves it. It shows there what the view shows; the run goes on as it is.
+/// The stay in a headset: an action enters and leaves it. It shows there what the view shows, and hands work there with
+/// the editor's brush; the run goes on as it is.
 /// Nothing here waits for the headset's thread, which starts and ends the stay by itself; only when this object goes
 /// during a stay does it wait until that is left.
 class VrMode : public QObject {
@@ -53,6 +55,7 @@ class VrMode : public QObject {
  private:
   void follow();
   void look();
+  void useHands();
   void show();
   void end(const vr::Ending& ending);
   void showState();
@@ -60,11 +63,12 @@ class VrMode : public QObject {
   const Parts m_parts;
   std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
+  std::unique_ptr<VrHands> m_hands;
   std::unique_ptr<vr::Headset> m_headset;
   bool m_leaving = false;
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
-  QElapsedTimer m_sinceShown;
+  QElapsedTimer m_sinceShown, m_sinceHands;
   uint64_t m_project = 1;  ///< counts those that were shown
 };
 
