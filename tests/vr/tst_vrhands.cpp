@@ -2,9 +2,11 @@
 // Hands in the headset: what they draw, erase, heat and carry in the editor's scene.
 #include "core/io/projectio.h"
 #include "core/scene/project.h"
+#include "tests/ui/hands.h"
 #include "tests/vr/vrwindow.h"
 #include "ui/tools/toolbox.h"
-#include "ui/vr/handmodel.h"
+#include "ui/vr/simulatedroom.h"
+#include "ui/window/vrwithout.h"
 
 #include <cmath>
 
@@ -63,6 +65,8 @@ class VrHandsTest : public VrWindowTest {
   void buttonsPlayAndChoose();
   void handsCarryTheScene();
   void handsAreSeen();
+  void handsOfTheMouseAreWhereItPoints();
+  void mouseDrawsWithoutAHeadset();
 
  private:
   size_t bodies() { return document().project().bodies.size(); }
@@ -256,6 +260,65 @@ void VrHandsTest::handsAreSeen() {
       QVERIFY(std::abs(apart(room + Vector3(0, 0.12, 0))) <= 6);  // nothing: dither, and haze
     }
   }
+}
+
+/// The point of the wand is seen under the pointer, at the length of an arm; the other hand is left where it was.
+void VrHandsTest::handsOfTheMouseAreWhereItPoints() {
+  vr::SimulatedRoom room;
+  const double aspect = 1.5;
+  room.turn(0.4, 0.1);
+  room.walk({0.1, -0.2, 0.3});
+  room.point(0.5, -0.25);
+  const vr::HeadsetFrame frame = room.frame(1, aspect);
+  const auto tipOf = [](const vr::HandInput& hand) -> Vector3 {
+    return hand.aim->position + hand.aim->orientation * Vector3(0, 0, -vr::kTip);
+  };
+  const auto seen = project(room.eye(aspect), 300, 200, tipOf(frame.hands[vr::kRight]));
+  QVERIFY(seen && std::abs(seen->x() - 225) < 1e-6 && std::abs(seen->y() - 125) < 1e-6);
+  QVERIFY(std::abs((tipOf(frame.hands[vr::kRight]) - frame.head.position).norm() - 0.55) < 1e-9);
+  QVERIFY((frame.head.position - placeOf(room.eye(aspect))).norm() < 1e-9);
+  room.useOther();
+  room.point(-0.5, 0);
+  const vr::HeadsetFrame other = room.frame(2, aspect);
+  QCOMPARE(tipOf(other.hands[vr::kRight]), tipOf(frame.hands[vr::kRight]));
+  QVERIFY(tipOf(other.hands[vr::kLeft]) != tipOf(frame.hands[vr::kLeft]));
+}
+
+void VrHandsTest::mouseDrawsWithoutAHeadset() {
+  QAction* without = m_window->action(QStringLiteral("simulation.tryVr"));
+  without->trigger();
+  QVERIFY(without->isChecked() && !action()->isChecked());
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
+  QVERIFY(status().contains(QStringLiteral("Trying VR")));
+  VrWithout& window = *vr().window();
+  const QPoint middle(window.width() / 2, window.height() / 3);
+  hands::pull(window, middle, {0, 0});  // the pointer comes there
+  const auto frames = [&](uint64_t more) {
+    const uint64_t from = vr().frames();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > from + more, kLong);
+  };
+  frames(3);
+  while (document().undoStack().canUndo()) document().undoStack().undo();
+  QTest::mousePress(&window, Qt::LeftButton, {}, middle);
+  frames(3);
+  for (int k = 1; k <= 5; ++k) {
+    hands::move(window, middle + QPointF(12 * k, 0));
+    frames(1);
+  }
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) window.grabFramebuffer().save(folder + "/without.png");
+  QTest::mouseRelease(&window, Qt::LeftButton, {}, middle + QPoint(60, 0));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QCOMPARE(bodies(), m_before + 1);
+  QTest::keyPress(&window, Qt::Key_U);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
+  QTest::keyRelease(&window, Qt::Key_U);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QVERIFY(!vr().active() && !without->isChecked());
+  without->trigger();  // and again, until it is asked to end here
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 1, kLong);
+  without->trigger();
+  QVERIFY(!vr().active() && !status().contains(QStringLiteral("VR")));
 }
 
 QTEST_MAIN(VrHandsTest)

@@ -9,6 +9,7 @@
 namespace ps::vr {
 
 inline constexpr size_t kLeft = 0, kRight = 1;
+inline constexpr double kTip = 0.06;  ///< m before where a hand aims from: there its brush is
 
 /// Where something is, in the floor's space; metres.
 struct HandPose {

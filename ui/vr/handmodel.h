@@ -6,8 +6,6 @@
 
 namespace ps::vr {
 
-inline constexpr double kTip = 0.06;  ///< m before where a hand aims from: there its brush is
-
 /// A wand as long as a hand, with a point of the brush's colour. `hand` is in the scene, of which `scale` m are one of
 /// the room.
 void addWand(Props& props, const HandPose& hand, double scale, const std::array<float, 3>& colour, bool dark);
