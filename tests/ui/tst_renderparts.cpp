@@ -412,7 +412,7 @@ void TestRenderParts::wallsAreClippedByEachOther() {
   const render::Furniture furniture = render::buildFurniture(scene.environment, true);
   QVERIFY(furniture.hasFloor && furniture.hasLid && !furniture.opaque.empty() && !furniture.clear.empty());
   QVERIFY(std::abs(furniture.half[0] - 0.4f) < 1e-6f && std::abs(furniture.lidHeight - 0.8f) < 1e-6f);
-  for (const render::MeshVertex& v : furniture.opaque) {
+  for (const MeshVertex& v : furniture.opaque) {
     const float length = std::hypot(v.normal[0], v.normal[1], v.normal[2]);
     QVERIFY(std::isfinite(v.position[0] + v.position[1] + v.position[2]) && std::abs(length - 1) < 1e-4f);
   }
@@ -509,7 +509,7 @@ void TestRenderParts::aSectionCutsWalls() {
     const Section section{{kept, kept.dot(Vector3(0, 0.35, 0))}};
     const render::Furniture cut = render::buildFurniture(environment, true, section);
     QVERIFY(cut.clear.size() > 100 && cut.clear.size() < whole.clear.size() + 500);
-    for (const render::MeshVertex& v : cut.clear) QVERIFY(section.plane.heightOf(vector(v.position)) > -kMargin);
+    for (const MeshVertex& v : cut.clear) QVERIFY(section.plane.heightOf(vector(v.position)) > -kMargin);
     for (const render::EdgeVertex& v : cut.edges) QVERIFY(section.plane.heightOf(vector(v.position)) > -1e-6);
     QCOMPARE(cut.opaque.size(), whole.opaque.size());
   }

@@ -103,6 +103,7 @@ class TestRenderViews : public QObject {
   void aWindowBesideTheAxisShowsTheSame_data();
   void aWindowBesideTheAxisShowsTheSame();
   void preparedInOneContextDrawnInAnother();
+  void propsAreShownBesides();
   void nothingPreparedIsAnError();
   void sizesTakeTurnsWithoutNewStorage();
   void picturesKeepTheirBackground();
@@ -224,6 +225,34 @@ void TestRenderViews::preparedInOneContextDrawnInAnother() {
   QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   m_context->makeCurrent();
   QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+/// A square in the world's middle, seen from the front: it shows where nothing stands before it, in whatever is
+/// prepared, until it is taken away; what is clear lets the ground through.
+void TestRenderViews::propsAreShownBesides() {
+  Shot shot;
+  shot.camera = {{0, 0, 0}, 1, 0, 0, 35};
+  const auto square = [](float z, float fourth) {
+    const auto at = [&](float x, float y) { return MeshVertex{{x, y, z}, {0, 0, 1}, {0.9f, 0.1f, 0.1f, fourth}}; };
+    const float s = 0.1f;
+    return std::vector{at(-s, -s), at(s, -s), at(s, s), at(-s, -s), at(s, s), at(-s, s)};
+  };
+  const auto redness = [](const Image& image) {
+    const size_t middle = (kHeight / 2 * kWidth + kWidth / 2) * 4;
+    return int{image[middle]} - int{image[middle + 2]};
+  };
+  Renderer renderer;
+  const Image without = renderImage(renderer, block(api::Motion::Solid), RenderScene{}, shot);
+  renderer.show({square(0.3f, 0), {}});
+  QVERIFY(redness(ps::renderImage(renderer, shot.eye(), shot.size)) > 80);
+  QVERIFY(redness(renderImage(renderer, block(api::Motion::Solid), RenderScene{}, shot)) > 80);
+  renderer.show({{}, square(0.3f, 0.4f)});
+  const int clear = redness(ps::renderImage(renderer, shot.eye(), shot.size));
+  QVERIFY2(clear > redness(without) + 20 && clear < 160, qPrintable(QString::number(clear)));
+  renderer.show({square(-0.3f, 0), square(-0.3f, 0.4f)});  // behind the block
+  QVERIFY(redness(ps::renderImage(renderer, shot.eye(), shot.size)) == redness(without));
+  renderer.show({});
+  QVERIFY(ps::renderImage(renderer, shot.eye(), shot.size) == without);
 }
 
 void TestRenderViews::nothingPreparedIsAnError() {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The editor's window in VR, against the scripted runtime: entering, what the eyes see, each ending.
 #include "core/io/projectio.h"
-#include "tests/ui/samplewindow.h"
-#include "tests/vr/scriptedrun.h"
+#include "tests/vr/vrwindow.h"
 #include "ui/session/messagelog.h"
-#include "ui/vr/stand.h"
-#include "ui/window/statusline.h"
-#include "ui/window/vrmode.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
-#include <QtGui/QAction>
 
 #include <cmath>
 #include <optional>
@@ -20,42 +15,17 @@ using namespace ps;
 namespace {
 
 constexpr int kSoon = 2000;  // ms: entering and leaving
-constexpr int kSide = 256;   // pixels of an eye
-
-const char* const kHead = R"([0.1, 1.5, 0.2, -0.25, 0, 0, 0.9682458])";  // looks down by 29 degrees
-
-/// Frames as long as a headset's, so that the window has its share of the machine; `more`: ", \"key\": value".
-std::string script(const QString& more = {}) {
-  return QStringLiteral(R"({"real_time": true, "period": 0.02, "view": {"width": %1, "height": %1},
-                            "keys": [{"frame": 0, "head": %2}]%3})")
-      .arg(QString::number(kSide), QString::fromLatin1(kHead), more)
-      .toStdString();
-}
 
 size_t threads() { return static_cast<size_t>(QDir(QStringLiteral("/proc/self/task")).entryList(QDir::Dirs).size()); }
 
-vr::HandPose head() { return {{0.1, 1.5, 0.2}, Quaternion(0.9682458, -0.25, 0, 0).normalized()}; }
-
-/// Of the script's head: half of 63 mm beside it, through a window of 90 degrees.
-Eye eyeOfScript(bool right) {
-  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-  place.linear() = head().orientation.toRotationMatrix();
-  place.translation() = head().position + head().orientation * Vector3(right ? 0.0315 : -0.0315, 0, 0);
-  return eyeThrough(place.inverse().matrix(), -1, 1, -1, 1, 0.03, 100);
-}
-
 }  // namespace
 
-class VrModeTest : public SampleWindowTest {
+class VrModeTest : public VrWindowTest {
   Q_OBJECT
 
  private Q_SLOTS:
   void initTestCase() { open(); }
-  void cleanup() {
-    if (vr().active()) vr().leave();
-    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
-    if (m_window) m_window->statusLine()->say({});
-  }
+  void cleanup() { leaveAtLast(); }
   void cleanupTestCase() { m_window.reset(); }
 
   void commandIsWhereOneLooksForIt();
@@ -69,22 +39,6 @@ class VrModeTest : public SampleWindowTest {
   void anotherProjectComesBeforeTheWearer();
   void staysLeaveNoThreads();
   void windowClosesInVr();
-
- private:
-  VrMode& vr() { return m_window->vr(); }
-  QAction* action() { return m_window->action(QStringLiteral("simulation.vr")); }
-  QString status() { return m_window->statusLine()->parts().join(QLatin1Char('|')); }
-  void enter() {
-    action()->trigger();
-    QVERIFY(action()->isChecked() && vr().active());
-    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 4 || !vr().active(), kLong);
-    QVERIFY(vr().active());
-  }
-  void leave() {
-    action()->trigger();
-    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
-    QVERIFY(!action()->isChecked());
-  }
 };
 
 void VrModeTest::commandIsWhereOneLooksForIt() {
@@ -96,7 +50,7 @@ void VrModeTest::commandIsWhereOneLooksForIt() {
 }
 
 void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
-  const ScriptedRun run(script());
+  const ScriptedRun run(vrScript());
   session().play();
   QElapsedTimer clock;
   clock.start();
@@ -120,12 +74,12 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
 /// picture without one are the same; they may round otherwise.
 void VrModeTest::eyesShowWhatTheViewShows() {
   backToTheStart();
-  const ScriptedRun run(script(QStringLiteral(R"(, "pictures": [30])")));
+  const ScriptedRun run(
+      vrScript(QStringLiteral(R"(, "pictures": [30])"), QStringLiteral(R"(, {"frame": 1, "left": {"active": false},
+                                                        "right": {"active": false}})")));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 32, kLong);
   leave();
-  const auto box = boxOf(*view()->snapshot(), view()->scene().environment);
-  const vr::Stand stand = vr::standBefore(head(), box);
   const Look look = view()->look();
   view()->doneCurrent();
   HeadlessContext context;
@@ -134,7 +88,7 @@ void VrModeTest::eyesShowWhatTheViewShows() {
   for (const bool right : {false, true}) {
     const QImage picture = run.picture(30, right ? 1 : 0).convertToFormat(QImage::Format_RGBA8888);
     QCOMPARE(picture.size(), QSize(kSide, kSide));
-    const auto wanted = renderImage(renderer, stand.toScene(eyeOfScript(right)), {kSide, kSide, false});
+    const auto wanted = renderImage(renderer, stand().toScene(scriptEye(right)), {kSide, kSide, false});
     const QImage drawn(wanted.data(), kSide, kSide, 4 * kSide, QImage::Format_RGBA8888);
     const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
     if (!folder.isEmpty()) picture.save(folder + (right ? "/eye-right.png" : "/eye-left.png"));
@@ -153,7 +107,7 @@ void VrModeTest::eyesShowWhatTheViewShows() {
 
 void VrModeTest::matterMovesInTheHeadset() {
   backToTheStart();
-  const ScriptedRun run(script(QStringLiteral(R"(, "pictures": [10, 120])")));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [10, 120])")));
   session().play();
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 122, kLong);
@@ -194,7 +148,7 @@ void VrModeTest::everyEndingIsSaidAndVrComesBack() {
   QFETCH(QString, sentence);
   const std::string before = writeProject(document().project());
   {
-    const ScriptedRun run(script(more));
+    const ScriptedRun run(vrScript(more));
     action()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
     QVERIFY(!action()->isChecked());
@@ -209,7 +163,7 @@ void VrModeTest::everyEndingIsSaidAndVrComesBack() {
   session().play();
   QTRY_VERIFY_WITH_TIMEOUT(session().now() > then, kLong);
   session().pause();
-  const ScriptedRun again(script());
+  const ScriptedRun again(vrScript());
   enter();
   QVERIFY(!status().contains(sentence));
   leave();
@@ -217,7 +171,7 @@ void VrModeTest::everyEndingIsSaidAndVrComesBack() {
 }
 
 void VrModeTest::headsetOnTheTableIsLeft() {
-  const ScriptedRun run(script(QStringLiteral(R"(, "events": [{"frame": 12, "state": "IDLE"}])")));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "events": [{"frame": 12, "state": "IDLE"}])")));
   enter();
   QTRY_VERIFY_WITH_TIMEOUT(run.texts("session").back() == "ended", kLong);
   QTest::qWait(100);
@@ -227,7 +181,7 @@ void VrModeTest::headsetOnTheTableIsLeft() {
 }
 
 void VrModeTest::anotherProjectComesBeforeTheWearer() {
-  const ScriptedRun run(script());
+  const ScriptedRun run(vrScript());
   enter();
   QSignalSpy shown(&session(), &Session::projectShown);
   m_window->openFile(QStringLiteral(PS_SOURCE_DIR "/projects/candle.json"));
@@ -241,7 +195,7 @@ void VrModeTest::anotherProjectComesBeforeTheWearer() {
 }
 
 void VrModeTest::staysLeaveNoThreads() {
-  const ScriptedRun run(script());
+  const ScriptedRun run(vrScript());
   enter();
   leave();
   const size_t before = threads();
@@ -255,7 +209,7 @@ void VrModeTest::staysLeaveNoThreads() {
 }
 
 void VrModeTest::windowClosesInVr() {
-  const ScriptedRun run(script());
+  const ScriptedRun run(vrScript());
   enter();
   QVERIFY(m_window->close());
   m_window.reset();

@@ -9,10 +9,6 @@
 
 namespace ps::render {
 
-struct MeshVertex {
-  std::array<float, 3> position, normal;
-  std::array<float, 4> material;  ///< sRGB; Kind (opaque) or opacity (clear)
-};
 /// End of a thin line. `other` is its far end; `ribbon`: side as seen from this end, opacity, side.
 struct EdgeVertex {
   std::array<float, 3> position, other;

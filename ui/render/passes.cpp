@@ -71,6 +71,13 @@ void Passes::uploadPrepared(const Prepared& prepared) {
   m_edges.upload(GL_ARRAY_BUFFER, furniture.edges.data(), furniture.edges.size() * sizeof(EdgeVertex));
 }
 
+void Passes::show(const Props& props) {
+  m_fence.wait();
+  for (const auto& [buffer, mesh] : {std::pair{&m_opaqueProps, &props.opaque}, {&m_clearProps, &props.clear}})
+    buffer->upload(GL_ARRAY_BUFFER, mesh->data(), mesh->size() * sizeof(MeshVertex));
+  m_fence.set();
+}
+
 void Passes::uploadFrame(const ViewFrame& frame) {
   m_uniforms.upload(GL_UNIFORM_BUFFER, &frame.uniforms, sizeof frame.uniforms);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, m_uniforms.name());
@@ -130,14 +137,17 @@ void Passes::drawSurfaces(const Job& job) {
     drawParticles(m_programs.sphere, plain, m_visible, {0, frame.visible.size()});
   else
     drawParticles(m_programs.sphere, plain, m_particles, prepared.instances.sphereRange(frame.amongSpheres));
-  if (!prepared.furniture.opaque.empty()) {
-    glStencilFunc(GL_ALWAYS, kMetal, 0xFF);
+  const auto drawMesh = [this](GLint mark, const Buffer& buffer, const std::vector<MeshVertex>& mesh) {
+    if (mesh.empty()) return;
+    glStencilFunc(GL_ALWAYS, mark, 0xFF);
     m_programs.mesh.use();
     const VertexArray array;
     array.bind();
-    meshAttributes(m_opaque.name());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(prepared.furniture.opaque.size()));
-  }
+    meshAttributes(buffer.name());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
+  };
+  drawMesh(kMatter, m_opaqueProps, prepared.props.opaque);
+  drawMesh(kMetal, m_opaque, prepared.furniture.opaque);
   glDisable(GL_STENCIL_TEST);
 }
 
@@ -257,6 +267,7 @@ void Passes::drawGlass(const Job& job) {
   m_programs.glass.use();
   m_programs.glass.texture("noiseTexture", 1, m_noise.name());
   draw(m_programs.glass, m_clear, prepared.furniture.clear.size());
+  draw(m_programs.glass, m_clearProps, prepared.props.clear.size());
   m_programs.edge.use();
   glUniform3fv(m_programs.edge.at("tint"), 1, sceneColour(prepared.look.dark, "edge").data());
   glUniform1f(m_programs.edge.at("width"),

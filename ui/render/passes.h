@@ -32,6 +32,7 @@ class Passes {
   int largestPicture() const { return m_largest; }  ///< pixels along each side
   const Quality& quality() const { return m_quality; }
   void prepare(const Prepared& prepared);
+  void show(const Props& props);
   /// What was prepared last, into the framebuffer that the frame names.
   void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
 
@@ -95,6 +96,7 @@ class Passes {
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
   Buffer m_particles, m_opaque, m_clear, m_edges, m_guides;  // of what is prepared
+  Buffer m_opaqueProps, m_clearProps;
   Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles,
       m_ghostTiles;  // of the picture being drawn
   Fence m_fence;     // behind the last call, whose context may have been another

@@ -16,6 +16,7 @@ struct Prepared {
   Look look;
   Instances instances;
   Furniture furniture;
+  Props props;
   std::vector<EdgeVertex> guides;  ///< triangles
   uint64_t furnitureRevision = 0;  ///< rises with every change of `furniture`
   ContactMap contact;

@@ -59,6 +59,12 @@ void Renderer::prepare(const Snapshot& now, const Snapshot* previous, double ble
   m->passes->prepare(m->prepared);
 }
 
+void Renderer::show(const Props& props) {
+  m->prepared.props = props;
+  const render::GlState state;
+  m->passes->show(props);
+}
+
 void Renderer::draw(const Eye& eye, const RenderTarget& target) {
   if (target.size.width < 1 || target.size.height < 1) return;
   if (!m->prepared.ready) throw Error("there is no picture of what was never prepared");

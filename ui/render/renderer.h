@@ -78,6 +78,17 @@ struct RenderScene {
   Environment environment;  ///< walls, bounds
 };
 
+/// A corner of a triangle: of the scene's furniture, or of what is shown besides.
+struct MeshVertex {
+  std::array<float, 3> position, normal;  ///< m; a unit vector outwards
+  std::array<float, 4> material;          ///< sRGB; render::Kind (opaque) or opacity (clear)
+};
+
+/// What is shown among the scene and is no part of it: controllers, brushes in hands. Triangles.
+struct Props {
+  std::vector<MeshVertex> opaque, clear;
+};
+
 struct Eye;
 
 /// Draws snapshots: each is prepared once and then drawn any number of times, for two eyes, a mirror, a thumbnail, a
@@ -93,6 +104,8 @@ class Renderer {
   /// Everything that does not depend on where it is seen from. `previous` (or nullptr) and `blend` in 0..1 interpolate
   /// between two snapshots; neither is needed afterwards.
   void prepare(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& look);
+  /// What is shown besides from now on, whatever is prepared.
+  void show(const Props& props);
   /// Draws what was prepared last. Throws Error when nothing was, and when the driver runs out of memory. The same
   /// picture whatever was drawn before, and for two sizes in turn without new storage.
   void draw(const Eye& eye, const RenderTarget& target);

@@ -134,8 +134,9 @@ void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
     markSpheres(detail, projector, visible, 2.5f);
     markSpheres(outline, projector, part(instances.outlineRange()), 1.2f, 3 + lineWidth + haloWidth);
     markSpheres(ghost, projector, part(instances.ghostRange()), 1, 3);
-    markEdges(detail, projector, prepared.furniture.opaque);
-    markEdges(detail, projector, prepared.furniture.clear);
+    for (const auto* mesh :
+         {&prepared.furniture.opaque, &prepared.furniture.clear, &prepared.props.opaque, &prepared.props.clear})
+      markEdges(detail, projector, *mesh);
   } else {
     for (TileSet* tiles : {&liquid, &detail, &outline, &ghost}) tiles->markAll();
   }

@@ -28,7 +28,7 @@ const std::vector<ToolRow>& toolTable() {
       {"scale", "scale", "Scale", "Scale what is selected", "S", "In the scene with the handles to scale",
        make<ScaleTool>},
       {kBrushTool, "brush", "Brush", "Draw matter", "B", "In the scene with the brush", make<DrawTool>},
-      {"erase", "erase", "Erase", "Erase matter", "E", "In the scene with the eraser", make<EraseTool>},
+      {kEraseTool, "erase", "Erase", "Erase matter", "E", "In the scene with the eraser", make<EraseTool>},
       {"tap", "tap", "Place a tap", "Place a tap that pours matter", "T", "In the scene with a tap", make<PlaceTap>},
       {"drain", "drain", "Place a drain", "Place a drain that takes matter away", "D", "In the scene with a drain",
        make<PlaceDrain>},

@@ -25,6 +25,7 @@ const ToolRow* toolRow(const std::string& id);  ///< nullptr for an unknown id
 
 // Ids of the tools that the program itself goes to.
 inline constexpr const char* kSelectTool = "select";  ///< the first one; Esc goes back to it
-inline constexpr const char* kBrushTool = "brush";    ///< that the workspace Sketch begins with
+inline constexpr const char* kEraseTool = "erase";
+inline constexpr const char* kBrushTool = "brush";  ///< that the workspace Sketch begins with
 
 }  // namespace ps

@@ -9,6 +9,7 @@
 namespace ps::vr {
 
 inline constexpr size_t kLeft = 0, kRight = 1;
+inline constexpr double kTip = 0.06;  ///< m before where a hand aims from: there its brush is
 
 /// Where something is, in the floor's space; metres.
 struct HandPose {
@@ -23,6 +24,7 @@ struct HandInput {
   Vector3 velocity{0, 0, 0};      ///< of the grip, m/s; 0 where it is not known
   double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
   double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
+  bool pad = false;               ///< a pad steers, which means something where it is pressed
   bool steerPressed = false, first = false, second = false;
 };
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* kHands[] = {"/user/hand/left", "/user/hand/right"};
 constexpr double kNanosecond = 1e-9;  // s
+constexpr std::string_view kPad = "/input/trackpad";
 
 template <size_t N>
 void write(char (&place)[N], const char* text) {
@@ -88,6 +89,7 @@ void Hands::suggest() {
     }
     auto info = structure<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     info.interactionProfile = m_runtime.path(std::string(suggestion.profile));
+    if (suggestion.steer == kPad) m_pads.insert(info.interactionProfile);
     info.countSuggestedBindings = static_cast<uint32_t>(bindings.size());
     info.suggestedBindings = bindings.data();
     // A runtime may not know a controller; the others are suggested all the same.
@@ -134,6 +136,12 @@ bool Hands::pressed(XrAction action, size_t hand) const {
   return state.isActive && state.currentState;
 }
 
+bool Hands::hasPad(size_t hand) const {
+  auto state = structure<XrInteractionProfileState>(XR_TYPE_INTERACTION_PROFILE_STATE);
+  check(xrGetCurrentInteractionProfile(m_session.handle(), m_paths[hand], &state), "xrGetCurrentInteractionProfile");
+  return m_pads.count(state.interactionProfile) > 0;
+}
+
 double Hands::number(XrAction action, size_t hand) const {
   const XrActionStateGetInfo info = stateInfo(action, hand);
   auto state = structure<XrActionStateFloat>(XR_TYPE_ACTION_STATE_FLOAT);
@@ -164,6 +172,7 @@ HandInput Hands::input(size_t hand, XrTime time) const {
   auto state = structure<XrActionStateVector2f>(XR_TYPE_ACTION_STATE_VECTOR2F);
   check(xrGetActionStateVector2f(m_session.handle(), &info, &state), "xrGetActionStateVector2f");
   if (state.isActive) input.steerX = double(state.currentState.x), input.steerY = double(state.currentState.y);
+  input.pad = hasPad(hand);
   input.steerPressed = pressed(m_steerPress, hand);
   input.first = pressed(m_first, hand);
   input.second = pressed(m_second, hand);

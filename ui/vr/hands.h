@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 
 namespace ps::vr {
 
@@ -31,12 +32,14 @@ class Hands {
   void attach();
   XrActionStateGetInfo stateInfo(XrAction action, size_t hand) const;
   bool pressed(XrAction action, size_t hand) const;
+  bool hasPad(size_t hand) const;
   double number(XrAction action, size_t hand) const;
   std::optional<HandPose> locate(XrSpace space, XrTime time, Vector3* velocity) const;
 
   Runtime& m_runtime;
   Session& m_session;
   std::array<XrPath, 2> m_paths;
+  std::set<XrPath> m_pads;  ///< controllers that have one instead of a stick
   XrActionSet m_set = XR_NULL_HANDLE;
   XrAction m_grip = XR_NULL_HANDLE, m_aim = XR_NULL_HANDLE, m_draw = XR_NULL_HANDLE, m_hold = XR_NULL_HANDLE;
   XrAction m_steer = XR_NULL_HANDLE, m_steerPress = XR_NULL_HANDLE, m_first = XR_NULL_HANDLE, m_second = XR_NULL_HANDLE;

@@ -2,11 +2,35 @@
 #pragma once
 #include "ui/render/framing.h"
 #include "ui/render/renderer.h"
+#include "ui/vr/handinput.h"
 
+#include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace ps::vr {
+
+/// What a dab of a brush fills about its middle, along the scene's axes.
+struct BrushVolume {
+  Vector3 half{0, 0, 0};          ///< m
+  bool box = false;               ///< all of that, or the ball in it
+  std::array<float, 3> colour{};  ///< sRGB
+};
+
+/// What hands do at a time, where the scene stands by then.
+struct HandsSeen {
+  struct Hand {
+    std::optional<Vector3> tip;  ///< m, in the scene; nothing while nobody knows where the hand is
+    Vector3 up{0, 1, 0};         ///< a unit vector: the hand's own
+    bool holds = false;          ///< its grip is pressed, and does not carry the scene
+    HandInput input;             ///< in the room
+  };
+  double seconds = 0;  ///< on the headset's clock
+  std::array<Hand, 2> hands;
+};
 
 /// What the editor shows at a time.
 struct HeadsetView {
@@ -14,8 +38,10 @@ struct HeadsetView {
   bool goesOn = false;  ///< from the matter before: what is seen moves from there
   RenderScene scene;
   Look look;
-  uint64_t project = 0;  ///< with another one the scene is set before its wearer anew
-  Box box;               ///< m, around all that there is to see of the project when it came
+  uint64_t project = 0;                ///< with another one the scene is set before its wearer anew
+  std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
+  std::array<uint64_t, 2> strokes{};   ///< that they have begun: each is felt
+  Box box;                             ///< m, around all that there is to see of the project when it came
 };
 
 /// Between the interface's thread and the headset's. What is handed over nobody changes any more; neither waits for
@@ -31,8 +57,21 @@ class HeadsetLink {
     return m_view;
   }
 
+  /// In the order in which they were told. Where nobody takes them for seconds, what happened meanwhile is left out.
+  void tell(const HandsSeen& hands) {
+    const std::lock_guard lock(m_mutex);
+    if (m_hands.size() == kMost) m_hands.pop_back();
+    m_hands.push_back(hands);
+  }
+  std::vector<HandsSeen> takeHands() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_hands, {});
+  }
+
  private:
+  static constexpr size_t kMost = 400;
   mutable std::mutex m_mutex;
+  std::vector<HandsSeen> m_hands;
   std::shared_ptr<const HeadsetView> m_view;
 };
 

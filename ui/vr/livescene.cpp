@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/livescene.h"
 
+#include "ui/vr/handmodel.h"
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace ps::vr {
 namespace {
 
 constexpr double kLongest = 0.2;  // s: after a longer wait nobody expects that it is made up for
+
+constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger's
+constexpr double kPushed = 0.7;             // of a stick's
+constexpr double kTurn = std::numbers::pi / 6;
+
+Vector3 tipOf(const HandPose& aim) { return aim.position + aim.orientation * Vector3(0, 0, -kTip); }
 
 /// Whether one lies so shortly before the other that matter is seen to move from there.
 bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
@@ -17,6 +27,10 @@ bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
 
 std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& frame) {
   take(m_link->shown(), frame);
+  carry(frame);
+  turn(frame);
+  tellHands(frame);
+  showHands(frame);
   static const Snapshot kEmpty;
   const double now = share(frame);
   if (m_prepared != m_view || m_share != now) {
@@ -25,7 +39,70 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& f
     m_prepared = m_view;
     m_share = now;
   }
-  return {};
+  return feel();
+}
+
+/// While neither draws: then a grip means the opposite of what the brush does.
+void LiveScene::carry(const HeadsetFrame& frame) {
+  const auto& [left, right] = frame.hands;
+  const auto pulls = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld && hand.draw < kIdle; };
+  const auto holds = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld; };
+  if (!(m_carrying ? holds(left) && holds(right) : pulls(left) && pulls(right))) {
+    m_carrying.reset();
+    return;
+  }
+  const std::array<Vector3, 2> hands{left.grip->position, right.grip->position};
+  if (!m_carrying) m_carrying = Carrying{m_stand, hands};
+  m_stand = carried(m_carrying->from, m_carrying->hands, hands);
+}
+
+/// By steps, which the eyes bear better than a turn. The scene goes round the other way than its wearer.
+void LiveScene::turn(const HeadsetFrame& frame) {
+  const HandInput& hand = frame.hands[frame.hands[kLeft].pad ? kLeft : kRight];
+  const bool aside = std::abs(hand.steerX) > kPushed && std::abs(hand.steerX) > std::abs(hand.steerY);
+  const bool asked = aside && (!hand.pad || hand.steerPressed);
+  if (asked && !m_turns && !m_carrying)
+    m_stand = turned(m_stand, frame.head.position, hand.steerX > 0 ? kTurn : -kTurn);
+  m_turns = asked;
+}
+
+void LiveScene::tellHands(const HeadsetFrame& frame) {
+  HandsSeen seen;
+  seen.seconds = frame.time;
+  for (const size_t hand : {kLeft, kRight}) {
+    const HandInput& input = frame.hands[hand];
+    HandsSeen::Hand& told = seen.hands[hand];
+    told.input = input;
+    told.holds = input.hold > kHeld && !m_carrying;
+    if (m_carrying) told.input.draw = 0;
+    if (!input.aim) continue;
+    told.tip = m_stand.toScene(tipOf(*input.aim));
+    told.up = m_stand.toScene(*input.aim).orientation * Vector3::UnitY();
+  }
+  m_link->tell(seen);
+}
+
+void LiveScene::showHands(const HeadsetFrame& frame) {
+  m_props.opaque.clear();
+  m_props.clear.clear();
+  for (const size_t hand : {kLeft, kRight}) {
+    const std::optional<HandPose>& aim = frame.hands[hand].aim;
+    if (!aim) continue;
+    const BrushVolume& brush = m_view->brushes[hand];
+    addWand(m_props, m_stand.toScene(*aim), 1 / m_stand.scale, brush.colour, m_view->look.dark);
+    if (!m_carrying) addVolume(m_props, m_stand.toScene(tipOf(*aim)), brush);
+  }
+  m_renderer.show(m_props);
+}
+
+/// A tick for each stroke that began.
+std::array<std::optional<Vibration>, 2> LiveScene::feel() {
+  std::array<std::optional<Vibration>, 2> felt;
+  for (const size_t hand : {kLeft, kRight}) {
+    if (m_view->strokes[hand] > m_felt[hand]) felt[hand] = Vibration{};
+    m_felt[hand] = m_view->strokes[hand];
+  }
+  return felt;
 }
 
 void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame) {

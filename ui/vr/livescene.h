@@ -19,6 +19,11 @@ class LiveScene : public HeadsetScene {
  private:
   void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);
   double share(const HeadsetFrame& frame) const;
+  void carry(const HeadsetFrame& frame);
+  void turn(const HeadsetFrame& frame);
+  void tellHands(const HeadsetFrame& frame);
+  void showHands(const HeadsetFrame& frame);
+  std::array<std::optional<Vibration>, 2> feel();
 
   std::shared_ptr<HeadsetLink> m_link;
   Renderer m_renderer;
@@ -26,6 +31,15 @@ class LiveScene : public HeadsetScene {
   SnapshotPtr m_before;
   double m_came = 0, m_lasts = 0;  ///< s: when the matter did, and how long it takes to get there from that before
   Stand m_stand;
+  /// By both hands, from when they took hold of the scene.
+  struct Carrying {
+    Stand from;
+    std::array<Vector3, 2> hands;  ///< m, in the room
+  };
+  std::optional<Carrying> m_carrying;
+  bool m_turns = false;              ///< asked for already
+  std::array<uint64_t, 2> m_felt{};  ///< strokes
+  Props m_props;                     ///< kept for its memory
   /// What the renderer has prepared: while only the head moves, it stays.
   std::shared_ptr<const HeadsetView> m_prepared;
   double m_share = 1;

@@ -8,6 +8,8 @@ namespace ps::vr {
 namespace {
 
 constexpr double kSmallest = 0.1, kLargest = 1.2;  // m, of what stands on a table
+constexpr double kStretch = 20;                    // how many times as large, or as small, hands may make it
+constexpr double kUpright = 0.3;                   // share of a way that is level, below which it counts as upright
 constexpr double kBelowEyes = 0.55;                // m, of the table's top
 constexpr double kBefore = 0.3;                    // m from the eyes to the nearest of the scene
 
@@ -29,6 +31,26 @@ Eye Stand::toScene(const Eye& room) const {
   eye.view.topRightCorner<3, 1>() = -axes * toScene(placeOf(room));
   eye.projection(2, 3) /= scale;
   return eye;
+}
+
+Stand carried(const Stand& before, const std::array<Vector3, 2>& from, const std::array<Vector3, 2>& to) {
+  const Vector3 was = from[1] - from[0], is = to[1] - to[0], middle = (from[0] + from[1]) / 2;
+  const auto level = [](const Vector3& way) { return std::hypot(way.x(), way.z()) > kUpright * way.norm(); };
+  Stand stand = before;
+  stand.scenePlace = before.toScene(middle);
+  stand.roomPlace = (to[0] + to[1]) / 2;
+  stand.scale = std::clamp(before.scale * is.norm() / std::max(was.norm(), 1e-3), 1 / kStretch, kStretch);
+  // Hands one above the other turn nothing.
+  if (level(was) && level(is)) stand.turn += std::atan2(is.x(), is.z()) - std::atan2(was.x(), was.z());
+  return stand;
+}
+
+Stand turned(const Stand& before, const Vector3& about, double angle) {
+  Stand stand = before;
+  stand.scenePlace = before.toScene(about);
+  stand.roomPlace = about;
+  stand.turn += angle;
+  return stand;
 }
 
 Stand standBefore(const HandPose& head, const Box& box) {

@@ -4,6 +4,8 @@
 #include "ui/render/framing.h"
 #include "ui/vr/handinput.h"
 
+#include <array>
+
 namespace ps::vr {
 
 /// How the scene stands in the room: upright, turned, and perhaps larger or smaller than it is.
@@ -18,6 +20,12 @@ struct Stand {
   /// As it sees the scene; its planes are where they are in the room.
   Eye toScene(const Eye& room) const;
 };
+
+/// A scene that two hands carry, turn and stretch, from where they took hold of it; it stays upright, and between a
+/// twentieth and twenty times as large as it is.
+Stand carried(const Stand& before, const std::array<Vector3, 2>& from, const std::array<Vector3, 2>& to);
+/// Turned about a place in the room; rad.
+Stand turned(const Stand& before, const Vector3& about, double angle);
 
 /// Sets what is in the box before somebody as on a table: within reach, its bottom as far below the eyes as a table is
 /// for one who sits and a bench for one who stands. Things have the size that they have, so that hands draw and hold

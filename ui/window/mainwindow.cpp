@@ -100,7 +100,8 @@ MainWindow::MainWindow(const Options& options)
   m_tour = new Tour(*this);
   connectParts();
   m_vr = std::make_unique<VrMode>(VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status,
-                                                *m_actions.find(QStringLiteral("simulation.vr"))});
+                                                *m_actions.find(QStringLiteral("simulation.vr")),
+                                                *m_actions.find(QStringLiteral("simulation.tryVr"))});
   m_layout->applyDefault();
   m_layout->restore();
   qApp->installEventFilter(this);
@@ -275,6 +276,7 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                 });
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("simulation.vr")));
+  m_actions.add(menu, QStringLiteral("simulation.tryVr"), QStringLiteral("Try VR without a headset"), {}, {});
 }
 
 /// In the header of the dock, beside the graphs alone.

@@ -15,6 +15,8 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/statusline.h"
+#include "ui/window/vrhands.h"
+#include "ui/window/vrwithout.h"
 
 #include <QtGui/QAction>
 
@@ -23,6 +25,7 @@ namespace {
 
 constexpr int kLook = 8;         // ms between looks at the headset
 constexpr int kShowAgain = 200;  // ms after which what nobody tells of, like the theme, is shown all the same
+constexpr int kAsleep = 1000;    // ms without a word of hands, after which they do nothing any more
 const QString kTopic = QStringLiteral("VR");
 
 /// As graphics drivers' errors are told, they go on from somebody's words.
@@ -33,22 +36,23 @@ QString asSentence(const std::string& text) {
 
 }  // namespace
 
-VrMode::VrMode(const Parts& parts) : m_parts(parts) {
+VrMode::VrMode(const Parts& parts) : m_parts(parts), m_hands(std::make_unique<VrHands>(parts.session, parts.tools)) {
   m_timer.setInterval(kLook);
   m_timer.setTimerType(Qt::PreciseTimer);
   connect(&m_timer, &QTimer::timeout, this, &VrMode::look);
-  m_parts.action.setCheckable(true);
+  for (QAction* action : {&m_parts.action, &m_parts.without}) action->setCheckable(true);
   connect(&m_parts.action, &QAction::triggered, this, [this](bool on) { on ? enter() : leave(); });
+  connect(&m_parts.without, &QAction::triggered, this, [this](bool on) { on ? enterWithout() : leave(); });
   follow();
 }
 
-VrMode::~VrMode() = default;
+VrMode::~VrMode() { delete m_window; }
 
 /// After the view, which has what it draws by then.
 void VrMode::follow() {
   const auto changed = [this] { m_changed = true; };
   connect(&m_parts.session, &Session::snapshotArrived, this, [this] {
-    if (m_headset) show();
+    if (active()) show();
   });
   connect(&m_parts.session, &Session::projectShown, this, [this] {
     ++m_project;
@@ -62,16 +66,24 @@ void VrMode::follow() {
   connect(&m_parts.tools, &Toolbox::brushChanged, this, changed);
 }
 
-void VrMode::enter() {
-  if (m_headset) return;
+/// Throws Error.
+void VrMode::begin() {
   m_leaving = false;
   m_parts.status.say({});
   m_parts.notices.bar().close(kTopic);
+  if (!m_parts.view) throw Error("VR needs OpenGL 4.3, which there is none of here; a graphics driver brings it.");
+  m_link = std::make_shared<vr::HeadsetLink>();
+  show();
+  m_timer.start();
+  m_sinceHands.start();
+}
+
+void VrMode::enter() {
+  if (m_window) leave();
+  if (active()) return showState();
   try {
-    if (!m_parts.view) throw Error("VR needs OpenGL 4.3, which there is none of here; a graphics driver brings it.");
+    begin();
     m_context = std::make_unique<HeadsetContext>(m_parts.view->context());
-    m_link = std::make_shared<vr::HeadsetLink>();
-    show();
     vr::HeadsetSetup setup;
     setup.makeCurrent = [this] { m_context->makeCurrent(); };
     setup.release = [this] { m_context->release(); };
@@ -79,28 +91,50 @@ void VrMode::enter() {
     m_headset = std::make_unique<vr::Headset>(std::move(setup));
   } catch (const std::exception& error) {
     end({true, error.what()});
-    return;
   }
-  m_timer.start();
+  showState();
+}
+
+void VrMode::enterWithout() {
+  if (m_headset) leave();
+  if (active()) return showState();
+  try {
+    begin();
+    m_window = new VrWithout(m_link, m_parts.view->window());
+    connect(m_window, &VrWithout::closed, this, &VrMode::leave);
+    connect(m_window, &VrWithout::failed, this, [this](const QString& why) { end({true, why.toStdString()}); });
+    m_window->show();
+  } catch (const std::exception& error) {
+    end({true, error.what()});
+  }
   showState();
 }
 
 void VrMode::leave() {
-  if (!m_headset) return;
   m_leaving = true;
-  m_headset->leave();
+  if (m_headset) m_headset->leave();
+  if (m_window) end({});
   showState();
 }
 
-uint64_t VrMode::frames() const { return m_headset ? m_headset->frames() : 0; }
+uint64_t VrMode::frames() const { return m_headset ? m_headset->frames() : m_window ? m_window->frames() : 0; }
 
 void VrMode::look() {
-  if (const auto ending = m_headset->ending()) {
-    end(*ending);
-    return;
-  }
-  if (m_changed || m_sinceShown.hasExpired(kShowAgain)) show();
+  const auto ending = m_headset ? m_headset->ending() : std::nullopt;
+  if (ending) return end(*ending);
+  useHands();
+  if (m_changed || m_hands->changed() || m_sinceShown.hasExpired(kShowAgain)) show();
   showState();
+}
+
+void VrMode::useHands() {
+  const std::vector<vr::HandsSeen> all = m_link->takeHands();
+  for (const vr::HandsSeen& hands : all) m_hands->act(hands, m_parts.view->snapshot());
+  if (!all.empty()) {
+    m_sinceHands.start();
+  } else if (m_sinceHands.hasExpired(kAsleep)) {
+    m_hands->letGo();  // the headset was taken off
+  }
 }
 
 void VrMode::show() {
@@ -118,6 +152,7 @@ void VrMode::show() {
     static const Snapshot kEmpty;
     shown->box = boxOf(shown->matter ? *shown->matter : kEmpty, shown->scene.environment);
   }
+  m_hands->describe(*shown);
   m_link->show(std::move(shown));
   m_changed = false;
   m_sinceShown.start();
@@ -127,6 +162,13 @@ void VrMode::show() {
 void VrMode::end(const vr::Ending& ending) {
   m_timer.stop();
   m_headset.reset();
+  if (m_window) {
+    m_window->disconnect(this);
+    m_window->hide();
+    m_window->deleteLater();  // one of its events may be the reason
+    m_window = nullptr;
+  }
+  m_hands->letGo();
   m_context.reset();
   m_link.reset();
   const QString said = ending.failed ? asSentence(ending.sentence)
@@ -141,7 +183,9 @@ void VrMode::end(const vr::Ending& ending) {
 
 void VrMode::showState() {
   m_parts.action.setChecked(m_headset != nullptr);
-  m_parts.status.setHeadset(!m_headset                ? QString()
+  m_parts.without.setChecked(m_window != nullptr);
+  m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")
+                            : !m_headset              ? QString()
                             : m_leaving               ? QStringLiteral("Leaving VR")
                             : m_headset->frames() > 0 ? QStringLiteral("In VR")
                                                       : QStringLiteral("Entering VR"));

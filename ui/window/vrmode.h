@@ -23,10 +23,13 @@ class Session;
 class StatusLine;
 class Toolbox;
 class Viewport;
+class VrHands;
+class VrWithout;
 
-/// The stay in a headset: an action enters and leaves it. It shows there what the view shows; the run goes on as it is.
-/// Nothing here waits for the headset's thread, which starts and ends the stay by itself; only when this object goes
-/// during a stay does it wait until that is left.
+/// The stay in a headset, or in a window in its place: an action enters and leaves it. It shows there what the view
+/// shows, and hands work there with the editor's brush; the run goes on as it is. Nothing here waits for the headset's
+/// thread, which starts and ends the stay by itself; only when this object goes during a stay does it wait until that
+/// is left.
 class VrMode : public QObject {
   Q_OBJECT
  public:
@@ -37,22 +40,26 @@ class VrMode : public QObject {
     Toolbox& tools;
     Notices& notices;
     StatusLine& status;
-    QAction& action;
+    QAction &action, &without;  ///< by a headset, and without one
   };
   explicit VrMode(const Parts& parts);
   ~VrMode() override;
 
   void enter();
+  void enterWithout();  ///< in a window in which mouse and keys are head and hands
   void leave();
-  bool active() const { return m_headset != nullptr; }
-  uint64_t frames() const;  ///< that the headset got in this stay
+  bool active() const { return m_link != nullptr; }
+  uint64_t frames() const;  ///< that the headset got in this stay, or the window
+  VrWithout* window() const { return m_window; }
 
  Q_SIGNALS:
   void ended(const QString& sentence);  ///< "": as it was asked for here
 
  private:
   void follow();
+  void begin();
   void look();
+  void useHands();
   void show();
   void end(const vr::Ending& ending);
   void showState();
@@ -60,11 +67,13 @@ class VrMode : public QObject {
   const Parts m_parts;
   std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
+  std::unique_ptr<VrHands> m_hands;
   std::unique_ptr<vr::Headset> m_headset;
+  VrWithout* m_window = nullptr;
   bool m_leaving = false;
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
-  QElapsedTimer m_sinceShown;
+  QElapsedTimer m_sinceShown, m_sinceHands;
   uint64_t m_project = 1;  ///< counts those that were shown
 };
 

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hands in the headset: what they draw, erase, heat and carry in the editor's scene.
+#include "core/io/projectio.h"
+#include "core/scene/project.h"
+#include "tests/ui/hands.h"
+#include "tests/vr/vrwindow.h"
+#include "ui/tools/toolbox.h"
+#include "ui/vr/simulatedroom.h"
+#include "ui/window/vrwithout.h"
+
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+/// A key of the script: a hand whose tip is at a place in the scene, level and looking away from its wearer, with more
+/// of its inputs.
+QString key(int frame, const char* hand, const vr::Stand& stand, const Vector3& tip, const QString& inputs) {
+  const Vector3 at = stand.toRoom(tip) + Vector3(0, 0, vr::kTip);
+  return QStringLiteral(R"(, {"frame": %1, "%2": {"grip": [%3, %4, %5], "aim": [%3, %4, %5]%6}})")
+      .arg(QString::number(frame), QString::fromLatin1(hand), QString::number(at.x()), QString::number(at.y()),
+           QString::number(at.z()), inputs);
+}
+
+const QString kPulled = QStringLiteral(R"(, "/input/trigger/value": 1)");
+const QString kLetGo = QStringLiteral(R"(, "/input/trigger/value": 0)");
+const QString kPulledHeld = QStringLiteral(R"(, "/input/trigger/value": 1, "/input/squeeze/value": 1)");
+const QString kLetGoHeld = QStringLiteral(R"(, "/input/trigger/value": 0, "/input/squeeze/value": 0)");
+
+/// Around a body's cells, m.
+Box boxOfCells(const Body& body) {
+  const auto& voxels = std::get<VoxelShape>(body.shape);
+  Box box{Vector3::Constant(1e9), Vector3::Constant(-1e9)};
+  for (const VoxelShape::Run& run : voxels.runs)
+    for (const int x : {run.x, run.x + run.length - 1}) {
+      const Vector3 p =
+          Vector3(voxels.origin[0], voxels.origin[1], voxels.origin[2]) + voxels.spacing * Vector3(x, run.y, run.z);
+      box = {box.first.cwiseMin(p), box.second.cwiseMax(p)};
+    }
+  return box;
+}
+
+}  // namespace
+
+class VrHandsTest : public VrWindowTest {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() {
+    backToTheStart();
+    m_window->tools().takeBrush("sphere");
+    m_before = document().project().bodies.size();
+  }
+  void cleanup() { leaveAtLast(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void aTriggerDrawsAStrokeThatAButtonTakesBack();
+  void bothHandsDrawAtOnce();
+  void aHeldGripErases();
+  void aHandHeatsWhileTheSceneRuns();
+  void aStrokeOutlivesItsHeadset();
+  void aHeadsetTakenOffEndsItsStroke();
+  void buttonsPlayAndChoose();
+  void handsCarryTheScene();
+  void handsAreSeen();
+  void handsOfTheMouseAreWhereItPoints();
+  void mouseDrawsWithoutAHeadset();
+
+ private:
+  size_t bodies() { return document().project().bodies.size(); }
+  int steps() { return document().undoStack().index(); }
+  size_t m_before = 0;
+};
+
+/// Half a metre up and 0.3 m along, above the block; 20 mm are a cell.
+void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
+  const vr::Stand s = stand();
+  const Vector3 from(-0.15, 0.5, 0.1), to(0.15, 0.5, 0.1);
+  const std::set<uint32_t> before = idsNow(session());
+  const ScriptedRun run(vrScript({}, key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) +
+                                         key(50, "right", s, to, kLetGo) +
+                                         key(200, "right", s, to, QStringLiteral(R"(, "/input/b/click": true)"))));
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QVERIFY2(vr().frames() < 200, "the button came first");
+  QCOMPARE(document().undoStack().undoText(), QStringLiteral("brush stroke"));
+  QCOMPARE(bodies(), m_before + 1);
+  const Body& drawn = document().project().bodies.back();
+  QCOMPARE(drawn.material, std::string("water"));
+  const auto [low, high] = boxOfCells(drawn);
+  const double radius = m_window->tools().brush().radius, cell = 0.02;
+  QVERIFY(std::abs(low.x() - (from.x() - radius)) < 2 * cell && std::abs(high.x() - (to.x() + radius)) < 2 * cell);
+  QVERIFY(std::abs((low.y() + high.y()) / 2 - 0.5) < cell && std::abs((low.z() + high.z()) / 2 - 0.1) < cell);
+  QVERIFY(idsNow(session()).size() > before.size() + 50);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
+  QCOMPARE(bodies(), m_before);
+  QTRY_VERIFY_WITH_TIMEOUT(idsNow(session()) == before, kLong);
+  leave();
+  const auto felt = run.lines("haptic");
+  QCOMPARE(felt.size(), size_t{1});
+  QCOMPARE(felt[0]["haptic"].get<std::string>(), std::string("/user/hand/right/output/haptic"));
+  QVERIFY(run.lines("violation").empty());
+}
+
+void VrHandsTest::bothHandsDrawAtOnce() {
+  const vr::Stand s = stand();
+  const Vector3 left(-0.2, 0.6, 0), right(0.2, 0.6, 0), way(0, 0, 0.2);
+  const ScriptedRun run(vrScript({}, key(5, "left", s, left, {}) + key(5, "right", s, right, {}) +
+                                         key(20, "left", s, left, kPulled) + key(20, "right", s, right, kPulled) +
+                                         key(40, "left", s, left + way, kLetGo) +
+                                         key(50, "right", s, right + way, kLetGo)));
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 2, kLong);
+  QCOMPARE(bodies(), m_before + 2);
+  leave();
+  const auto drawn = [&](double x) {
+    const auto [low, high] = boxOfCells(document().project().bodies.back());
+    return std::abs((low.x() + high.x()) / 2 - x) < 0.02 && high.z() > 0.2;
+  };
+  QVERIFY(drawn(right.x()));
+  document().undoStack().undo();
+  QVERIFY(drawn(left.x()));
+  document().undoStack().undo();
+  QCOMPARE(bodies(), m_before);
+}
+
+void VrHandsTest::aHeldGripErases() {
+  const vr::Stand s = stand();
+  const Vector3 at(0.15, 0.28, 0.15);  // a corner of the block
+  const size_t before = idsNow(session()).size();
+  const ScriptedRun run(vrScript(
+      {}, key(5, "left", s, at, {}) + key(20, "left", s, at, kPulledHeld) + key(40, "left", s, at, kLetGoHeld)));
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QCOMPARE(document().undoStack().undoText(), QStringLiteral("erasing stroke"));
+  QVERIFY(idsNow(session()).size() + 30 < before);
+  leave();
+  document().undoStack().undo();
+  QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), before, kLong);
+}
+
+void VrHandsTest::aHandHeatsWhileTheSceneRuns() {
+  const vr::Stand s = stand();
+  const Vector3 at(0, 0.28, 0);
+  m_window->tools().takeBrush("heat");
+  const ScriptedRun run(
+      vrScript({}, key(5, "right", s, at, {}) + key(20, "right", s, at, kPulled) + key(60, "right", s, at, kLetGo)));
+  session().play();
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QCOMPARE(document().undoStack().undoText(), QStringLiteral("Heat matter"));
+  QCOMPARE(bodies(), m_before);
+  leave();
+  session().pause();
+}
+
+/// Its runtime dies in the middle of it: what was drawn so far is one step, and can be saved.
+void VrHandsTest::aStrokeOutlivesItsHeadset() {
+  const vr::Stand s = stand();
+  const Vector3 from(-0.15, 0.5, 0), to(0.15, 0.5, 0);
+  {
+    const ScriptedRun run(
+        vrScript(QStringLiteral(R"(, "events": [{"frame": 40, "dies": "XR_ERROR_INSTANCE_LOST"}])"),
+                 key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) + key(60, "right", s, to, kLetGo)));
+    action()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+  }
+  QVERIFY(status().contains(QStringLiteral("has stopped")));
+  QCOMPARE(steps(), 1);
+  QCOMPARE(bodies(), m_before + 1);
+  const Project read = readProject(writeProject(document().project()), "vr", *session().plugins()).project;
+  QCOMPARE(read.bodies.size(), m_before + 1);
+  const ScriptedRun again(vrScript());
+  enter();
+  leave();
+}
+
+void VrHandsTest::aHeadsetTakenOffEndsItsStroke() {
+  const vr::Stand s = stand();
+  const Vector3 from(-0.15, 0.5, 0), to(0.15, 0.5, 0);
+  const ScriptedRun run(
+      vrScript(QStringLiteral(R"(, "events": [{"frame": 40, "state": "IDLE"}])"),
+               key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) + key(60, "right", s, to, {})));
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QVERIFY(vr().active());
+  leave();
+}
+
+void VrHandsTest::buttonsPlayAndChoose() {
+  const double radius = m_window->tools().brush().radius;
+  const vr::Stand s = stand();
+  const ScriptedRun run(
+      vrScript({}, key(10, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": true)")) +
+                       key(20, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": false)")) +
+                       key(30, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 1)")) +
+                       key(34, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 0)"))));
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(m_window->tools().brush().radius > radius, kLong);
+  leave();
+  session().pause();
+  BrushSettings brush = m_window->tools().brush();
+  brush.radius = radius;
+  m_window->tools().setBrush(brush);
+}
+
+void VrHandsTest::handsCarryTheScene() {
+  const vr::Stand before = stand();
+  const std::array<Vector3, 2> from{Vector3(-0.2, 1, -0.3), Vector3(0.2, 1.1, -0.4)};
+  const std::array<Vector3, 2> to{Vector3(0.1, 0.9, -0.2), Vector3(0.3, 1.3, -1.0)};
+  const vr::Stand after = vr::carried(before, from, to);
+  // What lies between the hands stays between them; both turn and stretch it, as far as that leaves it upright.
+  const Vector3 middle = (from[0] + from[1]) / 2;
+  QVERIFY((after.toRoom(before.toScene(middle)) - (to[0] + to[1]) / 2).norm() < 1e-9);
+  QVERIFY(std::abs(after.scale / before.scale - (to[1] - to[0]).norm() / (from[1] - from[0]).norm()) < 1e-9);
+  const Vector3 was = after.toRoom(before.toScene(from[1])) - after.toRoom(before.toScene(from[0]));
+  const Vector3 is = to[1] - to[0];
+  QVERIFY(std::abs(std::atan2(was.x(), was.z()) - std::atan2(is.x(), is.z())) < 1e-9);
+  // An eye sees a place of the scene where it would see it in the room.
+  const Eye eye = eyeThrough(Matrix4::Identity(), -1, 1, -1, 1, 0.03, 100);
+  const Vector3 room(0.2, -0.3, -1.5);
+  const auto there = project(eye, 200, 200, room), here = project(after.toScene(eye), 200, 200, after.toScene(room));
+  QVERIFY(there && here && (there->head<2>() - here->head<2>()).norm() < 1e-6);
+  QVERIFY((after.toScene(after.toRoom(room)) - room).norm() < 1e-9);
+}
+
+/// A wand in either hand, with the brush about its tip, where the hands are: the picture is another one there than
+/// without them.
+void VrHandsTest::handsAreSeen() {
+  constexpr int kWide = 512;
+  const vr::Stand s = stand();
+  const std::array<Vector3, 2> tips{Vector3(-0.16, 0.45, 0.25), Vector3(0.16, 0.4, 0.25)};
+  const QString away = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
+  const QString there = QStringLiteral(R"(, "active": true)");
+  const std::string text = vrScript(QStringLiteral(R"(, "pictures": [15, 40])"),
+                                    away + key(20, "left", s, tips[0], there) + key(20, "right", s, tips[1], there));
+  const ScriptedRun run(
+      QString::fromStdString(text).replace(QString::number(kSide), QString::number(kWide)).toStdString());
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 42, kLong);
+  leave();
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  for (const bool right : {false, true}) {
+    const QImage without = run.picture(15, right), with = run.picture(40, right);
+    if (!folder.isEmpty()) with.save(folder + (right ? "/hands-right.png" : "/hands-left.png"));
+    const auto apart = [&](const Vector3& room) {
+      const auto at = project(scriptEye(right), kWide, kWide, room);
+      if (!at) return -1;
+      const QPoint pixel(int(at->x()), int(at->y()));
+      const QColor a = without.pixelColor(pixel), b = with.pixelColor(pixel);
+      return std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) + std::abs(a.blue() - b.blue());
+    };
+    for (const Vector3& tip : tips) {
+      const Vector3 room = s.toRoom(tip);
+      QVERIFY(apart(room + Vector3(0, 0, 0.10)) > 30);            // the wand
+      QVERIFY(apart(room + Vector3(0, 0.03, 0)) > 3);             // the ball about its tip
+      QVERIFY(std::abs(apart(room + Vector3(0, 0.12, 0))) <= 6);  // nothing: dither, and haze
+    }
+  }
+}
+
+/// The point of the wand is seen under the pointer, at the length of an arm; the other hand is left where it was.
+void VrHandsTest::handsOfTheMouseAreWhereItPoints() {
+  vr::SimulatedRoom room;
+  const double aspect = 1.5;
+  room.turn(0.4, 0.1);
+  room.walk({0.1, -0.2, 0.3});
+  room.point(0.5, -0.25);
+  const vr::HeadsetFrame frame = room.frame(1, aspect);
+  const auto tipOf = [](const vr::HandInput& hand) -> Vector3 {
+    return hand.aim->position + hand.aim->orientation * Vector3(0, 0, -vr::kTip);
+  };
+  const auto seen = project(room.eye(aspect), 300, 200, tipOf(frame.hands[vr::kRight]));
+  QVERIFY(seen && std::abs(seen->x() - 225) < 1e-6 && std::abs(seen->y() - 125) < 1e-6);
+  QVERIFY(std::abs((tipOf(frame.hands[vr::kRight]) - frame.head.position).norm() - 0.55) < 1e-9);
+  QVERIFY((frame.head.position - placeOf(room.eye(aspect))).norm() < 1e-9);
+  room.useOther();
+  room.point(-0.5, 0);
+  const vr::HeadsetFrame other = room.frame(2, aspect);
+  QCOMPARE(tipOf(other.hands[vr::kRight]), tipOf(frame.hands[vr::kRight]));
+  QVERIFY(tipOf(other.hands[vr::kLeft]) != tipOf(frame.hands[vr::kLeft]));
+}
+
+void VrHandsTest::mouseDrawsWithoutAHeadset() {
+  QAction* without = m_window->action(QStringLiteral("simulation.tryVr"));
+  without->trigger();
+  QVERIFY(without->isChecked() && !action()->isChecked());
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
+  QVERIFY(status().contains(QStringLiteral("Trying VR")));
+  VrWithout& window = *vr().window();
+  const QPoint middle(window.width() / 2, window.height() / 3);
+  hands::pull(window, middle, {0, 0});  // the pointer comes there
+  const auto frames = [&](uint64_t more) {
+    const uint64_t from = vr().frames();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > from + more, kLong);
+  };
+  frames(3);
+  while (document().undoStack().canUndo()) document().undoStack().undo();
+  QTest::mousePress(&window, Qt::LeftButton, {}, middle);
+  frames(3);
+  for (int k = 1; k <= 5; ++k) {
+    hands::move(window, middle + QPointF(12 * k, 0));
+    frames(1);
+  }
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) window.grabFramebuffer().save(folder + "/without.png");
+  QTest::mouseRelease(&window, Qt::LeftButton, {}, middle + QPoint(60, 0));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  QCOMPARE(bodies(), m_before + 1);
+  QTest::keyPress(&window, Qt::Key_U);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
+  QTest::keyRelease(&window, Qt::Key_U);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QVERIFY(!vr().active() && !without->isChecked());
+  without->trigger();  // and again, until it is asked to end here
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 1, kLong);
+  without->trigger();
+  QVERIFY(!vr().active() && !status().contains(QStringLiteral("VR")));
+}
+
+QTEST_MAIN(VrHandsTest)
+#include "tst_vrhands.moc"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/handbrush.h"
+
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+
+namespace ps {
+namespace {
+
+constexpr double kPressed = 0.12, kReleased = 0.06;  // of the trigger's way, apart so that a tremor is no second stroke
+constexpr double kWay = 0.125;                       // spacings that a hand goes before a stroke hears of it
+
+}  // namespace
+
+void HandBrush::follow(const HandInScene& hand, const SnapshotPtr& scene) {
+  if (!hand.place || hand.pressure < (m_pressed ? kReleased : kPressed)) {
+    m_pressed = false;
+    end();
+  } else if (m_pressed) {
+    move(hand);
+  } else {
+    m_pressed = true;
+    begin(hand, scene);
+  }
+}
+
+void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
+  static const Snapshot kNothing;
+  const bool opposite = hand.opposite != (m_box.active() == kEraseTool);
+  m_began = hand.seconds;
+  m_last = hand;
+  const QString problem =
+      m_box.touchesMatter() ? m_touch.begin(opposite, *hand.place, hand.up, hand.pressure)
+                            : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, hand.pressure);
+  if (active()) ++m_begun;
+  if (!problem.isEmpty()) {
+    m_stroke.cancel();
+    say(problem);
+  }
+}
+
+/// A hand that touches matter is where it is, and as fast; a stroke keeps its way, which grows by what it is told.
+void HandBrush::move(const HandInScene& hand) {
+  const double seconds = hand.seconds - m_began;
+  if (m_touch.active()) {
+    say(m_touch.move(*hand.place, seconds, hand.pressure));
+  } else if (m_stroke.active() && (*hand.place - *m_last.place).norm() >= kWay * m_box.spacing()) {
+    m_last = hand;
+    const QString problem = m_stroke.move(*hand.place, seconds, hand.pressure);
+    if (problem.isEmpty()) return;
+    m_stroke.finish();
+    say(problem);
+  }
+}
+
+void HandBrush::end() {
+  say(m_touch.finish());
+  say(m_stroke.finish());
+}
+
+void HandBrush::cancel() {
+  m_stroke.cancel();
+  m_touch.cancel();
+}
+
+void HandBrush::say(const QString& problem) {
+  if (problem.isEmpty()) return;
+  const bool draws = !m_box.touchesMatter() && !m_box.paints();
+  m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
+}
+
+}  // namespace ps

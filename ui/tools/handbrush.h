@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/tools/livestroke.h"
+#include "ui/tools/livetouch.h"
+
+#include <optional>
+
+namespace ps {
+
+/// A hand in the scene, and how it holds the brush.
+struct HandInScene {
+  std::optional<Vector3> place;  ///< m, of the brush's middle; nothing while nobody knows where the hand is
+  Vector3 up{0, 1, 0};           ///< a unit vector, across what flat brushes draw
+  double pressure = 0;           ///< how far its trigger is pressed, 0..1
+  bool opposite = false;         ///< erases, or does the opposite of what the brush is called
+  double seconds = 0;            ///< on any clock that runs on
+};
+
+/// A hand that has the chosen brush at its tip and draws where it is, instead of pointing at a place: in the air as on
+/// matter. What it does is what the tools for pointers do: a stroke, or a hand that touches matter, of one step of
+/// undo. There may be several; the stroke of one goes on while that of another ends.
+class HandBrush {
+ public:
+  explicit HandBrush(Toolbox& box) : m_box(box), m_stroke(box), m_touch(box) {}
+  /// `scene`: as it is shown; nullptr: nothing yet.
+  void follow(const HandInScene& hand, const SnapshotPtr& scene);
+  void end();     ///< as far as it came
+  void cancel();  ///< gives up what it does; it begins again when its trigger is pressed anew
+  bool active() const { return m_stroke.active() || m_touch.active(); }
+  uint64_t begun() const { return m_begun; }  ///< strokes so far
+
+ private:
+  void begin(const HandInScene& hand, const SnapshotPtr& scene);
+  void move(const HandInScene& hand);
+  void say(const QString& problem);
+
+  Toolbox& m_box;
+  LiveStroke m_stroke;
+  LiveTouch m_touch;
+  bool m_pressed = false;
+  HandInScene m_last;  ///< that the stroke got
+  double m_began = 0;  ///< s
+  uint64_t m_begun = 0;
+};
+
+}  // namespace ps

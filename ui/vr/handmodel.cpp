@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/handmodel.h"
+
+#include "ui/render/colourmap.h"
+
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace ps::vr {
+namespace {
+
+using Colour = std::array<float, 3>;
+
+constexpr int kSides = 20;
+constexpr float kOpacity = 0.22f;  // of a brush's volume, seen straight on
+
+std::array<float, 3> floats(const Vector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+MeshVertex corner(const Vector3& place, const Vector3& normal, const Colour& c, float fourth) {
+  return {floats(place), floats(normal), {c[0], c[1], c[2], fourth}};
+}
+
+/// Of a body turned about its axis.
+struct Ring {
+  double along, radius;  ///< m
+};
+
+/// The band between two rings about the hand's z, smooth around.
+void addBand(std::vector<MeshVertex>& out, const HandPose& hand, double scale, const Ring& a, const Ring& b,
+             const Colour& colour) {
+  const auto at = [&](const Ring& ring, double angle) -> Vector3 {
+    const Vector3 own(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along);
+    return hand.position + scale * (hand.orientation * own);
+  };
+  // Outwards, across the band's slope.
+  const double rise = a.radius - b.radius, run = b.along - a.along;
+  const auto normal = [&](double angle) -> Vector3 {
+    return hand.orientation * Vector3(run * std::cos(angle), run * std::sin(angle), rise).normalized();
+  };
+  for (int k = 0; k < kSides; ++k) {
+    const double p = 2 * std::numbers::pi * k / kSides, q = 2 * std::numbers::pi * (k + 1) / kSides;
+    const MeshVertex corners[] = {corner(at(a, p), normal(p), colour, 0), corner(at(a, q), normal(q), colour, 0),
+                                  corner(at(b, q), normal(q), colour, 0), corner(at(b, p), normal(p), colour, 0)};
+    for (const int i : {0, 1, 2, 0, 2, 3}) out.push_back(corners[i]);
+  }
+}
+
+void addBall(std::vector<MeshVertex>& out, const Vector3& centre, const Vector3& half, const Colour& colour) {
+  constexpr int kRows = 12, kColumns = 24;
+  const auto at = [&](int row, int column) {
+    const double up = std::numbers::pi * (0.5 - double(row) / kRows), around = 2 * std::numbers::pi * column / kColumns;
+    const Vector3 unit(std::cos(up) * std::cos(around), std::sin(up), std::cos(up) * std::sin(around));
+    return corner(centre + unit.cwiseProduct(half), unit.cwiseQuotient(half).normalized(), colour, kOpacity);
+  };
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column) {
+      const MeshVertex corners[] = {at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)};
+      for (const int i : {0, 1, 2, 0, 2, 3}) out.push_back(corners[i]);
+    }
+}
+
+void addBox(std::vector<MeshVertex>& out, const Vector3& centre, const Vector3& half, const Colour& colour) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      Vector3 normal = Vector3::Zero(), u = Vector3::Zero(), v = Vector3::Zero();
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = 1;
+      const auto at = [&](double x, double y) {
+        return corner(centre + (normal + x * u + y * v).cwiseProduct(half), normal, colour, kOpacity);
+      };
+      const MeshVertex corners[] = {at(-1, -1), at(1, -1), at(1, 1), at(-1, 1)};
+      for (const int i : {0, 1, 2, 0, 2, 3}) out.push_back(corners[i]);
+    }
+}
+
+}  // namespace
+
+void addWand(Props& props, const HandPose& hand, double scale, const Colour& colour, bool dark) {
+  const Colour body = render::sceneColour(dark, "rim"), ring = render::sceneColour(dark, "foot");
+  constexpr Ring kRings[] = {{0.115, 0},      {0.112, 0.010},  {0.100, 0.014},  {0.020, 0.018},    {0.012, 0.0185},
+                             {-0.004, 0.017}, {-0.012, 0.009}, {-kTip, 0.0012}, {-kTip - 0.001, 0}};
+  const Colour* colours[] = {&body, &body, &body, &ring, &body, &body, &colour, &colour};
+  for (size_t i = 0; i + 1 < std::size(kRings); ++i)
+    addBand(props.opaque, hand, scale, kRings[i + 1], kRings[i], *colours[i]);
+}
+
+void addVolume(Props& props, const Vector3& centre, const BrushVolume& brush) {
+  if ((brush.half.array() <= 0).any()) return;
+  (brush.box ? addBox : addBall)(props.clear, centre, brush.half, brush.colour);
+}
+
+}  // namespace ps::vr

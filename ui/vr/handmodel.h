@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/vr/handinput.h"
+#include "ui/vr/headsetlink.h"
+
+namespace ps::vr {
+
+/// A wand as long as a hand, with a point of the brush's colour. `hand` is in the scene, of which `scale` m are one of
+/// the room.
+void addWand(Props& props, const HandPose& hand, double scale, const std::array<float, 3>& colour, bool dark);
+/// What a dab of the brush would fill there.
+void addVolume(Props& props, const Vector3& centre, const BrushVolume& brush);
+
+}  // namespace ps::vr

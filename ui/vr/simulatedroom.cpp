@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/simulatedroom.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps::vr {
+namespace {
+
+constexpr double kTangent = 0.75;                   // of half the picture's height
+constexpr double kNear = 0.03, kFar = 100;          // m
+constexpr double kSteepest = 1.4;                   // rad
+constexpr double kNearest = 0.15, kFarthest = 1.5;  // m, of a hand from the eyes
+
+/// Looks along a way, upright.
+Quaternion along(const Vector3& way) {
+  const Vector3 back = -way.normalized();
+  const Vector3 right = Vector3::UnitY().cross(back).normalized();
+  Matrix3 axes;
+  axes << right, back.cross(right), back;
+  return Quaternion(axes);
+}
+
+}  // namespace
+
+SimulatedRoom::SimulatedRoom() {
+  const Quaternion level = along({0, 0, -1});
+  m_hands[kLeft].aim = m_hands[kLeft].grip = HandPose{{-0.35, 1.3, -0.4}, level};
+}
+
+HandPose SimulatedRoom::head() const {
+  const double c = std::cos(m_up);
+  return {m_place, along({std::sin(m_right) * c, std::sin(m_up), -std::cos(m_right) * c})};
+}
+
+Eye SimulatedRoom::eye(double aspect) const {
+  const HandPose pose = head();
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.linear() = pose.orientation.toRotationMatrix();
+  place.translation() = pose.position;
+  const double wide = kTangent * aspect;
+  return eyeThrough(place.inverse().matrix(), -wide, wide, -kTangent, kTangent, kNear, kFar);
+}
+
+HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
+  const HandPose eyes = head();
+  const Vector3 way = eyes.orientation * Vector3(m_x * kTangent * aspect, m_y * kTangent, -1).normalized();
+  HandInput& used = m_hands[m_used];
+  used.aim = used.grip = HandPose{eyes.position + (m_reach[m_used] - kTip) * way, along(way)};
+  HeadsetFrame frame;
+  frame.time = seconds;
+  frame.period = std::max(0.0, seconds - m_before);
+  frame.head = eyes;
+  frame.hands = m_hands;
+  frame.focused = true;
+  m_before = seconds;
+  return frame;
+}
+
+void SimulatedRoom::turn(double right, double up) {
+  m_right += right;
+  m_up = std::clamp(m_up + up, -kSteepest, kSteepest);
+}
+
+void SimulatedRoom::walk(const Vector3& way) {
+  const double c = std::cos(m_right), s = std::sin(m_right);
+  m_place += Vector3(way.x() * c + way.z() * s, way.y(), way.x() * s - way.z() * c);
+}
+
+void SimulatedRoom::point(double right, double up) {
+  m_x = std::clamp(right, -1.0, 1.0);
+  m_y = std::clamp(up, -1.0, 1.0);
+}
+
+void SimulatedRoom::reach(double more) { m_reach[m_used] = std::clamp(m_reach[m_used] + more, kNearest, kFarthest); }
+
+}  // namespace ps::vr

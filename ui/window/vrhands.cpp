@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/vrhands.h"
+
+#include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/theme/theme.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace ps {
+namespace {
+
+using vr::kLeft, vr::kRight;
+
+constexpr double kPushed = 0.7;    // of a stick's way, or from the middle of a pad
+constexpr double kRepeats = 0.15;  // s, while it stays there
+constexpr double kTurned = 0.05;   // about rad, after which a brush is shown turned
+
+}  // namespace
+
+VrHands::VrHands(Session& session, Toolbox& tools)
+    : m_session(session), m_tools(tools), m_brushes{HandBrush(tools), HandBrush(tools)} {
+  // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
+  connect(&session.document().undoStack(), &QUndoStack::indexChanged, this, [this] {
+    if (m_ends) return;
+    for (HandBrush& brush : m_brushes) brush.cancel();
+  });
+}
+
+void VrHands::act(const vr::HandsSeen& seen, const SnapshotPtr& scene) {
+  for (const size_t hand : {kLeft, kRight}) {
+    draw(hand, seen, scene);
+    press(hand, seen.hands[hand].input);
+    const vr::HandsSeen::Hand &now = seen.hands[hand], &before = m_seen.hands[hand];
+    m_changed = m_changed || now.holds != before.holds || (now.up - m_described[hand]).norm() > kTurned;
+  }
+  choose(seen.hands[kRight].input, seen.seconds);
+  m_seen = seen;
+}
+
+void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene) {
+  const vr::HandsSeen::Hand& now = seen.hands[hand];
+  HandBrush& brush = m_brushes[hand];
+  const uint64_t begun = brush.begun();
+  m_ends = true;
+  brush.follow({now.tip, now.up, now.input.draw, now.holds, seen.seconds}, scene);
+  m_ends = false;
+  m_changed = m_changed || brush.begun() != begun;
+}
+
+void VrHands::press(size_t hand, const vr::HandInput& now) {
+  const vr::HandInput& before = m_seen.hands[hand].input;
+  const bool first = now.first && !before.first, second = now.second && !before.second;
+  QUndoStack& undo = m_session.document().undoStack();
+  if (hand == kLeft) {
+    if (first) m_session.playPause();
+    if (second) undo.redo();
+  } else if (first || second) {
+    undo.undo();
+  }
+}
+
+/// Sticks are pushed for the size, and pressed for the next material; of a pad the middle is pressed for that, its top
+/// and bottom for the size, its sides for the shape.
+void VrHands::choose(const vr::HandInput& now, double seconds) {
+  const bool pressed = now.steerPressed && !m_seen.hands[kRight].input.steerPressed;
+  const bool upright = std::abs(now.steerY) > std::abs(now.steerX);
+  const bool pushed = std::max(std::abs(now.steerX), std::abs(now.steerY)) > kPushed;
+  if (pushed && upright && (!now.pad || now.steerPressed)) {
+    step(now.steerY > 0 ? 1 : -1, seconds);
+  } else if (pressed && now.pad && pushed) {
+    m_tools.nextShape();
+  } else if (pressed && !pushed) {
+    nextMaterial();
+  }
+}
+
+void VrHands::step(int direction, double seconds) {
+  if (seconds < m_stepped + kRepeats && seconds >= m_stepped) return;
+  m_stepped = seconds;
+  m_tools.stepBrush(direction);
+}
+
+void VrHands::nextMaterial() {
+  const std::vector<SceneMaterial>& all = m_session.document().project().materials;
+  if (all.empty()) return;
+  const std::string& now = m_tools.brush().material;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& one) { return one.id == now; });
+  m_tools.selection().setMaterial(found == all.end() || found + 1 == all.end() ? all.front().id : (found + 1)->id);
+}
+
+void VrHands::letGo() {
+  m_ends = true;
+  for (HandBrush& brush : m_brushes) brush.end();
+  m_ends = false;
+  m_seen = {};
+}
+
+/// Of what is drawn; what is taken away has none.
+std::array<float, 3> VrHands::colour(size_t hand, const Snapshot* scene) const {
+  const auto channels = [](const QColor& c) { return std::array<float, 3>{c.redF(), c.greenF(), c.blueF()}; };
+  const Theme& theme = Theme::current();
+  if (m_tools.touchesMatter()) return channels(theme[Token::Accent]);
+  if (m_seen.hands[hand].holds != (m_tools.active() == kEraseTool)) return channels(theme[Token::Error]);
+  for (size_t k = 0; scene && k < std::min(scene->materialIds.size(), scene->materialLook.size()); ++k) {
+    const auto [red, green, blue, clearness] = scene->materialLook[k];
+    const std::string& wanted = m_tools.brush().material;
+    if (wanted.empty() || scene->materialIds[k] == wanted) return {red, green, blue};
+  }
+  return channels(theme[Token::Accent]);
+}
+
+void VrHands::describe(vr::HeadsetView& view) {
+  m_changed = false;
+  for (const size_t hand : {kLeft, kRight}) {
+    m_described[hand] = m_seen.hands[hand].up;
+    vr::BrushVolume& brush = view.brushes[hand];
+    std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
+    brush.colour = colour(hand, view.matter.get());
+    view.strokes[hand] = m_brushes[hand].begun();
+  }
+}
+
+}  // namespace ps

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/tools/handbrush.h"
+#include "ui/vr/headsetlink.h"
+
+#include <QtCore/QObject>
+
+#include <array>
+#include <optional>
+
+namespace ps {
+
+class Session;
+
+/// What hands in the headset do in the editor: either draws with the chosen brush, and its buttons undo, play, and
+/// choose size, shape and material.
+class VrHands : public QObject {
+  Q_OBJECT
+ public:
+  /// Both must outlive it.
+  VrHands(Session& session, Toolbox& tools);
+  /// `scene`: as it is shown.
+  void act(const vr::HandsSeen& seen, const SnapshotPtr& scene);
+  void letGo();  ///< of everything: strokes end as far as they came
+  /// What each hand holds, for the headset to draw, and how many strokes it has begun.
+  void describe(vr::HeadsetView& view);
+  bool changed() const { return m_changed; }  ///< since it was described last
+
+ private:
+  void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
+  void press(size_t hand, const vr::HandInput& now);
+  void choose(const vr::HandInput& now, double seconds);
+  void step(int direction, double seconds);
+  void nextMaterial();
+  std::array<float, 3> colour(size_t hand, const Snapshot* scene) const;
+
+  Session& m_session;
+  Toolbox& m_tools;
+  std::array<HandBrush, 2> m_brushes;
+  vr::HandsSeen m_seen;                ///< the last one
+  std::array<Vector3, 2> m_described;  ///< how brushes were turned then
+  double m_stepped = 0;                ///< s, when the brush got another size
+  bool m_ends = false;                 ///< what changes in the document is the end of a stroke here
+  bool m_changed = false;
+};
+
+}  // namespace ps
