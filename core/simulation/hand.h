@@ -33,6 +33,7 @@ class Hand {
   HandDeeds act(Engine& engine);
   /// It has let go, and all that it did is done.
   bool isGone() const { return m_path.empty() && m_still.empty(); }
+  bool hasLetGo() const { return m_still.empty(); }
 
  private:
   struct Path {

@@ -95,11 +95,22 @@ std::vector<MatterKey> NamedMatter::hands() const {
 
 void NamedMatter::act(Engine& engine) {
   for (auto& [key, entry] : m_entries) {
-    if (!entry.hand) continue;
-    HandDeeds done = entry.hand->act(engine);
-    addTo(entry.heat, done.heat);
-    std::move(done.ties.begin(), done.ties.end(), std::back_inserter(entry.ties));
-    if (entry.hand->isGone()) entry.hand.reset();
+    if (entry.hand) act(engine, entry);
+  }
+}
+
+void NamedMatter::act(Engine& engine, Entry& entry) {
+  HandDeeds done = entry.hand->act(engine);
+  addTo(entry.heat, done.heat);
+  std::move(done.ties.begin(), done.ties.end(), std::back_inserter(entry.ties));
+  if (entry.hand->isGone()) entry.hand.reset();
+}
+
+/// What has let go does the rest now: undo takes what is born by a later edit away before that of the hand, which would
+/// not find there what it gave to it.
+void NamedMatter::finishHands(Engine& engine) {
+  for (auto& [key, entry] : m_entries) {
+    if (entry.hand && entry.hand->hasLetGo()) act(engine, entry);
   }
 }
 
@@ -113,6 +124,7 @@ void NamedMatter::putBack(Engine& engine, Entry& entry) {
 }
 
 void NamedMatter::apply(Engine& engine, const AddCells& command) {
+  finishHands(engine);
   const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette);
   if (command.key == 0) return;
   Entry& entry = m_entries[command.key];
@@ -212,6 +224,7 @@ void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
     return;
   }
   if (!command.body) return;
+  finishHands(engine);
   std::vector<uint32_t> ids = engine.addBody(*command.body);
   Entry& entry = m_entries[command.key] = {};
   entry.ids = std::move(ids);

@@ -67,6 +67,8 @@ class NamedMatter {
              painted.empty() && bare.empty() && before.empty() && stripped.empty();
     }
   };
+  static void act(Engine& engine, Entry& entry);
+  void finishHands(Engine& engine);
   static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);
   static void paint(Engine& engine, std::vector<Coat>& coats, std::vector<Coat>& painted);
