@@ -175,6 +175,7 @@ void VrHandsTest::aStrokeOutlivesItsHeadset() {
   const ScriptedRun again(vrScript());
   enter();
   leave();
+  QVERIFY(again.lines("haptic").empty());  // nothing of what was
 }
 
 void VrHandsTest::aHeadsetTakenOffEndsItsStroke() {
