@@ -8,6 +8,9 @@
 #include "ui/vr/simulatedroom.h"
 #include "ui/window/vrwithout.h"
 
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+
 #include <cmath>
 
 using namespace ps;
@@ -65,6 +68,7 @@ class VrHandsTest : public VrWindowTest {
   void buttonsPlayAndChoose();
   void handsCarryTheScene();
   void handsAreSeen();
+  void validationIsSilent();
   void handsOfTheMouseAreWhereItPoints();
   void mouseDrawsWithoutAHeadset();
 
@@ -175,6 +179,7 @@ void VrHandsTest::aStrokeOutlivesItsHeadset() {
   const ScriptedRun again(vrScript());
   enter();
   leave();
+  QVERIFY(again.lines("haptic").empty());  // nothing of what was
 }
 
 void VrHandsTest::aHeadsetTakenOffEndsItsStroke() {
@@ -260,6 +265,28 @@ void VrHandsTest::handsAreSeen() {
       QVERIFY(std::abs(apart(room + Vector3(0, 0.12, 0))) <= 6);  // nothing: dither, and haze
     }
   }
+}
+
+/// The layer of those who write the specification between editor and runtime, over a stay with a stroke.
+void VrHandsTest::validationIsSilent() {
+  const QString said = QDir::current().filePath(QStringLiteral("validation.txt"));
+  QFile::remove(said);
+  qputenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation");
+  qputenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text");
+  qputenv("XR_CORE_VALIDATION_FILE_NAME", said.toUtf8());
+  const vr::Stand s = stand();
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "extensions": ["XR_KHR_opengl_enable"])"),
+                                 key(5, "right", s, {0, 0.5, 0}, {}) + key(10, "right", s, {0, 0.5, 0}, kPulled) +
+                                     key(30, "right", s, {0.1, 0.5, 0}, kLetGo)));
+  action()->trigger();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
+  leave();
+  for (const char* name : {"XR_ENABLE_API_LAYERS", "XR_CORE_VALIDATION_EXPORT_TYPE", "XR_CORE_VALIDATION_FILE_NAME"})
+    qunsetenv(name);
+  QFile file(said);
+  const QByteArray text = file.open(QFile::ReadOnly) ? file.readAll() : QByteArray();
+  QVERIFY2(text.isEmpty(), text.constData());
+  QVERIFY(run.lines("violation").empty());
 }
 
 /// The point of the wand is seen under the pointer, at the length of an arm; the other hand is left where it was.

@@ -14,7 +14,8 @@ using namespace ps;
 
 namespace {
 
-constexpr int kSoon = 2000;  // ms: entering and leaving
+constexpr int kSoon = 2000;    // ms: entering and leaving
+constexpr int kNotFelt = 500;  // ms that a busy machine may take for what takes a few
 
 size_t threads() { return static_cast<size_t>(QDir(QStringLiteral("/proc/self/task")).entryList(QDir::Dirs).size()); }
 
@@ -54,7 +55,9 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
   session().play();
   QElapsedTimer clock;
   clock.start();
-  enter();
+  action()->trigger();
+  QVERIFY2(clock.elapsed() < kNotFelt, qPrintable(QString::number(clock.elapsed())));  // the headset's thread enters
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 4, kLong);
   const qint64 entered = clock.restart();
   QVERIFY2(entered < kSoon, qPrintable(QString::number(entered)));
   QTRY_VERIFY(status().contains(QStringLiteral("In VR")));

@@ -38,6 +38,7 @@ struct HeadsetView {
   bool goesOn = false;  ///< from the matter before: what is seen moves from there
   RenderScene scene;
   Look look;
+  uint64_t picture = 0;                ///< another one where any of those above may be another
   uint64_t project = 0;                ///< with another one the scene is set before its wearer anew
   std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
   std::array<uint64_t, 2> strokes{};   ///< that they have begun: each is felt

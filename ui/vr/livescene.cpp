@@ -10,8 +10,7 @@
 namespace ps::vr {
 namespace {
 
-constexpr double kLongest = 0.2;  // s: after a longer wait nobody expects that it is made up for
-
+constexpr double kLongest = 0.2;            // s: after a longer wait nobody expects that it is made up for
 constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger's
 constexpr double kPushed = 0.7;             // of a stick's
 constexpr double kTurn = std::numbers::pi / 6;
@@ -33,10 +32,10 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& f
   showHands(frame);
   static const Snapshot kEmpty;
   const double now = share(frame);
-  if (m_prepared != m_view || m_share != now) {
+  if (m_prepared != m_view->picture || m_share != now) {
     const HeadsetView& view = *m_view;
     m_renderer.prepare(view.matter ? *view.matter : kEmpty, m_before.get(), now, view.scene, view.look);
-    m_prepared = m_view;
+    m_prepared = view.picture;
     m_share = now;
   }
   return feel();
@@ -113,6 +112,7 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
     m_lasts = moves ? std::min(frame.time - m_came, kLongest) : 0;
     m_came = frame.time;
   }
+  if (m_view->project == 0) m_felt = view->strokes;  // those of earlier stays
   if (view->project != m_view->project) m_stand = standBefore(frame.head, view->box);
   m_view = std::move(view);
 }

@@ -40,9 +40,9 @@ class LiveScene : public HeadsetScene {
   bool m_turns = false;              ///< asked for already
   std::array<uint64_t, 2> m_felt{};  ///< strokes
   Props m_props;                     ///< kept for its memory
-  /// What the renderer has prepared: while only the head moves, it stays.
-  std::shared_ptr<const HeadsetView> m_prepared;
-  double m_share = 1;
+  /// What the renderer has prepared: while only head and hands move, it stays.
+  uint64_t m_prepared = 0;
+  double m_share = -1;  ///< nothing yet
 };
 
 }  // namespace ps::vr

@@ -123,7 +123,11 @@ void VrMode::look() {
   const auto ending = m_headset ? m_headset->ending() : std::nullopt;
   if (ending) return end(*ending);
   useHands();
-  if (m_changed || m_hands->changed() || m_sinceShown.hasExpired(kShowAgain)) show();
+  if (m_changed || m_sinceShown.hasExpired(kShowAgain)) {
+    show();
+  } else if (m_hands->changed()) {
+    showHands();
+  }
   showState();
 }
 
@@ -144,6 +148,7 @@ void VrMode::show() {
   shown->goesOn = m_parts.session.previousSnapshot() != nullptr;
   shown->scene = view.scene();
   shown->look = view.look();
+  shown->picture = ++m_picture;
   shown->project = m_project;
   const auto before = m_link->shown();
   if (before && before->project == m_project) {
@@ -156,6 +161,12 @@ void VrMode::show() {
   m_link->show(std::move(shown));
   m_changed = false;
   m_sinceShown.start();
+}
+
+void VrMode::showHands() {
+  auto shown = std::make_shared<vr::HeadsetView>(*m_link->shown());
+  m_hands->describe(*shown);
+  m_link->show(std::move(shown));
 }
 
 /// The thread is done by then, or as good as.

@@ -61,6 +61,7 @@ class VrMode : public QObject {
   void look();
   void useHands();
   void show();
+  void showHands();  ///< they alone have changed
   void end(const vr::Ending& ending);
   void showState();
 
@@ -74,6 +75,7 @@ class VrMode : public QObject {
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
   QElapsedTimer m_sinceShown, m_sinceHands;
+  uint64_t m_picture = 0;
   uint64_t m_project = 1;  ///< counts those that were shown
 };
 
