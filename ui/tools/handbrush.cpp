@@ -30,7 +30,7 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   m_began = hand.seconds;
   m_last = hand;
   const QString problem =
-      m_box.touchesMatter() ? m_touch.begin(opposite, *hand.place, hand.up, hand.pressure)
+      m_box.touchesMatter() ? m_touch.begin(opposite, *hand.place, hand.up, hand.forward, hand.pressure)
                             : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, hand.pressure);
   if (active()) ++m_begun;
   if (!problem.isEmpty()) {
@@ -65,7 +65,7 @@ void HandBrush::cancel() {
 
 void HandBrush::say(const QString& problem) {
   if (problem.isEmpty()) return;
-  const bool draws = !m_box.touchesMatter() && !m_box.paints();
+  const bool draws = !m_box.touchesMatter() && !m_box.reworks();
   m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
 }
 

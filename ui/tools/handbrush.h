@@ -11,6 +11,7 @@ namespace ps {
 struct HandInScene {
   std::optional<Vector3> place;  ///< m, of the brush's middle; nothing while nobody knows where the hand is
   Vector3 up{0, 1, 0};           ///< a unit vector, across what flat brushes draw
+  Vector3 forward{0, 0, -1};     ///< a unit vector, along which it points: a blade lies in it
   double pressure = 0;           ///< how far its trigger is pressed, 0..1
   bool opposite = false;         ///< erases, or does the opposite of what the brush is called
   double seconds = 0;            ///< on any clock that runs on

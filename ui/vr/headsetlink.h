@@ -25,6 +25,7 @@ struct HandsSeen {
   struct Hand {
     std::optional<Vector3> tip;  ///< m, in the scene; nothing while nobody knows where the hand is
     Vector3 up{0, 1, 0};         ///< a unit vector: the hand's own
+    Vector3 forward{0, 0, -1};   ///< likewise, along which it points
     bool holds = false;          ///< its grip is pressed, and does not carry the scene
     HandInput input;             ///< in the room
   };

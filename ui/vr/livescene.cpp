@@ -76,7 +76,9 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     if (m_carrying) told.input.draw = 0;
     if (!input.aim) continue;
     told.tip = m_stand.toScene(tipOf(*input.aim));
-    told.up = m_stand.toScene(*input.aim).orientation * Vector3::UnitY();
+    const Quaternion turned = m_stand.toScene(*input.aim).orientation;
+    told.up = turned * Vector3::UnitY();
+    told.forward = turned * Vector3(0, 0, -1);
   }
   m_link->tell(seen);
 }

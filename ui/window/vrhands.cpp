@@ -48,7 +48,7 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   HandBrush& brush = m_brushes[hand];
   const uint64_t begun = brush.begun();
   m_ends = true;
-  brush.follow({now.tip, now.up, now.input.draw, now.holds, seen.seconds}, scene);
+  brush.follow({now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds}, scene);
   m_ends = false;
   m_changed = m_changed || brush.begun() != begun;
 }
