@@ -25,11 +25,12 @@ constexpr api::ParameterDeclaration kBody[] = {
          "a pan, a mould, a rock in a stream, a paddle", ""})),
     actingWhen(
         "fixed = off",
-        toggle({"held", "Held until let go", "", ""}, false,
-               {"Start",
-                "Matter stands still where it is, in the air too, and others meet it as it stands; heat flows, and it "
-                "melts and boils. Let go, it sets off from rest, wherever it is by then.",
-                "what is sketched in the air until all of it is there; with keys a drop that falls at 2 s", ""})),
+        toggle(
+            {"held", "Held until let go", "", ""}, false,
+            {"Start",
+             "Matter stands still where it is, in the air too, and others meet it as it stands; heat flows, and it "
+             "melts and boils. Let go, it sets off from rest, wherever it is by then; a velocity at the start is lost.",
+             "what is sketched in the air until all of it is there; with keys a drop that falls at 2 s", ""})),
     atReset(number(
         {"jitter", "Disorder", "", ""}, {0, 0, 0.3, 0, 0.5},
         {"Start",

@@ -208,7 +208,6 @@ void Engine::Impl::recompile(const Touched& touched) {
   if (any({Owner::Environment, Owner::Solver, Owner::Thermal, Owner::HeatSource, Owner::Body})) setThermal();
   if (any({Owner::Body})) {
     lead();
-    holdBodies();
     setShapes();
     fill = fillLimit(project, spacing);
     solver->setHeating(compileHeating(project, *bodyIds, fixedBodies));
@@ -328,6 +327,7 @@ void Engine::update(const Project& project) {
     m->bindOverlay(all);
     m->recompileAll();
     m->followTracks(m->solver->time());
+    m->holdBodies();
   } catch (...) {
     m->project = before;
     m->overlay = overlay;

@@ -49,7 +49,8 @@ struct Engine::Impl {
   /// Tells the solver on which surfaces of fixed bodies fluids go.
   void setShapes();
   bool isFixed(const std::string& body) const;  ///< whether it was born fixed
-  /// Holds the matter of bodies, or lets it go, as the project says; that of emitters is theirs.
+  /// Holds the matter of bodies, or lets it go, as the project says with its tracks laid over it: what a key has let go
+  /// would be stopped by what the document says beneath. Matter of emitters is theirs.
   void holdBodies();
   std::vector<uint8_t> heldBodies() const;  ///< Snapshot::heldBodies
   void recompile(const Touched& touched);

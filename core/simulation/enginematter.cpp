@@ -55,6 +55,7 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   m->overlay.lay(m->project);
   m->recompile({{Owner::Body}});
   m->bindTracks(m->solver->time());
+  m->holdBodies();
   return ids;
 }
 
@@ -80,6 +81,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   m->solver->settle(packed);
   m->recompile({{Owner::Body}});
   m->bindTracks(m->solver->time());
+  m->holdBodies();
   return ids;
 }
 
@@ -110,7 +112,10 @@ TieChange Engine::weld(std::span<const Blade> balls, std::span<const uint8_t> is
 }
 void Engine::undo(const TieChange& change) { m->solver->undo(change); }
 void Engine::redo(const TieChange& change) { m->solver->redo(change); }
-void Engine::putBack(const ExtractedMatter& matter) { m->solver->putBack(matter); }
+void Engine::putBack(const ExtractedMatter& matter) {
+  m->solver->putBack(matter);
+  m->holdBodies();  // as is said by now
+}
 
 std::vector<uint32_t> Engine::particlesIn(const VoxelShape& lattice,
                                           const std::vector<std::array<int, 3>>& cells) const {

@@ -42,6 +42,7 @@ void Engine::Impl::followTracks(double time) {
     recompile(touched);
     followEach(time);
   }
+  if (touched.owners.contains(Owner::Body)) holdBodies();
   if (touched.owners.contains(Owner::Emitter)) flow.steer(*solver, project, compileSettings(project).dt);
 }
 
@@ -83,6 +84,7 @@ void Engine::Impl::changeBeneath(const std::function<void(Touched&)>& change, co
     throw;
   }
   followTracks(solver->time());
+  if (touched.owners.contains(Owner::Body)) holdBodies();
 }
 
 void Engine::setTracks(const std::vector<Track>& tracks) {

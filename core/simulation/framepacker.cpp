@@ -79,7 +79,7 @@ uint64_t spanOf(size_t particles) {
 bool sameLook(const Snapshot& s, const FrameKey& key) {
   const Snapshot& a = key.look;
   return a.revision == s.revision && a.spacing == s.spacing && a.period == s.period && a.bodyIds == s.bodyIds &&
-         a.materialIds == s.materialIds && a.materialLook == s.materialLook &&
+         a.heldBodies == s.heldBodies && a.materialIds == s.materialIds && a.materialLook == s.materialLook &&
          std::equal(s.fields.begin(), s.fields.end(), key.fields.begin(), key.fields.end(),
                     [](const FieldValues& shown, const FieldPtr& field) { return shown.field == field; });
 }
@@ -91,6 +91,7 @@ Snapshot lookOf(const Snapshot& s) {
   look.spacing = s.spacing;
   look.period = s.period;
   look.bodyIds = s.bodyIds;
+  look.heldBodies = s.heldBodies;
   look.materialIds = s.materialIds;
   look.materialLook = s.materialLook;
   return look;

@@ -205,6 +205,20 @@ void TestHolding::keysLetItGo() {
   QVERIFY(farthest(start, placesOf(engine)) < kStill);
   play(engine, 10);
   QVERIFY(placesOf(engine).begin()->second[1] < start.begin()->second[1]);
+  // No edit stops what a key has let go, and what was taken before comes back free.
+  const auto speed = [&] { return double{engine.particles().velocity()[0].y}; };
+  const double before = speed();
+  engine.update(project);
+  QCOMPARE(speed(), before);
+  QVERIFY(engine.setParameter({Owner::Body, "thing", "heating_power"}, 1.0));
+  QCOMPARE(speed(), before);
+  Engine other(project, m_plugins);
+  const ParticleStore& store = other.particles();
+  const ExtractedMatter taken = other.extractParticles({store.id(), store.id() + store.size()});
+  while (other.solver().time() < 0.2) other.step();
+  other.putBack(taken);
+  play(other, 10);
+  QVERIFY(placesOf(other).begin()->second[1] < start.begin()->second[1]);
 }
 
 void TestHolding::aStateKnowsIt() {

@@ -66,7 +66,11 @@ void LiveStroke::keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied) {
   const Project& project = m_box.document().project();
   const auto body =
       std::find_if(project.bodies.begin(), project.bodies.end(), [&](const Body& one) { return one.id == m_body->id; });
-  if (body == project.bodies.end()) return;
+  if (body == project.bodies.end()) {  // another hand has taken all of it
+    m_box.link()->cancel(emptied);
+    for (const auto& [palette, filled] : std::exchange(m_filled, {})) m_box.link()->cancel(filled);
+    return;
+  }
   const auto index = static_cast<size_t>(body - project.bodies.begin());
   std::vector<VoxelShape::Stroke> strokes;
   if (!std::get<VoxelShape>(body->shape).strokes.empty()) strokes = pieces();

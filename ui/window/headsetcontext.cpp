@@ -27,8 +27,9 @@ HeadsetContext::~HeadsetContext() { m_context.moveToThread(m_home); }
 
 void HeadsetContext::makeCurrent() {
   m_context.moveToThread(QThread::currentThread());
-  if (!m_context.makeCurrent(&m_surface))
-    throw Error("The window's OpenGL cannot be used for the headset; start the program again.");
+  if (m_context.makeCurrent(&m_surface)) return;
+  m_context.moveToThread(nullptr);  // nobody releases what was not had
+  throw Error("The window's OpenGL cannot be used for the headset; start the program again.");
 }
 
 void HeadsetContext::release() {

@@ -418,6 +418,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_layout->save();
   m_welcome->keepPicture();
+  m_vr->leave();  // what is in a hand there ends, and is part of the copy
   const QString problem = m_session->close();
   const Document& document = m_session->document();
   if (!problem.isEmpty() && document.isDirty() && m_warnedAt != document.changeCount()) {
@@ -427,7 +428,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     m_files->showNotSaved(problem, QStringLiteral("Your work is kept in memory; closing once more gives it up."));
     return;
   }
-  m_vr->leave();
   QMainWindow::closeEvent(event);
 }
 

@@ -2,6 +2,7 @@
 #include "ui/window/sketchactions.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/track.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/session.h"
@@ -60,8 +61,10 @@ void SketchActions::addHolding(QMenu* menu) {
 
 std::vector<std::string> SketchActions::heldBodies() const {
   std::vector<std::string> held;
-  for (const Body& body : m_session.document().project().bodies) {
-    if (toggleOf(body.parameters, bodyParameters(), "held") && !toggleOf(body.parameters, bodyParameters(), "fixed"))
+  const Project& project = m_session.document().project();
+  for (const Body& body : project.bodies) {
+    const auto is = [&](const char* key) { return toggleOf(body.parameters, bodyParameters(), key); };
+    if (is("held") && !is("fixed") && !findTrack(project.tracks, Address{Owner::Body, body.id, "held"}.text()))
       held.push_back(body.id);
   }
   return held;

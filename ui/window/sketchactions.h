@@ -28,7 +28,7 @@ class SketchActions : public QObject {
 
  private:
   void addHolding(QMenu* menu);
-  std::vector<std::string> heldBodies() const;
+  std::vector<std::string> heldBodies() const;  ///< until somebody lets go; keys do so themselves
   void letGo();
   void showHeld();
   QList<QKeySequence> keysOf(const std::string& brush) const;

@@ -112,6 +112,7 @@ void VrMode::enterWithout() {
 
 void VrMode::leave() {
   m_leaving = true;
+  m_hands->letGo();
   if (m_headset) m_headset->leave();
   if (m_window) end({});
   showState();

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace ps {
@@ -163,20 +163,37 @@ SplitGroups GroupLists::splitBy(const ParticleStore& store, const Edits& edits) 
   return split;
 }
 
+/// A group comes back where all that came of it is still what it was: where somebody has melted or frozen since, its
+/// pieces stay, or else they would be tied twice.
 void GroupLists::rejoin(const ParticleStore& store, const SplitGroups& split) {
   if (split.before.empty()) return;
-  std::set<std::vector<uint32_t>> after(split.after.begin(), split.after.end());
-  Edits edits;
-  edits.removed.assign(count(), 0);
+  const auto sorted = [](std::vector<uint32_t> ids) {
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  };
+  std::map<std::vector<uint32_t>, size_t> present;  // by sorted ids
   for (size_t g = 0; g < count(); ++g) {
     std::vector<uint32_t> ids;
     for (const uint32_t i : members(g)) ids.push_back(store.id()[i]);
-    edits.removed[g] = after.contains(ids) ? 1 : 0;
+    present[sorted(std::move(ids))] = g;
   }
+  Edits edits;
+  edits.removed.assign(count(), 0);
   for (const CopiedGroup& copied : split.before) {
     std::vector<uint32_t> indices;
     for (const uint32_t id : copied.id) indices.push_back(static_cast<uint32_t>(store.indexOf(id)));
-    if (std::any_of(indices.begin(), indices.end(), [&](uint32_t i) { return i >= store.size(); })) continue;
+    bool whole = std::all_of(indices.begin(), indices.end(), [&](uint32_t i) { return i < store.size(); });
+    const std::vector<uint32_t> all = sorted(copied.id);
+    std::vector<size_t> pieces;
+    for (const std::vector<uint32_t>& after : split.after) {
+      const std::vector<uint32_t> ids = sorted(after);
+      if (!std::includes(all.begin(), all.end(), ids.begin(), ids.end())) continue;
+      const auto found = present.find(ids);
+      whole = whole && found != present.end();
+      if (whole) pieces.push_back(found->second);
+    }
+    if (!whole) continue;
+    for (const size_t g : pieces) edits.removed[g] = 1;
     edits.particles.insert(edits.particles.end(), indices.begin(), indices.end());
     edits.ends.push_back(edits.particles.size());
     edits.values.insert(edits.values.end(), copied.values.begin(), copied.values.end());
