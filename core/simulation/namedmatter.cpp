@@ -149,7 +149,7 @@ void NamedMatter::apply(Engine& engine, const TakeBody& command) {
 
 void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
   const auto found = m_entries.find(command.key);
-  if (found != m_entries.end() && !found->second.ids.empty()) {
+  if (found != m_entries.end()) {  // it may have taken nothing: what stands there by now is none of its
     extract(engine, found->second, found->second.ids);
   } else if (!command.cells.empty()) {
     extract(engine, m_entries[command.key], engine.particlesIn(command.lattice, command.cells));

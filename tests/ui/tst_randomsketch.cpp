@@ -59,7 +59,7 @@ class TestRandomSketch : public QObject {
 
   void allIsUndoneAndRedone_data() {
     QTest::addColumn<int>("seed");
-    for (const int seed : {1, 2, 3}) QTest::addRow("seed %d", seed) << seed;
+    for (const int seed : {1, 2}) QTest::addRow("seed %d", seed) << seed;
   }
   void allIsUndoneAndRedone() {
     QFETCH(int, seed);

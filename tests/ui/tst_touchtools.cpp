@@ -340,6 +340,7 @@ class TestTouchTools : public QObject {
     const Vector3 beside(0.3, 0, 0);
     paintAt(beside);
     takePaint();
+    QCOMPARE(iron(), size_t{0});  // and what is drawn is to be seen
     paintAt(beside + Vector3(0, 0.07, 0));
     const size_t painted = iron();
     QVERIFY(painted > 0);
@@ -381,14 +382,14 @@ class TestTouchTools : public QObject {
   void whatHasNoRoomAtTheStartIsOfTheRunAlone() {
     m_engine->stepOnce();
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
-    take("cube", 0.06);
+    take("cube", 0.09);  // all of the block's upper part
     Pointer eraser = at(kTop);
     eraser.control = true;
     m_tools->tool().press(eraser);
     m_tools->tool().release(eraser);
     QVERIFY(QTest::qWaitFor([&] { return m_link->strokesOfTheRun() == 1; }));
     take("cube", 0.015);
-    paintAt(Vector3(0, 0.09, 0));
+    paintAt(Vector3(0, 0.06, 0));
     QCOMPARE(m_document->project().bodies.size(), size_t{2});
     QVERIFY(std::get<VoxelShape>(m_document->project().bodies[1].shape).runs.empty());
     QCOMPARE(m_link->strokesOfTheRun(), size_t{2});
