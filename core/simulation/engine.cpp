@@ -263,8 +263,9 @@ void Engine::Impl::holdBodies() {
 std::vector<uint8_t> Engine::Impl::heldBodies() const {
   std::vector<uint8_t> held(bodyIds->size());
   for (const Body& body : project.bodies) {
+    if (!isHeld(body)) continue;  // for each snapshot: few are, and ids are looked for one by one
     const auto index = static_cast<size_t>(std::find(bodyIds->begin(), bodyIds->end(), body.id) - bodyIds->begin());
-    if (index < held.size()) held[index] = isHeld(body) && !isFixed(body.id);
+    if (index < held.size()) held[index] = !isFixed(body.id);
   }
   return held;
 }

@@ -2,17 +2,11 @@
 // A thousand edits of all kinds at random, with undo and redo among them, while matter flows: all of them undone, the
 // document, the matter and the heat of hands are what they were; redone, what they had become.
 #include "core/io/projectio.h"
-#include "core/plugin_host/registry.h"
-#include "core/simulation/enginethread.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/random.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/document.h"
-#include "ui/session/scenelink.h"
-#include "ui/session/selection.h"
-#include "ui/tools/toolbox.h"
-#include "ui/tools/tooltable.h"
+#include "tests/ui/tooltesting.h"
 
 #include <QtTest/QTest>
 
@@ -29,33 +23,19 @@ constexpr int kEdits = 1000;
 
 }  // namespace
 
-class TestRandomSketch : public QObject {
+class TestRandomSketch : public ToolTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
   void init() {
-    m_document = std::make_unique<Document>();
-    m_document->setPlugins(m_plugins.get());
-    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
-    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
-    m_selection = std::make_unique<Selection>(*m_document);
-    m_tools = std::make_unique<Toolbox>(*m_document, *m_selection);
-    m_tools->attach(m_link.get());
     Project project = scenes::iceOnPlate(5, 300, 100);
     project.environment = scenes::tray(0.5, 1.2);
     project.bodies.push_back(scenes::block("pool", 6, kSpacing, {0.3, 0.09, 0.2}, 290));
-    m_document->open(project, {}, false, false);
+    open(project);
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() != nullptr; }));
     m_document->addMaterial("wax");
     m_document->undoStack().clear();
   }
-  void cleanup() {
-    m_tools.reset();
-    m_selection.reset();
-    m_link.reset();
-    m_engine.reset();
-    m_document.reset();
-  }
+  void cleanup() { close(); }
 
   void allIsUndoneAndRedone_data() {
     QTest::addColumn<int>("seed");
@@ -149,21 +129,6 @@ class TestRandomSketch : public QObject {
     QVERIFY2(now->flags == 0, qPrintable(QString::number(now->flags)));
     QVERIFY(m_engine->playing());
   }
-  Pointer at(const Vector3& place) const {
-    Pointer pointer;
-    pointer.ray.origin = Vector3(0, 1, 1);
-    pointer.ray.direction = (place - pointer.ray.origin).normalized();
-    pointer.forward = Vector3(0, -1, -1).normalized();
-    pointer.scene = m_engine->snapshot();
-    return pointer;
-  }
-  void take(const char* brush, double radius) {
-    m_tools->activate(kBrushTool);
-    m_tools->takeBrush(brush);
-    BrushSettings settings = m_tools->brush();
-    settings.radius = radius;
-    m_tools->setBrush(settings);
-  }
   std::string text() const { return writeProject(m_document->project()); }
   std::set<uint32_t> ids() {
     return tests::onEngine<std::set<uint32_t>>(*m_engine, [](Engine& engine) {
@@ -177,13 +142,6 @@ class TestRandomSketch : public QObject {
   double exchanged() {
     return tests::onEngine<double>(*m_engine, [](Engine& engine) { return engine.solver().heatLedger().exchanged; });
   }
-
-  std::unique_ptr<PluginRegistry> m_plugins;
-  std::unique_ptr<Document> m_document;
-  std::unique_ptr<EngineThread> m_engine;
-  std::unique_ptr<SceneLink> m_link;
-  std::unique_ptr<Selection> m_selection;
-  std::unique_ptr<Toolbox> m_tools;
 };
 
 QTEST_GUILESS_MAIN(TestRandomSketch)

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tools driven by rays, without a widget: what mouse, pen and hands would do with them.
 #include "core/base/callee.h"
-#include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
-#include "core/simulation/enginethread.h"
 #include "core/sketch/stroke.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/document.h"
-#include "ui/session/scenelink.h"
-#include "ui/session/selection.h"
+#include "tests/ui/tooltesting.h"
 #include "ui/tools/aim.h"
 #include "ui/tools/gizmo.h"
 #include "ui/tools/guides.h"
-#include "ui/tools/toolbox.h"
-#include "ui/tools/tooltable.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
@@ -31,7 +25,7 @@ namespace {
 constexpr double kSpacing = 0.03;
 
 /// From above and in front, at a place of the scene.
-Pointer at(const Vector3& place, const SnapshotPtr& scene = nullptr) {
+Pointer aimed(const Vector3& place, const SnapshotPtr& scene = nullptr) {
   Pointer pointer;
   pointer.ray.origin = Vector3(0, 1, 1);
   pointer.ray.direction = (place - pointer.ray.origin).normalized();
@@ -43,31 +37,16 @@ Pointer at(const Vector3& place, const SnapshotPtr& scene = nullptr) {
 
 }  // namespace
 
-class TestTools : public QObject {
+class TestTools : public ToolTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
-
   void init() {
-    m_document = std::make_unique<Document>();
-    m_document->setPlugins(m_plugins.get());
-    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
-    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
-    m_selection = std::make_unique<Selection>(*m_document);
-    m_tools = std::make_unique<Toolbox>(*m_document, *m_selection);
-    m_tools->attach(m_link.get());
     Project project = scenes::iceOnPlate(5, 370);
     project.environment = scenes::tray(0.6, 1.2);
-    m_document->open(project, {}, false, false);
+    open(project);
   }
 
-  void cleanup() {
-    m_tools.reset();
-    m_selection.reset();
-    m_link.reset();
-    m_engine.reset();
-    m_document.reset();
-  }
+  void cleanup() { close(); }
 
   void theTableIsWhole() {
     std::set<std::string> ids, keys;
@@ -86,7 +65,7 @@ class TestTools : public QObject {
     m_selection->selectBody("ice");
     m_tools->activate("move");
     const Vector3 before = pivotOf(*m_document->body("ice"));
-    Pointer pointer = at(before);
+    Pointer pointer = aimed(before);
     Tool& tool = m_tools->tool();
     tool.hover(pointer);
     const Gizmo gizmo = tool.picture().gizmo->gizmo.value();
@@ -102,11 +81,11 @@ class TestTools : public QObject {
     QVERIFY(std::abs(tipSeen(1) - kGizmoArm) < 1e-6 && std::abs(tipSeen(4) - kGizmoArm) < 1e-6);
     const double arm = armOf(pointer, gizmo.centre);
     const Vector3 grip = gizmo.centre + Vector3(0.8 * arm, 0, 0);
-    QVERIFY(tool.press(at(grip)));
+    QVERIFY(tool.press(aimed(grip)));
     QCOMPARE(tool.picture().gizmo->active, (std::optional(GizmoPart{GizmoPart::Kind::Arm, 0})));
-    tool.drag(at(grip + Vector3(0.11, 0, 0)));
+    tool.drag(aimed(grip + Vector3(0.11, 0, 0)));
     QVERIFY((pivotOf(*m_document->body("ice")) - before - Vector3(0.11, 0, 0)).norm() < 1e-9);
-    Pointer stepped = at(grip + Vector3(0.11, 0, 0));
+    Pointer stepped = aimed(grip + Vector3(0.11, 0, 0));
     stepped.control = true;
     tool.drag(stepped);
     QVERIFY((pivotOf(*m_document->body("ice")) - before - Vector3(4 * kSpacing, 0, 0)).norm() < 1e-9);
@@ -152,10 +131,10 @@ class TestTools : public QObject {
     QTRY_VERIFY(m_engine->snapshot());
     const size_t particles = m_engine->snapshot()->id.size();
     const SnapshotPtr now = m_engine->snapshot();
-    Pointer pointer = at({0.15, 0, 0.15}, now);
+    Pointer pointer = aimed({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
     QCOMPARE(refused.count(), 0);
-    pointer = at({0.2, 0, 0.2}, now);
+    pointer = aimed({0.2, 0, 0.2}, now);
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QCOMPARE(refused.count(), 1);
@@ -215,9 +194,9 @@ class TestTools : public QObject {
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
     const SnapshotPtr now = m_engine->snapshot();
-    Pointer pointer = at({0.15, 0, 0.15}, now);
+    Pointer pointer = aimed({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
-    pointer = at(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
+    pointer = aimed(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QVERIFY2(refused.isEmpty(), qPrintable(refused.value(0).value(1).toString()));
@@ -254,11 +233,11 @@ class TestTools : public QObject {
     setBrush("cube", "rotation", M_PI / 4);
     m_tools->activate(kBrushTool);
     Tool& tool = m_tools->tool();
-    tool.hover(at({0.1, 0, 0.15}));
+    tool.hover(aimed({0.1, 0, 0.15}));
     QVERIFY(tool.picture().cursor && tool.picture().cursor->box && !tool.picture().cursor->erase);
-    QVERIFY(tool.press(at({0.1, 0, 0.15})));
-    tool.drag(at({0.14, 0, 0.15}));
-    tool.release(at({0.14, 0, 0.15}));
+    QVERIFY(tool.press(aimed({0.1, 0, 0.15})));
+    tool.drag(aimed({0.14, 0, 0.15}));
+    tool.release(aimed({0.14, 0, 0.15}));
     QCOMPARE(m_document->undoStack().count(), 1);
     QCOMPARE(m_document->project().bodies.size(), size_t{2});
     const auto& voxels = std::get<VoxelShape>(m_document->project().bodies.back().shape);
@@ -284,7 +263,7 @@ class TestTools : public QObject {
     for (const VoxelShape::Run& run : drawn.runs) QCOMPARE(run.y, int(std::floor(0.31 / kSpacing)));
     QCOMPARE(drawn.strokes[0].up, Vector3(0, 1, 0));  // seen from above
     // From below the horizon no level plane is met: nothing is drawn, and nothing is said.
-    Pointer up = at({0.1, 0.31, 0.1});
+    Pointer up = aimed({0.1, 0.31, 0.1});
     up.ray.direction.y() = std::abs(up.ray.direction.y());
     m_tools->tool().hover(up);
     QVERIFY(!m_tools->tool().picture().cursor);
@@ -302,7 +281,7 @@ class TestTools : public QObject {
     m_tools->activate(kBrushTool);
     Tool& tool = m_tools->tool();
     const auto held = [](const Vector3& place) {
-      Pointer pointer = at(place);
+      Pointer pointer = aimed(place);
       pointer.shift = true;
       return pointer;
     };
@@ -381,22 +360,22 @@ class TestTools : public QObject {
     setBrush("sphere");
     m_tools->activate("erase");
     Tool& tool = m_tools->tool();
-    tool.press(at({-0.1, 0, 0}, scene));  // on the floor
-    tool.drag(at({0.1, 0.3, 0}, scene));
+    tool.press(aimed({-0.1, 0, 0}, scene));  // on the floor
+    tool.drag(aimed({0.1, 0.3, 0}, scene));
     const auto shown = [&] { return tool.picture().cursor->centre; };
     QVERIFY(std::abs(shown().y() - 0.31) < 0.02);  // on the row's surface
     const auto rest = std::make_shared<Snapshot>(*scene);
     rest->position.erase(rest->position.begin(), rest->position.begin() + 4);
     rest->body.resize(4);
-    tool.drag(at({0.13, 0.3, 0}, rest));  // where it has just erased
+    tool.drag(aimed({0.13, 0.3, 0}, rest));  // where it has just erased
     QVERIFY(std::abs(shown().y() - 0.31) < 0.02);
-    tool.release(at({0.13, 0.3, 0}, rest));
+    tool.release(aimed({0.13, 0.3, 0}, rest));
   }
 
   void pressureReachesTheBrush() {
     setBrush("sphere");
     m_tools->activate(kBrushTool);
-    Pointer light = at({0.1, 0, 0.15});
+    Pointer light = aimed({0.1, 0, 0.15});
     light.pressure = 0.2;
     m_tools->tool().press(light);
     m_tools->tool().release(light);
@@ -407,16 +386,16 @@ class TestTools : public QObject {
   void aStrokeCanBeGivenUp() {
     setBrush("sphere");
     m_tools->activate(kBrushTool);
-    m_tools->tool().press(at({0.1, 0, 0.15}));
+    m_tools->tool().press(aimed({0.1, 0, 0.15}));
     QVERIFY(m_tools->tool().cancel());
     QVERIFY(!m_tools->tool().cancel());
-    m_tools->tool().release(at({0.1, 0, 0.15}));
+    m_tools->tool().release(aimed({0.1, 0, 0.15}));
     QCOMPARE(m_document->undoStack().count(), 0);
   }
 
   void controlTurnsABrushIntoAnEraser() {
     setBrush("sphere");
-    Pointer pointer = at({0.1, 0, 0.15});
+    Pointer pointer = aimed({0.1, 0, 0.15});
     pointer.control = true;
     m_tools->activate(kBrushTool);
     m_tools->tool().hover(pointer);
@@ -430,7 +409,7 @@ class TestTools : public QObject {
     setBrush("org.example.gone");
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     m_tools->activate(kBrushTool);
-    m_tools->tool().press(at({0.1, 0, 0.15}));
+    m_tools->tool().press(aimed({0.1, 0, 0.15}));
     QCOMPARE(refused.count(), 1);
     QVERIFY(refused[0][1].toString().contains(QStringLiteral("org.example.gone")));
     QCOMPARE(m_document->undoStack().count(), 0);
@@ -444,7 +423,7 @@ class TestTools : public QObject {
     plugins.fault("cube", "no more paint");
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     m_tools->activate(kBrushTool);
-    m_tools->tool().press(at({0.1, 0, 0.15}));
+    m_tools->tool().press(aimed({0.1, 0, 0.15}));
     QCOMPARE(refused.count(), 1);
     const QString why = refused[0][1].toString();
     QVERIFY2(why.contains(QStringLiteral("is put aside")) && why.contains(QStringLiteral("no more paint")) &&
@@ -456,10 +435,10 @@ class TestTools : public QObject {
 
   void aTapIsPlacedOnWhatIsUnderTheRay() {
     m_tools->activate("tap");
-    m_tools->tool().hover(at({0.1, 0, 0.1}));
+    m_tools->tool().hover(aimed({0.1, 0, 0.1}));
     QCOMPARE(m_tools->tool().picture().emitters.size(), size_t{1});
-    m_tools->tool().press(at({0.1, 0, 0.1}));
-    m_tools->tool().release(at({0.1, 0, 0.1}));
+    m_tools->tool().press(aimed({0.1, 0, 0.1}));
+    m_tools->tool().release(aimed({0.1, 0, 0.1}));
     QCOMPARE(m_document->project().emitters.size(), size_t{1});
     const Emitter& tap = m_document->project().emitters.front();
     QVERIFY((tap.point - Vector3(0.1, kSpacing / 2, 0.1)).norm() < 1e-12);
@@ -472,9 +451,9 @@ class TestTools : public QObject {
 
   void aTapThatIsDraggedUpPoursDown() {
     m_tools->activate("tap");
-    m_tools->tool().press(at({0.1, 0, 0.1}));
-    m_tools->tool().drag(at({0.1, 0.2, 0.1}));
-    m_tools->tool().release(at({0.1, 0.2, 0.1}));
+    m_tools->tool().press(aimed({0.1, 0, 0.1}));
+    m_tools->tool().drag(aimed({0.1, 0.2, 0.1}));
+    m_tools->tool().release(aimed({0.1, 0.2, 0.1}));
     const Emitter& tap = m_document->project().emitters.front();
     QVERIFY((tap.point - Vector3(0.1, 0.2, 0.1)).norm() < 1e-9);
     QCOMPARE(tap.direction.y(), -1.0);
@@ -482,9 +461,9 @@ class TestTools : public QObject {
 
   void aDrainGrowsWithTheDrag() {
     m_tools->activate("drain");
-    m_tools->tool().press(at({0, 0, 0.1}));
-    m_tools->tool().drag(at({0.2, 0, 0.1}));
-    m_tools->tool().release(at({0.2, 0, 0.1}));
+    m_tools->tool().press(aimed({0, 0, 0.1}));
+    m_tools->tool().drag(aimed({0.2, 0, 0.1}));
+    m_tools->tool().release(aimed({0.2, 0, 0.1}));
     const Sink& drain = m_document->project().sinks.front();
     QVERIFY(std::abs(drain.maximum.x() - drain.minimum.x() - 0.4) < 1e-9);
     QVERIFY(std::abs(drain.minimum.y()) < 1e-12);
@@ -499,21 +478,21 @@ class TestTools : public QObject {
     const int steps = m_document->undoStack().count();
     m_tools->activate(kSelectTool);
     Tool& tool = m_tools->tool();
-    tool.hover(at(tap.point));
+    tool.hover(aimed(tap.point));
     QCOMPARE(tool.picture().pointer, PointerShape::Move);
-    QVERIFY(tool.press(at(tap.point)));
-    tool.drag(at({0.1, 0.3, 0}));
-    tool.drag(at({0.15, 0.3, 0}));
+    QVERIFY(tool.press(aimed(tap.point)));
+    tool.drag(aimed({0.1, 0.3, 0}));
+    tool.drag(aimed({0.15, 0.3, 0}));
     QVERIFY(std::abs(m_document->project().emitters[0].point.x() - 0.15) < 1e-9);
     QVERIFY(tool.cancel());
     QVERIFY((m_document->project().emitters[0].point - tap.point).norm() < 1e-12);
     QCOMPARE(m_document->undoStack().count(), steps);
-    QVERIFY(tool.press(at(tap.point)));
-    tool.drag(at({0.15, 0.3, 0}));
-    tool.release(at({0.15, 0.3, 0}));
+    QVERIFY(tool.press(aimed(tap.point)));
+    tool.drag(aimed({0.15, 0.3, 0}));
+    tool.release(aimed({0.15, 0.3, 0}));
     QCOMPARE(m_document->undoStack().count(), steps + 1);
     // Where there is no handle, nothing is taken, and the view may turn.
-    QVERIFY(!tool.press(at({-0.3, 0, 0.3})) && tool.turnsView());
+    QVERIFY(!tool.press(aimed({-0.3, 0, 0.3})) && tool.turnsView());
   }
 
   void aClickSelectsWhatTheRayHits() {
@@ -523,13 +502,13 @@ class TestTools : public QObject {
     scene->position = {{0, 0, 0, 0.02F}};
     scene->body = {0};
     scene->id = {42};
-    m_tools->tool().click(at({0, 0, 0}, scene));
+    m_tools->tool().click(aimed({0, 0, 0}, scene));
     QCOMPARE(m_selection->body(), std::string("ice"));
     QCOMPARE(m_selection->marked(), (std::pair<uint64_t, uint32_t>{7, 42}));
-    m_tools->tool().click(at({0.2, 0, 0}, scene));  // the floor
+    m_tools->tool().click(aimed({0.2, 0, 0}, scene));  // the floor
     QVERIFY(!m_selection->marked());
     QVERIFY(m_selection->items().size() == 1 && m_selection->items().front().kind == OutlineKind::Wall);
-    m_tools->tool().click(at({0.2, 2, 0}, scene));  // the sky
+    m_tools->tool().click(aimed({0.2, 2, 0}, scene));  // the sky
     QVERIFY(m_selection->empty() && !m_selection->marked());
   }
 
@@ -543,9 +522,9 @@ class TestTools : public QObject {
   /// One stroke along places.
   void draw(const std::vector<Vector3>& places, const SnapshotPtr& scene = nullptr) {
     m_tools->activate(kBrushTool);
-    QVERIFY(m_tools->tool().press(at(places.front(), scene)));
-    for (size_t k = 1; k < places.size(); ++k) m_tools->tool().drag(at(places[k], scene));
-    m_tools->tool().release(at(places.back(), scene));
+    QVERIFY(m_tools->tool().press(aimed(places.front(), scene)));
+    for (size_t k = 1; k < places.size(); ++k) m_tools->tool().drag(aimed(places[k], scene));
+    m_tools->tool().release(aimed(places.back(), scene));
   }
   const VoxelShape& sketch() const { return std::get<VoxelShape>(m_document->project().bodies.back().shape); }
   void setBrush(const std::string& shape, const std::string& key = {}, double value = 0) {
@@ -556,13 +535,6 @@ class TestTools : public QObject {
     if (!key.empty()) brush.parameters[shape].values[key] = value;
     m_tools->setBrush(brush);
   }
-
-  std::unique_ptr<PluginRegistry> m_plugins;
-  std::unique_ptr<Document> m_document;
-  std::unique_ptr<EngineThread> m_engine;
-  std::unique_ptr<SceneLink> m_link;
-  std::unique_ptr<Selection> m_selection;
-  std::unique_ptr<Toolbox> m_tools;
 };
 
 QTEST_GUILESS_MAIN(TestTools)

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Brushes that work on the matter that is there, driven by rays, without a widget, in a scene that runs.
 #include "core/io/projectio.h"
-#include "core/plugin_host/registry.h"
-#include "core/simulation/enginethread.h"
 #include "core/sketch/redraw.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
-#include "ui/document/document.h"
-#include "ui/session/scenelink.h"
-#include "ui/session/selection.h"
-#include "ui/tools/toolbox.h"
-#include "ui/tools/tooltable.h"
+#include "tests/ui/tooltesting.h"
+#include "ui/tools/handbrush.h"
 
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
@@ -29,32 +24,17 @@ constexpr double kSpacing = 0.03, kScale = 100;
 
 }  // namespace
 
-class TestTouchTools : public QObject {
+class TestTouchTools : public ToolTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() { m_plugins = std::make_unique<PluginRegistry>(); }
-
   void init() {
-    m_document = std::make_unique<Document>();
-    m_document->setPlugins(m_plugins.get());
-    m_engine = std::make_unique<EngineThread>(*m_plugins, [] {});
-    m_link = std::make_unique<SceneLink>(*m_document, *m_engine);
-    m_selection = std::make_unique<Selection>(*m_document);
-    m_tools = std::make_unique<Toolbox>(*m_document, *m_selection);
-    m_tools->attach(m_link.get());
     Project project = scenes::iceOnPlate(5, 300, kScale);
     project.environment = scenes::tray(0.6, 1.2);
-    m_document->open(project, {}, false, false);
+    open(project);
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() != nullptr; }));
   }
 
-  void cleanup() {
-    m_tools.reset();
-    m_selection.reset();
-    m_link.reset();
-    m_engine.reset();
-    m_document.reset();
-  }
+  void cleanup() { close(); }
 
   /// On top of the block, without moving: the heat is the power times the time of the scene.
   void aHandHeatsForAsLongAsItIsHeld() {
@@ -358,6 +338,29 @@ class TestTouchTools : public QObject {
     QCOMPARE(iron(), painted);
   }
 
+  /// A reset that follows the stroke of one hand waits for that of the other.
+  void twoHandsDrawAtTheStart() {
+    HandBrush left(*m_tools), right(*m_tools);
+    const auto hand = [](double x, double pressure) {
+      return HandInScene{Vector3(x, 0.1, 0.3), {0, 1, 0}, {0, 0, -1}, pressure, false, 0};
+    };
+    take("sphere", 0.04);
+    left.follow(hand(-0.3, 1), m_engine->snapshot());
+    QVERIFY(left.active());
+    takePaint();
+    right.follow({Vector3(0, 0.15, 0), {0, 1, 0}, {0, 0, -1}, 1, false, 0}, m_engine->snapshot());
+    right.follow(hand(0, 0), m_engine->snapshot());
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("painting stroke"));
+    const uint64_t run = m_engine->snapshot()->revision;
+    QTest::qWait(500);  // longer than a drag rests before it is followed
+    QCOMPARE(m_engine->snapshot()->revision, run);
+    left.follow(hand(-0.3, 0), m_engine->snapshot());
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->revision != run; }));
+    const Snapshot& now = *m_engine->snapshot();
+    QVERIFY(std::count(now.body.begin(), now.body.end(), 1U) > 4);
+  }
+
   /// Of the matter as it stands, which no body's start can say.
   void paintingInARunChangesMatterAlone() {
     takePaint();
@@ -470,21 +473,6 @@ class TestTouchTools : public QObject {
     });
   }
 
-  Pointer at(const Vector3& place) const {
-    Pointer pointer;
-    pointer.ray.origin = Vector3(0, 1, 1);
-    pointer.ray.direction = (place - pointer.ray.origin).normalized();
-    pointer.forward = Vector3(0, -1, -1).normalized();
-    pointer.scene = m_engine->snapshot();
-    return pointer;
-  }
-  void take(const char* brush, double radius = 0.05) {
-    m_tools->activate(kBrushTool);
-    m_tools->takeBrush(brush);
-    BrushSettings settings = m_tools->brush();
-    settings.radius = radius;
-    m_tools->setBrush(settings);
-  }
   double time() const { return m_engine->snapshot()->stats.time; }
   double height() const {
     double sum = 0;
@@ -500,13 +488,6 @@ class TestTouchTools : public QObject {
   double heaters() {
     return tests::onEngine<double>(*m_engine, [](Engine& engine) { return engine.solver().heatLedger().heaters; });
   }
-
-  std::unique_ptr<PluginRegistry> m_plugins;
-  std::unique_ptr<Document> m_document;
-  std::unique_ptr<EngineThread> m_engine;
-  std::unique_ptr<SceneLink> m_link;
-  std::unique_ptr<Selection> m_selection;
-  std::unique_ptr<Toolbox> m_tools;
 };
 
 const Vector3 TestTouchTools::kTop{0, 0.15, 0};

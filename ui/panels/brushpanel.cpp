@@ -119,7 +119,7 @@ void BrushPanel::refresh() {
   show(rowModels(brushParameters(), valuesOf(brush)));
   show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
-    for (const char* key : {"temperature", "draw_on", "plane_at", "steady"})
+    for (const char* key : {"temperature", "held", "draw_on", "plane_at", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }
   showMaterial();

@@ -63,7 +63,7 @@ SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
   m_soon.setSingleShot(true);
   m_soon.setInterval(kDragRest);
   connect(&m_soon, &QTimer::timeout, this, [this] {
-    if (m_engine.making() || !m_drawn.expired())
+    if (m_engine.making() || any(m_drawn))
       m_soon.start();
     else if (appliesAtOnce())
       applyWaiting();
@@ -197,9 +197,8 @@ void SceneLink::forgetMatter() {
 void SceneLink::remember(const StrokeChanged& event) {
   if (event.live) {
     m_strokes.push_back({event.stroke, true, {}});
-    m_drawn.reset();
-    if (!m_cutOff.expired()) resetSoon();
-    m_cutOff.reset();
+    drop(m_drawn, event.stroke->matter);
+    if (drop(m_cutOff, event.stroke->matter)) resetSoon();
   }
   for (KnownStroke& known : m_strokes) {
     if (known.stroke.lock() == event.stroke) known.done = event.done;
@@ -252,7 +251,7 @@ void SceneLink::resetSoon() {
 }
 
 void SceneLink::applyWaiting() {
-  if (m_waits && m_drawn.expired()) reset();
+  if (m_waits && !any(m_drawn)) reset();
 }
 
 void SceneLink::nothingWaits() {
@@ -262,7 +261,7 @@ void SceneLink::nothingWaits() {
 
 void SceneLink::reset() {
   nothingWaits();
-  m_cutOff = m_drawn;  // what the hand has drawn so far is not in the document yet
+  m_cutOff = m_drawn;  // what hands have drawn so far is not in the document yet
   if (isBroken()) {
     rebuild(m_play);
   } else {
@@ -333,8 +332,17 @@ void SceneLink::hear(const EngineEvent& event) {
   m_taking = false;
 }
 
+bool SceneLink::any(const Strokes& strokes) {
+  return std::any_of(strokes.begin(), strokes.end(), [](const auto& stroke) { return !stroke.expired(); });
+}
+
+bool SceneLink::drop(Strokes& strokes, const MatterRef& stroke) {
+  return std::erase_if(strokes, [&](const auto& one) { return one.lock() == stroke; }) > 0;
+}
+
 MatterKey SceneLink::draws(const StrokeRecord& stroke) {
-  m_drawn = stroke.matter;
+  drop(m_drawn, stroke.matter);
+  m_drawn.push_back(stroke.matter);
   return keyOf(stroke.matter);
 }
 
@@ -386,7 +394,8 @@ size_t SceneLink::strokesOfTheRun() const {
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) {
-  m_drawn.reset();
+  drop(m_drawn, stroke->matter);
+  drop(m_cutOff, stroke->matter);
   undoStroke(stroke);
 }
 

@@ -86,11 +86,14 @@ class SceneLink : public QObject {
   bool m_play = false;     ///< once there is a scene: what the opened project asks for
   uint64_t m_builtAt = 0;  ///< Document::changeCount() of what the engine was given as a whole last
   QTimer m_soon;
-  bool m_waits = false;                     ///< a reset, for the last value of a drag
-  bool m_givenUp = false;                   ///< the scene was not made as the last values have it
-  std::weak_ptr<const MatterKey> m_drawn;   ///< by a stroke that the document does not know yet
-  std::weak_ptr<const MatterKey> m_cutOff;  ///< the same, when a reset came while it was drawn
-  bool m_taking = false;                    ///< a refused value out of the document: the engine has the other one
+  bool m_waits = false;    ///< a reset, for the last value of a drag
+  bool m_givenUp = false;  ///< the scene was not made as the last values have it
+  using Strokes = std::vector<std::weak_ptr<const MatterKey>>;
+  static bool any(const Strokes& strokes);
+  static bool drop(Strokes& strokes, const MatterRef& stroke);  ///< whether it was among them
+  Strokes m_drawn;                                              ///< by hands, which the document does not know yet
+  Strokes m_cutOff;                                             ///< the same, when a reset came while they were drawn
+  bool m_taking = false;  ///< a refused value out of the document: the engine has the other one
   struct KnownMatter {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;

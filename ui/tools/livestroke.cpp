@@ -64,10 +64,13 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
   if (!now.bodyIds) return nullptr;
   const std::vector<Body>& bodies = m_box.document().project().bodies;
   std::vector<const Body*> takers(now.bodyIds->size());
+  std::vector<int> entries(takers.size());
   for (size_t b = 0; b < takers.size(); ++b) {
     const auto found =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
-    if (found != bodies.end() && takesMore(*found, material, m_brush, m_setup.grid)) takers[b] = &*found;
+    if (found == bodies.end()) continue;
+    const std::optional<int> entry = takesMore(*found, material, m_brush, m_setup.grid);
+    if (entry) takers[b] = &*found, entries[b] = *entry;
   }
   std::map<const Body*, CellSet> cellsOf;  // of those that have some near
   const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
@@ -78,7 +81,7 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
     const auto [known, isNew] = cellsOf.try_emplace(body);
     if (isNew) known->second = VoxelCanvas(std::get<VoxelShape>(body->shape).runs).cells();
     if (!known->second.contains(m_setup.grid.cellAt(place))) continue;
-    palette = takesMore(*body, material, m_brush, m_setup.grid).value();
+    palette = entries[now.body[i]];
     return body;
   }
   return nullptr;

@@ -20,6 +20,8 @@
 
 #include <QtGui/QAction>
 
+#include <utility>
+
 namespace ps {
 namespace {
 
@@ -97,6 +99,7 @@ void VrMode::enter() {
 
 void VrMode::enterWithout() {
   if (m_headset) leave();
+  m_triesNext = m_headset != nullptr;
   if (active()) return showState();
   try {
     begin();
@@ -191,6 +194,7 @@ void VrMode::end(const vr::Ending& ending) {
   m_parts.status.say(said, level);
   if (!said.isEmpty()) m_parts.notices.message(level, kTopic, said);
   Q_EMIT ended(said);
+  if (std::exchange(m_triesNext, false)) enterWithout();
 }
 
 void VrMode::showState() {

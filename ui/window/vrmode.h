@@ -72,6 +72,7 @@ class VrMode : public QObject {
   std::unique_ptr<vr::Headset> m_headset;
   VrWithout* m_window = nullptr;
   bool m_leaving = false;
+  bool m_triesNext = false;  ///< VR without a headset was asked for, and a stay in one has yet to end
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
   QElapsedTimer m_sinceShown, m_sinceHands;
