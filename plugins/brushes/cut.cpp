@@ -13,7 +13,7 @@ CutBrush::CutBrush()
           {"Cut",
            "Cuts solid matter apart along the way of the hand, as deep as the ball reaches: bonded and soft bodies, "
            "rigid ones, cloth and rope. Nothing joins again there by itself before it has melted. Matter of "
-           "locked bodies stays whole; Ctrl welds. Undo ties the same particles again.",
+           "locked bodies stays whole; Ctrl welds. Undo ties the same particles again, but for crumbs of rigid bodies.",
            ps::api::listOf(kWholeBall)}) {}
 
 void CutBrush::touch(const ps::api::StrokeContext& context, ps::api::EditKind kind,
