@@ -180,6 +180,26 @@ Body scaled(Body body, const Vector3& factors) {
   return body;
 }
 
+Body sizedAs(Body body, const Body& other) {
+  auto* box = std::get_if<BoxShape>(&body.shape);
+  auto* solid = std::get_if<SolidShape>(&body.shape);
+  if (const auto* wanted = std::get_if<BoxShape>(&other.shape); box && wanted) box->size = wanted->size;
+  if (const auto* wanted = std::get_if<SolidShape>(&other.shape); solid && wanted) {
+    SolidShape sized = *wanted;
+    const SolidForm form(*solid);
+    place(sized, "position", form.middle());
+    for (size_t a = 0; a < 3; ++a) {
+      const std::string turn = key("rotation", a);
+      if (const auto set = solid->parameters.values.find(turn); set != solid->parameters.values.end())
+        sized.parameters.values[turn] = set->second;
+      else
+        sized.parameters.values.erase(turn);
+    }
+    *solid = std::move(sized);
+  }
+  return body;
+}
+
 std::optional<RigidMove> moveBetween(const Body& before, const Body& after) {
   RigidMove move;
   if (before.shape.index() != after.shape.index()) return std::nullopt;

@@ -33,6 +33,8 @@ Body moved(Body body, const RigidMove& move);
 /// The body with its sizes along its own axes (of a solid) or the scene's times these factors, about its pivot. Not of
 /// sketches.
 Body scaled(Body body, const Vector3& factors);
+/// The body with the sizes of another one of its kind, where it stands.
+Body sizedAs(Body body, const Body& other);
 /// How what was made of one body comes to stand where the other would be made; nothing where the shapes differ in more
 /// than their pose, or not at all.
 std::optional<RigidMove> moveBetween(const Body& before, const Body& after);

@@ -10,6 +10,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/gizmo.h"
 #include "ui/tools/picking.h"
@@ -45,7 +46,10 @@ class TestHandles : public SampleWindowTest {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() { open(); }
-  void init() { backToTheStart(); }
+  void init() {
+    backToTheStart();
+    m_window->tools().setHandles({});
+  }
   void cleanupTestCase() { m_window.reset(); }
 
   void keysTakeTheHandles() {
@@ -191,6 +195,33 @@ class TestHandles : public SampleWindowTest {
     for (size_t k = 0; k < made.size(); ++k) QVERIFY((made[k] - live[k]).norm() < 0.2 * m_window->tools().spacing());
     document().undoStack().undo();
     QCOMPARE(pivotOf(*document().body(id)), pivotOf(before));
+  }
+
+  /// By its menu: it is kept, the handles follow it, and so does what they do.
+  void aPivotIsChosen() {
+    const std::string first = addedSolid("block"), second = addedSolid("ellipsoid");
+    m_window->selection().selectAll({{OutlineKind::Body, first}, {OutlineKind::Body, second}});
+    m_window->tools().activate("rotate");
+    const Vector3 a = pivotOf(*document().body(first)), b = pivotOf(*document().body(second));
+    QVERIFY((handles().centre - 0.5 * (a + b)).norm() < 1e-4);
+    m_window->action(QStringLiteral("edit.pivot.last"))->trigger();
+    QVERIFY((handles().centre - b).norm() < 1e-4);
+    QVERIFY(m_window->tools().tool().words().contains(QStringLiteral("the one selected last")));
+    m_window->action(QStringLiteral("edit.pivot.each"))->trigger();
+    QVERIFY(m_window->action(QStringLiteral("edit.pivot.each"))->isChecked());
+    QCOMPARE(preferences::handles(), m_window->tools().handles());
+    const int steps = document().undoStack().index();
+    view()->repaint();
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("30"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    for (const auto& [id, place] : {std::pair(first, a), {second, b}}) {
+      const SolidForm form(std::get<SolidShape>(document().body(id)->shape));
+      QVERIFY(form.isTurned() && (form.middle() - place).norm() < 1e-6);
+    }
+    document().undoStack().undo();
+    preferences::setHandles({});
   }
 
   /// What cannot be turned says so, and has no handles.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has no matter is picked where it is seen: walls, and pins, which are put elsewhere by the handles.
+#include "core/scene/pose.h"
 #include "core/scene/scenewall.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
@@ -52,6 +53,16 @@ Project scene() {
   rope.pins = {left, right};
   project.bodies = {rope};
   return project;
+}
+
+Body blockAt(const std::string& id, const Vector3& place) {
+  Body body;
+  body.id = id;
+  SolidShape solid;
+  solid.parameters.values = {
+      {"kind", std::string("block")}, {"position_x", place.x()}, {"position_y", place.y()}, {"position_z", place.z()}};
+  body.shape = solid;
+  return body;
 }
 
 std::optional<SelectedItem> picked(const Project& project, const std::vector<SelectedItem>& selected,
@@ -176,6 +187,47 @@ class TestPicking : public QObject {
     const Placeable both = placeable(*m_document, {kRope, kPin}, Gizmo::Kind::Move, {});
     QVERIFY(std::none_of(both.items.begin(), both.items.end(),
                          [](const auto& item) { return item.first.kind == OutlineKind::Pin; }));
+  }
+
+  /// Turned and scaled about the middle of all, each about its own, about the last one, or about the scene's origin.
+  void handlesGoAboutAPivot() {
+    const Vector3 atA(0.1, 0.3, 0), atB(0.3, 0.3, 0);
+    Project project = scene();
+    project.bodies = {blockAt("a", atA), blockAt("b", atB)};
+    m_document->open(project, {});
+    const std::vector<SelectedItem> items{{OutlineKind::Body, "a"}, {OutlineKind::Body, "b"}};
+    const Placeable both = placeable(*m_document, items, Gizmo::Kind::Rotate, {});
+    const Vector3 middle(0.2, 0.3, 0);
+    const auto stands = [&](Pivot pivot, const Vector3& at, Gizmo::Kind kind = Gizmo::Kind::Rotate) {
+      return (both.centre(kind, pivot) - at).norm() < 1e-12;
+    };
+    QVERIFY(stands(Pivot::Middle, middle) && stands(Pivot::Each, middle) && stands(Pivot::Last, atB));
+    QVERIFY(stands(Pivot::Origin, {0, 0, 0}) && stands(Pivot::Origin, middle, Gizmo::Kind::Move));
+    const Placement before = placementOf(*m_document, both);
+    const auto are = [](const Placement& things, const Vector3& a, const Vector3& b) {
+      return (pivotOf(things.bodies[0]) - a).norm() < 1e-9 && (pivotOf(things.bodies[1]) - b).norm() < 1e-9;
+    };
+    const Quaternion half(Eigen::AngleAxisd(std::numbers::pi, Vector3(0, 0, 1)));
+    QVERIFY(are(turned(before, {}, std::nullopt, half), atA, atB));
+    QVERIFY(are(turned(before, {}, middle, half), atB, atA));
+    QVERIFY(are(turned(before, {}, atB, half), {0.5, 0.3, 0}, atB));
+    QVERIFY(are(stretched(before, {2, 2, 2}), atA, atB));
+    const Placement apart = stretched(before, {2, 2, 2}, {}, {middle, Matrix3::Identity()});
+    QVERIFY(are(apart, {0, 0.3, 0}, {0.4, 0.3, 0}));
+    for (const Body& body : apart.bodies) QVERIFY((boundsOf(body).size() - Vector3::Constant(0.2)).norm() < 1e-9);
+    // Sizes and places are one step; what a listener is told carries the matter along.
+    std::vector<Vector3> ways;
+    const QObject scope;
+    QObject::connect(m_document.get(), &Document::changed, &scope, [&](const ChangeEvent& event) {
+      const auto* body = std::get_if<BodyChanged>(&event);
+      if (body && body->move) ways.push_back(body->move->shift);
+    });
+    m_document->place(apart, QStringLiteral("scaling"));
+    QCOMPARE(ways.size(), size_t{2});
+    QVERIFY((ways[0] - Vector3(-0.1, 0, 0)).norm() < 1e-9 && (ways[1] - Vector3(0.1, 0, 0)).norm() < 1e-9);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    m_document->undoStack().undo();
+    for (size_t k = 0; k < 2; ++k) QVERIFY(m_document->project().bodies[k].shape == project.bodies[k].shape);
   }
 
   /// What a section cuts away is neither clicked nor framed nor drawn on: what lies behind it is.

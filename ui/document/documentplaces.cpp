@@ -76,7 +76,7 @@ void Document::applyPlacement(const Placement& to) {
   for (const Body& body : to.bodies) {
     Body& here = *at(m_project.bodies, body.id);
     if (here.shape == body.shape) continue;  // a step of a drag that is none
-    const std::optional<RigidMove> move = moveBetween(here, body);
+    const std::optional<RigidMove> move = moveBetween(sizedAs(here, body), body);
     const std::vector<std::string> keys = resized(here, body);
     const Body before = here;
     here.shape = body.shape;

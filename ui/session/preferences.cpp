@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
                      *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
-                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse";
+                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse",
+                     *kPivot = "handles/pivot";
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
@@ -68,6 +69,9 @@ void setTemperatures(TemperatureUnit unit) { set(kTemperatures, static_cast<int>
 
 MousePreset mouse() { return static_cast<MousePreset>(number(kMouse, 0, 0, static_cast<int>(MousePreset::Cad))); }
 void setMouse(MousePreset preset) { set(kMouse, static_cast<int>(preset)); }
+
+HandleSettings handles() { return {static_cast<Pivot>(number(kPivot, 0, 0, static_cast<int>(Pivot::Origin)))}; }
+void setHandles(const HandleSettings& settings) { set(kPivot, static_cast<int>(settings.pivot)); }
 
 bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
 bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }

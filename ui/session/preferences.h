@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/runrecord.h"
+#include "ui/session/handlesettings.h"
 #include "ui/theme/units.h"
 
 #include <QtCore/QString>
@@ -38,6 +39,9 @@ void setTemperatures(TemperatureUnit unit);
 
 MousePreset mouse();
 void setMouse(MousePreset preset);
+
+HandleSettings handles();
+void setHandles(const HandleSettings& settings);
 
 /// Whether no window has been closed in order yet.
 bool isFirstStart();

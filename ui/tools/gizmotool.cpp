@@ -56,6 +56,13 @@ QString pinsName(const Document& document, const BodyPins& pins) {
   return pins.chosen.size() == 1 ? QStringLiteral("a pin of %1").arg(body) : QStringLiteral("pins of %1").arg(body);
 }
 
+/// What they go about, of things that are turned or stretched.
+QString pivotWords(Pivot pivot) {
+  constexpr const char* kWords[] = {"about their common middle", "each about its own middle",
+                                    "about the one selected last", "about the origin of the scene"};
+  return QString::fromLatin1(kWords[static_cast<size_t>(pivot)]);
+}
+
 QString labelOf(const GizmoPart& part, Kind kind) {
   constexpr const char *kAxes[] = {"X", "Y", "Z"}, *kPlanes[] = {"YZ", "XZ", "XY"};
   if (part.kind == GizmoPart::Kind::Middle) return kind == Kind::Scale ? QStringLiteral("All") : QString();
@@ -70,7 +77,7 @@ Placeable GizmoTool::selected() const {
 
 std::optional<Gizmo> GizmoTool::gizmo(const Placeable& things) const {
   if (things.items.empty()) return std::nullopt;
-  return Gizmo{m_kind, things.middle(), things.axes, things.along};
+  return Gizmo{m_kind, things.centre(m_kind, box().handles().pivot), things.axes, things.along};
 }
 
 void GizmoTool::see(const Snapshot* scene) { m_matter = matterOf(scene, box().selection().bodies()); }
@@ -91,6 +98,7 @@ bool GizmoTool::press(const Pointer& pointer) {
   const auto shown = gizmo(things);
   if (!shown || !m_hovered) return m_select.press(pointer);
   m_grip.emplace(*shown, *m_hovered, pointer);
+  m_pivot = box().handles().pivot == Pivot::Each ? std::nullopt : std::optional(shown->centre);
   m_pressed = pointer;
   m_pressed->scene = nullptr;  // its memory is not held meanwhile
   m_before = placementOf(box().document(), things);
@@ -153,9 +161,9 @@ void GizmoTool::apply(GizmoDrag dragged) {
     after = shifted(m_before, dragged.way);
   } else if (m_kind == Kind::Rotate) {
     const Vector3 axis = handles.axes.col(m_grip->part().axis);
-    after = turned(m_before, m_matterBefore, handles.centre, Quaternion(Eigen::AngleAxisd(dragged.amount, axis)));
+    after = turned(m_before, m_matterBefore, m_pivot, Quaternion(Eigen::AngleAxisd(dragged.amount, axis)));
   } else {
-    after = stretched(m_before, dragged.factors);
+    after = stretched(m_before, dragged.factors, m_matterBefore, {m_pivot, handles.axes});
   }
   box().document().place(std::move(after), QString::fromLatin1(rowOf(m_kind).title).arg(name));
 }
@@ -257,20 +265,28 @@ ToolPicture GizmoTool::picture() const {
 }
 
 QString GizmoTool::words() const {
-  if (!m_grip) return QString::fromLatin1(rowOf(m_kind).words);
+  QString words = QString::fromLatin1(rowOf(m_kind).words);
+  const Pivot pivot = box().handles().pivot;
+  if (m_kind != Kind::Move && pivot != Pivot::Middle) words += QStringLiteral(", ") + pivotWords(pivot);
+  if (!m_grip) return words;
   const GizmoPicture shown = *picture().gizmo;
-  return QStringLiteral("%1, %2 %3").arg(QString::fromLatin1(rowOf(m_kind).words), shown.label, shown.value);
+  return QStringLiteral("%1, %2 %3").arg(words, shown.label, shown.value);
 }
 
 std::vector<Gesture> GizmoTool::gestures() const {
   const KindRow& row = rowOf(m_kind);
+  const QString pivot =
+      m_kind == Kind::Move
+          ? QStringLiteral("Chooses where the handles stand: in the middle, or on the last selected")
+          : QStringLiteral("Chooses what that goes about; now %1").arg(pivotWords(box().handles().pivot));
   return {{QString::fromLatin1(row.keys), QString::fromUtf8(row.does), {}},
           {QStringLiteral("Type a number"), QStringLiteral("While dragging: just so far; with a unit, “25 mm”"),
            QStringLiteral("while dragging")},
           {QStringLiteral("Ctrl or Alt"),
            QStringLiteral("Goes by steps: the particles' spacing, 15°, a tenth; Shift is ten times finer"),
            QStringLiteral("by steps")},
-          {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")}};
+          {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")},
+          {QString::fromLatin1(kPivotKey), pivot, {}}};
 }
 
 }  // namespace ps

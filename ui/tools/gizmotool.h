@@ -6,6 +6,9 @@
 
 namespace ps {
 
+/// Opens the choice of what the handles go about.
+inline constexpr const char* kPivotKey = "Ctrl+.";
+
 /// Moves, turns or stretches all that is selected by handles, or by a number that is typed while one is dragged. One
 /// drag is one undo step. Clicks select; whatever else is dragged turns the view.
 class GizmoTool : public Tool {
@@ -26,6 +29,7 @@ class GizmoTool : public Tool {
   std::vector<Gesture> gestures() const override;
   QString invitation() const override { return m_select.invitation(); }
   bool turnsView() const override { return true; }
+  bool usesHandles() const override { return true; }
 
  private:
   Placeable selected() const;
@@ -41,6 +45,7 @@ class GizmoTool : public Tool {
   std::optional<GizmoPart> m_hovered;
   std::optional<GizmoGrip> m_grip;
   std::optional<Pointer> m_pressed;  ///< until it is dragged
+  std::optional<Vector3> m_pivot;    ///< m, what all go about; none: each about itself
   uint64_t m_begun = 0;              ///< Document::changeCount() before the drag
   Placement m_before;
   MatterPlaces m_matterBefore;

@@ -18,7 +18,16 @@ using Kind = Gizmo::Kind;
 
 QString quoted(const QString& name, const QString& why) { return QStringLiteral("“%1”: %2").arg(name, why); }
 
-Vector3 middleOf(const Region& region) { return 0.5 * (region.minimum + region.maximum); }
+template <class Box>
+Vector3 middleOf(const Box& box) {
+  return 0.5 * (box.minimum + box.maximum);
+}
+
+/// Where a body's matter is, as far as that is known.
+Vector3 placeOf(const Body& body, const MatterPlaces& matter) {
+  const auto known = matter.find(body.id);
+  return known == matter.end() ? centroidOf(body) : known->second;
+}
 
 /// "" or why a body is left where it is.
 QString whyNot(const Body& body, Kind kind) {
@@ -44,13 +53,11 @@ struct Collector {
 void collect(Collector& to, const Document& document, const SelectedItem& item, Kind kind, const MatterPlaces& matter) {
   const auto unless = [&](bool cannot, const char* why) { return cannot ? QString::fromUtf8(why) : QString(); };
   if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
-    const auto known = matter.find(item.id);
-    to.add(item, known == matter.end() ? centroidOf(*body) : known->second, nameOf(*body), whyNot(*body, kind));
+    to.add(item, placeOf(*body, matter), nameOf(*body), whyNot(*body, kind));
   } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
     to.add(item, emitter->point, nameOf(*emitter), unless(kind == Kind::Scale, "its width is its row “Diameter”"));
   } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
-    to.add(item, 0.5 * (sink->minimum + sink->maximum), nameOf(*sink),
-           unless(kind == Kind::Rotate, "a drain stands along the axes"));
+    to.add(item, middleOf(*sink), nameOf(*sink), unless(kind == Kind::Rotate, "a drain stands along the axes"));
   } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
     to.add(item, wall->point, nameOf(*wall),
            unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));
@@ -84,11 +91,12 @@ void choose(std::vector<BodyPins>& all, const Document& document, const PinAddre
   found->chosen.push_back(pin.index);
 }
 
+/// About its middle, which goes by `way`.
 template <class Box>
-void stretch(Box& box, const Vector3& factors) {
-  const Vector3 middle = 0.5 * (box.minimum + box.maximum);
-  box.minimum = middle + (box.minimum - middle).cwiseProduct(factors);
-  box.maximum = middle + (box.maximum - middle).cwiseProduct(factors);
+void stretch(Box& box, const Vector3& factors, const Vector3& way) {
+  const Vector3 middle = middleOf(box), half = (box.maximum - middle).cwiseProduct(factors);
+  box.minimum = middle + way - half;
+  box.maximum = middle + way + half;
 }
 
 /// A curved wall stays round: the greatest change counts, of a cylinder across its axis.
@@ -131,6 +139,11 @@ Vector3 Placeable::middle() const {
   Vector3 sum;
   for (const auto& [item, place] : items) sum += place;
   return items.empty() ? sum : Vector3(sum / static_cast<double>(items.size()));
+}
+
+Vector3 Placeable::centre(Kind kind, Pivot pivot) const {
+  if (pivot == Pivot::Last && !items.empty()) return items.back().second;
+  return pivot == Pivot::Origin && kind != Kind::Move ? Vector3(Vector3::Zero()) : middle();
 }
 
 Placeable placeable(const Document& document, const std::vector<SelectedItem>& selected, Kind kind,
@@ -186,36 +199,48 @@ Placement shifted(Placement things, const Vector3& way) {
   return things;
 }
 
-Placement turned(Placement things, const MatterPlaces& matter, const Vector3& pivot, const Quaternion& turn) {
-  const RigidMove about = RigidMove::about(pivot, turn);
+Placement turned(Placement things, const MatterPlaces& matter, const std::optional<Vector3>& pivot,
+                 const Quaternion& turn) {
+  const auto gone = [&](const Vector3& place) {
+    return pivot ? RigidMove::about(*pivot, turn).of(place) : Vector3(place);
+  };
   for (Body& body : things.bodies) {
-    const Vector3 centre = centroidOf(body);
-    const auto known = matter.find(body.id);
-    const Vector3 stands = known == matter.end() ? centre : known->second;
-    RigidMove move = RigidMove::about(centre, turn);
-    move.shift += about.of(stands) - stands;
+    const Vector3 stands = placeOf(body, matter);
+    RigidMove move = RigidMove::about(centroidOf(body), turn);
+    move.shift += gone(stands) - stands;
     body = moved(std::move(body), move);
   }
   for (Emitter& emitter : things.emitters) {
-    emitter.point = about.of(emitter.point);
+    emitter.point = gone(emitter.point);
     emitter.direction = turn * emitter.direction;
   }
   for (SceneWall& wall : things.walls) {
-    wall.point = about.of(wall.point);
+    wall.point = gone(wall.point);
     wall.normal = turn * wall.normal;
   }
   return things;
 }
 
-Placement stretched(Placement things, const Vector3& factors) {
-  for (SceneWall& wall : things.walls) stretch(wall, factors);
-  for (Body& body : things.bodies) body = scaled(std::move(body), factors);
-  for (Sink& sink : things.sinks) stretch(sink, factors);
+Placement stretched(Placement things, const Vector3& factors, const MatterPlaces& matter, const PlaceStretch& places) {
+  const auto way = [&](const Vector3& place) -> Vector3 {
+    if (!places.pivot) return Vector3::Zero();
+    const Vector3 from = places.axes.transpose() * (place - *places.pivot);
+    return places.axes * (factors - Vector3::Ones()).cwiseProduct(from);
+  };
+  for (SceneWall& wall : things.walls) {
+    stretch(wall, factors);
+    wall.point += way(wall.point);
+  }
+  for (Body& body : things.bodies) {
+    const Vector3 shift = way(placeOf(body, matter));
+    body = moved(scaled(std::move(body), factors), {Quaternion::Identity(), shift});
+  }
+  for (Sink& sink : things.sinks) stretch(sink, factors, way(middleOf(sink)));
   for (Probe& probe : things.probes) {
-    if (probe.region) stretch(*probe.region, factors);
+    if (probe.region) stretch(*probe.region, factors, way(middleOf(*probe.region)));
   }
   for (BodyPins& pins : things.pins) {
-    for (const size_t k : pins.chosen) stretch(pins.boxes[k], factors);
+    for (const size_t k : pins.chosen) stretch(pins.boxes[k], factors, way(middleOf(pins.boxes[k])));
   }
   return things;
 }

@@ -127,8 +127,9 @@ class Tool {
   virtual std::vector<Gesture> gestures() const = 0;
   /// What to do in a scene without matter; "" where the tool has nothing to say.
   virtual QString invitation() const { return {}; }
-  virtual bool usesBrush() const { return false; }  ///< size and shape of the brush matter
-  virtual bool turnsView() const { return false; }  ///< a drag that it does not take turns the view
+  virtual bool usesBrush() const { return false; }    ///< size and shape of the brush matter
+  virtual bool usesHandles() const { return false; }  ///< see HandleSettings
+  virtual bool turnsView() const { return false; }    ///< a drag that it does not take turns the view
   Toolbox& box() const { return m_box; }
 
  private:

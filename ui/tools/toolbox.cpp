@@ -92,6 +92,12 @@ void Toolbox::setMouse(MousePreset preset) {
   Q_EMIT mouseChanged();
 }
 
+void Toolbox::setHandles(const HandleSettings& settings) {
+  if (settings == m_handles) return;
+  m_handles = settings;
+  Q_EMIT handlesChanged();
+}
+
 void Toolbox::takeBrush(const std::string& id) {
   if (!draws(id) && tool().usesBrush()) activate(kBrushTool);
   BrushSettings brush = m_brush;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/session/handlesettings.h"
 #include "ui/tools/brushsettings.h"
 #include "ui/tools/mousepreset.h"
 #include "ui/tools/tool.h"
@@ -38,6 +39,9 @@ class Toolbox : public QObject {
   MousePreset mouse() const { return m_mouse; }
   void setMouse(MousePreset preset);  ///< whose buttons move the view
 
+  const HandleSettings& handles() const { return m_handles; }
+  void setHandles(const HandleSettings& settings);
+
   const BrushSettings& brush() const { return m_brush; }
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
@@ -70,6 +74,7 @@ class Toolbox : public QObject {
   void toolChanged();
   void brushChanged();
   void mouseChanged();
+  void handlesChanged();
   void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
 
   void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
@@ -98,6 +103,7 @@ class Toolbox : public QObject {
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
   MousePreset m_mouse = MousePreset::PhaseSketch;
+  HandleSettings m_handles;
 };
 
 }  // namespace ps

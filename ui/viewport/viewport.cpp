@@ -80,6 +80,10 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
   });
   connect(&tools, &Toolbox::toolChanged, this, &Viewport::onTool);
   connect(&tools, &Toolbox::mouseChanged, this, [this] { update(); });
+  connect(&tools, &Toolbox::handlesChanged, this, [this] {
+    update();
+    announce();
+  });
   connect(&tools, &Toolbox::brushChanged, this, [this] {
     update();
     announce();

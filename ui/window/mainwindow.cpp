@@ -27,6 +27,7 @@
 #include "ui/window/dock.h"
 #include "ui/window/editactions.h"
 #include "ui/window/fileactions.h"
+#include "ui/window/handleactions.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/loosematter.h"
@@ -218,6 +219,9 @@ void MainWindow::makeMenus() {
       std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
   m_things->makeMenu(edit);
   m_things->makeArrangeMenu(edit->addMenu(QStringLiteral("Arrange")));
+  auto* handles = new HandleActions(*m_tools, m_actions, this);
+  handles->addTo(edit);
+  m_pane->showHandles(*handles);
   m_actions.add(edit, QStringLiteral("edit.project"), QStringLiteral("Project properties…"), {},
                 [this] { openProjectProperties(*this); });
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),

@@ -23,7 +23,10 @@ namespace ps {
 
 void MainWindow::start() {
   m_session->start();
-  if (m_options.restore) m_tools->setMouse(preferences::mouse());
+  if (m_options.restore) {
+    m_tools->setMouse(preferences::mouse());
+    m_tools->setHandles(preferences::handles());
+  }
   if (!m_options.restore || !m_options.project.isEmpty()) return;
   m_welcome->showAtStart();
   connect(m_tour, &Tour::ended, this, [] { preferences::setTourDone(); });

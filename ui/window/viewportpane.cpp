@@ -9,8 +9,10 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
+#include "ui/tools/gizmotool.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/handleactions.h"
 #include "ui/window/noticebar.h"
 
 #include <QtGui/QAction>
@@ -65,6 +67,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_buttons(new QButtonGroup(this)),
       m_shapes(new QButtonGroup(this)),
       m_brushBar(new QWidget),
+      m_handleBar(new QWidget),
       m_shapeBox(new QWidget),
       m_shapeMenu(new QToolButton),
       m_radius(new QLabel),
@@ -121,6 +124,7 @@ QWidget* ViewportPane::makeBar() {
   });
   makeBrushBar();
   row->addWidget(m_brushBar);
+  row->addWidget(m_handleBar);
   row->addStretch(1);
   m_colourLabel->setProperty("role", "muted");
   m_colourLabel->setMinimumWidth(1);  // it goes where there is no room: see resizeEvent()
@@ -197,6 +201,20 @@ void ViewportPane::makeBrushBar() {
   m_radius->setAlignment(Qt::AlignCenter);
 }
 
+void ViewportPane::showHandles(const HandleActions& handles) {
+  auto* row = new QHBoxLayout(m_handleBar);
+  row->setContentsMargins(10, 0, 0, 0);
+  row->setSpacing(4);
+  auto* pivot = new QToolButton;
+  pivot->setIcon(icon(QStringLiteral("pivot")));
+  pivot->setToolTip(QStringLiteral("What the handles turn and scale about (%1)").arg(QString::fromLatin1(kPivotKey)));
+  pivot->setAccessibleName(pivot->toolTip());
+  pivot->setPopupMode(QToolButton::InstantPopup);
+  pivot->setMenu(handles.pivots());
+  pivot->setFocusPolicy(Qt::TabFocus);
+  row->addWidget(pivot);
+}
+
 /// A brush has the icon of its id where the program carries one, and the brush's otherwise, with its name beside it.
 void ViewportPane::addShapes() {
   const PluginRegistry* plugins = m_session.plugins();
@@ -251,6 +269,7 @@ void ViewportPane::showTool() {
     if (m_tools.active() == toolTable()[i].id) m_buttons->button(static_cast<int>(i))->setChecked(true);
   }
   m_brushBar->setVisible(m_tools.tool().usesBrush());
+  m_handleBar->setVisible(m_tools.tool().usesHandles());
   showShapes();
 }
 

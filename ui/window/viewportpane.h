@@ -12,6 +12,7 @@ class QToolButton;
 
 namespace ps {
 
+class HandleActions;
 class NoticeBar;
 
 /// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence stands in
@@ -23,6 +24,8 @@ class ViewportPane : public QWidget {
   Viewport* viewport() const { return m_viewport; }  ///< nullptr without OpenGL
   NoticeBar* notice() const { return m_notice; }
   QWidget* toolBar() const { return m_bar; }
+  /// Beside the tools, while one with handles is in hand.
+  void showHandles(const HandleActions& handles);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -45,7 +48,7 @@ class ViewportPane : public QWidget {
   QWidget* m_bar = nullptr;
   NoticeBar* m_notice;
   QButtonGroup *m_buttons, *m_shapes;
-  QWidget* m_brushBar;
+  QWidget *m_brushBar, *m_handleBar;
   QWidget* m_shapeBox;       ///< a button for each brush
   QToolButton* m_shapeMenu;  ///< in its place where there is no room
   QActionGroup* m_shapeActions = nullptr;
