@@ -348,6 +348,41 @@ class TestThings : public SampleWindowTest {
     QCOMPARE(document().undoStack().index(), steps);
   }
 
+  /// Pins are boxes too, and walls a place; what has neither is told of.
+  void pinsAndWallsAreArrangedToo() {
+    m_window->selection().selectBody("ice");
+    trigger("edit.pin");
+    m_window->selection().selectBody("ice");
+    trigger("edit.pin");
+    const std::vector<Region> pins = document().body("ice")->pins;
+    QCOMPARE(pins.size(), size_t{2});
+    QVERIFY(pins[1].minimum.x() > pins[0].minimum.x() + spacing());
+    m_window->selection().selectAll({{OutlineKind::Pin, "ice/0"}, {OutlineKind::Pin, "ice/1"}});
+    const int steps = document().undoStack().index();
+    trigger("arrange.align.left");
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("aligning 2 pins"));
+    const std::vector<Region>& now = document().body("ice")->pins;
+    QVERIFY((now[1].minimum - pins[0].minimum).cwiseAbs().x() < 1e-12 && now[0] == pins[0]);
+    QVERIFY(std::abs(now[1].maximum.x() - now[1].minimum.x() - pins[1].maximum.x() + pins[1].minimum.x()) < 1e-12);
+    document().undoStack().undo();
+    QVERIFY(document().body("ice")->pins == pins);
+
+    m_window->selection().selectAll(
+        {{OutlineKind::Body, "ice"}, {OutlineKind::Wall, "floor"}, {OutlineKind::Probe, project().probes[0].id}});
+    trigger("arrange.align.left");
+    QVERIFY(std::abs(document().wall("floor")->point.x() - boundsOf(*document().body("ice")).minimum.x()) <
+            2 * spacing());
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("measures wherever its matter is")),
+             qPrintable(m_window->notice()->text()));
+    document().undoStack().undo();
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    const int before = document().undoStack().index();
+    trigger("arrange.drop");
+    QCOMPARE(document().undoStack().index(), before);
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("a wall stays where it is put")));
+  }
+
  private:
   const Project& project() { return document().project(); }
   QTreeView* tree() { return m_window->findChild<Outliner*>()->view(); }

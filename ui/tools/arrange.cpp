@@ -24,7 +24,10 @@ BodyBounds boxOf(const Emitter& emitter, const MatterBoxes&) {
   const Vector3 half = Vector3::Constant(numberOf(emitter.parameters, emitterParameters(), "diameter") / 2);
   return {emitter.point - half, emitter.point + half};
 }
-BodyBounds boxOf(const Sink& sink, const MatterBoxes&) { return {sink.minimum, sink.maximum}; }
+template <class Box>
+BodyBounds boxOf(const Box& box, const MatterBoxes&) {
+  return {box.minimum, box.maximum};
+}
 
 /// visit(thing's box, a placement of it alone) for each that has an extent.
 template <class Visit>
@@ -33,8 +36,21 @@ void eachBox(const Placement& things, const MatterBoxes& matter, Visit&& visit) 
   for (const Emitter& emitter : things.emitters) visit(boxOf(emitter, matter), Placement{{}, {emitter}, {}, {}, {}});
   for (const Sink& sink : things.sinks) visit(boxOf(sink, matter), Placement{{}, {}, {sink}, {}, {}});
   for (const Probe& probe : things.probes) {
-    if (probe.region)
-      visit(BodyBounds{probe.region->minimum, probe.region->maximum}, Placement{{}, {}, {}, {}, {probe}});
+    if (probe.region) visit(boxOf(*probe.region, matter), Placement{{}, {}, {}, {}, {probe}});
+  }
+  for (const BodyPins& pins : things.pins) {
+    for (const size_t k : pins.chosen)
+      visit(boxOf(pins.boxes[k], matter), Placement{{}, {}, {}, {}, {}, {{pins.id, pins.boxes, {k}}}});
+  }
+}
+
+/// Pins of a body that were put elsewhere one by one are so together.
+void append(std::vector<BodyPins>& to, const BodyPins& more) {
+  const auto own = std::find_if(to.begin(), to.end(), [&](const BodyPins& pins) { return pins.id == more.id; });
+  if (own == to.end()) return to.push_back(more);
+  for (const size_t k : more.chosen) {
+    own->boxes[k] = more.boxes[k];
+    own->chosen.push_back(k);
   }
 }
 
@@ -42,7 +58,9 @@ void append(Placement& to, const Placement& more) {
   to.bodies.insert(to.bodies.end(), more.bodies.begin(), more.bodies.end());
   to.emitters.insert(to.emitters.end(), more.emitters.begin(), more.emitters.end());
   to.sinks.insert(to.sinks.end(), more.sinks.begin(), more.sinks.end());
+  to.walls.insert(to.walls.end(), more.walls.begin(), more.walls.end());
   to.probes.insert(to.probes.end(), more.probes.begin(), more.probes.end());
+  for (const BodyPins& pins : more.pins) append(to.pins, pins);
 }
 
 struct Boxed {
@@ -52,6 +70,13 @@ struct Boxed {
 std::vector<Boxed> boxed(const Placement& things, const MatterBoxes& matter) {
   std::vector<Boxed> list;
   eachBox(things, matter, [&](const BodyBounds& box, Placement thing) { list.push_back({box, std::move(thing)}); });
+  return list;
+}
+/// Walls too, which are a point each.
+std::vector<Boxed> placed(const Placement& things, const MatterBoxes& matter) {
+  std::vector<Boxed> list = boxed(things, matter);
+  for (const SceneWall& wall : things.walls)
+    list.push_back({{wall.point, wall.point}, Placement{{}, {}, {}, {wall}, {}}});
   return list;
 }
 
@@ -136,18 +161,21 @@ bool overlapsAny(const Project& project, const Placement& things, const MatterBo
 }
 
 Placement aligned(Placement things, const MatterBoxes& matter, int axis, Side side) {
-  const std::optional<BodyBounds> all = boundsOf(things, matter);
+  const std::vector<Boxed> row = placed(things, matter);
   Placement out;
-  for (const Boxed& one : boxed(things, matter)) {
+  if (row.empty()) return out;
+  BodyBounds all = row.front().box;
+  for (const Boxed& one : row) all = {all.minimum.cwiseMin(one.box.minimum), all.maximum.cwiseMax(one.box.maximum)};
+  for (const Boxed& one : row) {
     Vector3 way;
-    way[axis] = at(*all, axis, side) - at(one.box, axis, side);
+    way[axis] = at(all, axis, side) - at(one.box, axis, side);
     append(out, shifted(one.thing, way));
   }
   return out;
 }
 
 Placement distributed(Placement things, const MatterBoxes& matter, int axis) {
-  std::vector<Boxed> row = boxed(things, matter);
+  std::vector<Boxed> row = placed(things, matter);
   std::stable_sort(row.begin(), row.end(),
                    [&](const Boxed& a, const Boxed& b) { return a.box.middle()[axis] < b.box.middle()[axis]; });
   Placement out;
@@ -188,7 +216,7 @@ Placement dropped(const Project& project, Placement things, const MatterBoxes& m
     }
     const Vector3 way(0, height - one.box.minimum.y(), 0);
     append(out, shifted(one.thing, way));
-    below.push_back({one.box.minimum + way, one.box.maximum + way});
+    if (!one.thing.bodies.empty()) below.push_back({one.box.minimum + way, one.box.maximum + way});
   }
   return out;
 }

@@ -24,12 +24,12 @@ std::optional<Vector3> wayToFreeRoom(const Project& project, const Placement& th
 bool overlapsAny(const Project& project, const Placement& things, const MatterBoxes& matter);
 
 enum class Side { Least, Middle, Greatest };
-/// Bodies, taps, drains and boxes of probes with their sides, or middles, at one place along an axis (0 x, 1 y, 2 z):
-/// that of all of them together.
+/// Things with their sides, or middles, at one place along an axis (0 x, 1 y, 2 z): that of all of them together. Walls
+/// take part with the place that they have, as they have no sides.
 Placement aligned(Placement things, const MatterBoxes& matter, int axis, Side side);
 /// With equal gaps between them along an axis, the first and the last staying where they are.
 Placement distributed(Placement things, const MatterBoxes& matter, int axis);
-/// Each let down onto what is below it: the floor, or another body that is none of them.
+/// Each let down onto what is below it: the floor, or another body, which may have fallen too. Walls stay.
 Placement dropped(const Project& project, Placement things, const MatterBoxes& matter);
 
 }  // namespace ps

@@ -145,11 +145,19 @@ void ThingActions::makeArrangeMenu(QMenu* menu) {
                   });
   }
   menu->addSeparator();
-  m_actions.add(menu, QStringLiteral("arrange.drop"), QStringLiteral("Drop to the floor"), {}, [this] {
-    arrange(QStringLiteral("dropping %1"), [this](Placement things, const MatterBoxes& boxes) {
-      return dropped(m_session.document().project(), std::move(things), boxes);
-    });
-  });
+  m_actions.add(menu, QStringLiteral("arrange.drop"), QStringLiteral("Drop to the floor"), {}, [this] { drop(); });
+}
+
+void ThingActions::drop() {
+  QString note;
+  for (const SelectedItem& item : m_selection.items()) {
+    const SceneWall* wall = item.kind == OutlineKind::Wall ? m_session.document().wall(item.id) : nullptr;
+    if (wall && note.isEmpty()) note = QStringLiteral("“%1”: a wall stays where it is put").arg(nameOf(*wall));
+  }
+  const auto change = [this](Placement things, const MatterBoxes& boxes) {
+    return dropped(m_session.document().project(), std::move(things), boxes);
+  };
+  arrange(QStringLiteral("dropping %1"), change, note);
 }
 
 MatterBoxes ThingActions::matter() const {
@@ -170,6 +178,14 @@ bool ThingActions::ofMaterials() const {
 Project ThingActions::excerpt() const {
   const Project& project = m_session.document().project();
   return ofMaterials() ? excerptOf(project, m_selection.material()) : excerptOf(project, m_selection.items());
+}
+
+/// Of what has a place.
+QString ThingActions::selectedName() const {
+  if (m_pins.alone()) return m_pins.name();
+  const auto& items = m_selection.items();
+  return items.size() == 1 ? whatOf(excerptOf(m_session.document().project(), items))
+                           : QStringLiteral("%1 things").arg(items.size());
 }
 
 bool ThingActions::copy() {
@@ -326,17 +342,24 @@ void ThingActions::isolate() {
   document.undoStack().endMacro();
 }
 
-void ThingActions::arrange(const QString& title,
-                           const std::function<Placement(Placement, const MatterBoxes&)>& change) {
+/// What takes no part is told of.
+void ThingActions::arrange(const QString& title, const std::function<Placement(Placement, const MatterBoxes&)>& change,
+                           const QString& note) {
   Document& document = m_session.document();
   const Placeable things = placeable(document, m_selection.items(), Gizmo::Kind::Move, {});
   const Placement after = change(placementOf(document, things), matter());
+  QStringList left;
+  for (const QString& each : {things.note, note}) {
+    if (!each.isEmpty()) left << each;
+  }
+  const QString why = left.isEmpty() ? QString() : left.join(QStringLiteral("; ")) + QLatin1Char('.');
   if (after.empty()) {
     m_notices.refuse(QStringLiteral("Nothing was moved."),
-                     things.note.isEmpty() ? QStringLiteral("Select more than that first.") : things.note);
+                     why.isEmpty() ? QStringLiteral("Select more than that first.") : why);
     return;
   }
-  document.place(after, title.arg(whatOf(excerptOf(document.project(), m_selection.items()))));
+  m_notices.refuse(QStringLiteral("Not all was moved."), why);
+  document.place(after, title.arg(selectedName()));
 }
 
 }  // namespace ps

@@ -29,6 +29,7 @@ class ThingActions {
  private:
   bool ofMaterials() const;
   Project excerpt() const;
+  QString selectedName() const;
   bool copy();
   void paste();
   void duplicate();
@@ -36,7 +37,10 @@ class ThingActions {
   void group();
   void ungroup();
   void isolate();
-  void arrange(const QString& title, const std::function<Placement(Placement, const MatterBoxes&)>& change);
+  /// `note`: "" or what of the selected takes no part, whatever it is.
+  void arrange(const QString& title, const std::function<Placement(Placement, const MatterBoxes&)>& change,
+               const QString& note = {});
+  void drop();
   void insert(Project things, const QString& title, const QString& refusal, bool beside);
   MatterBoxes matter() const;
 
