@@ -326,6 +326,52 @@ class TestPicking : public QObject {
     QVERIFY(m_selection->empty());
   }
 
+  /// By its edges, in a frame, and by the handles; a probe of matter wherever it is has no place.
+  void boxesOfProbesArePickedAndPlaced() {
+    const SelectedItem kBox{OutlineKind::Probe, "box"};
+    const Vector3 low(0.1, 0.2, 0), high(0.3, 0.4, 0.2), middle = 0.5 * (low + high);
+    Project project = scene();
+    Probe box, matter;
+    box.id = "box", box.quantity = "temperature", box.region = Region{low, high};
+    matter.id = "matter", matter.quantity = "temperature";
+    project.probes = {matter, box};
+    QVERIFY(picked(project, {}, high) == kBox);
+    QVERIFY(picked(project, {}, middle) != kBox);
+    m_document->open(project, {});
+    Toolbox tools(*m_document, *m_selection);
+    SelectTool tool(tools);
+    tool.hover(at(high));
+    QCOMPARE(tool.picture().wires.size(), size_t{1});
+    QVERIFY(tool.picture().wires[0].hovered && tool.picture().wires[0].dashed);
+    tool.click(at(high));
+    QVERIFY(m_selection->items() == std::vector<SelectedItem>{kBox});
+    QVERIFY(tool.picture().wires[0].selected);
+    Pointer from, to;
+    from.ray = to.ray = {{0, 0.3, 1}, {0, 0, -1}};
+    from.ray.direction = Vector3(-0.3, -0.3, -1).normalized();
+    to.ray.direction = Vector3(0.3, 0.3, -1).normalized();
+    from.control = to.control = true;
+    m_selection->clear();
+    QVERIFY(tool.press(from));
+    tool.drag(to);
+    tool.release(to);
+    QVERIFY(m_selection->items() == std::vector<SelectedItem>{kBox});
+    const auto region = [&] { return *m_document->probe("box")->region; };
+    tools.activate("scale");
+    QVERIFY(tools.tool().press(at(middle)));
+    QVERIFY(tools.tool().type(QStringLiteral("2")) && tools.tool().type(QString::fromLatin1(kEnter)));
+    QVERIFY((region().maximum - region().minimum - 2 * (high - low)).norm() < 1e-12);
+    QVERIFY((0.5 * (region().maximum + region().minimum) - middle).norm() < 1e-12);
+    tools.activate("move");
+    QVERIFY(tools.tool().press(at(middle + Vector3(0.06, 0, 0))));
+    QVERIFY(tools.tool().type(QStringLiteral("0.05")) && tools.tool().type(QString::fromLatin1(kEnter)));
+    QVERIFY((0.5 * (region().maximum + region().minimum) - middle - Vector3(0.05, 0, 0)).norm() < 1e-12);
+    QCOMPARE(m_document->undoStack().count(), 2);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QVERIFY(region().minimum == low && region().maximum == high);
+  }
+
  private:
   const std::vector<Region>& pins() const { return m_document->project().bodies[0].pins; }
   std::unique_ptr<Document> m_document;

@@ -108,9 +108,14 @@ std::vector<SelectedItem> shownPins(const Project& project, const std::vector<Se
 std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedItem>& selected, const Pointer& pointer) {
   std::optional<Pick> found;
   double least = kReach;
-  for (const SelectedItem& pin : shownPins(project, selected)) {
-    const double near = distanceOf(pointer, boxLines(*findPin(project, pin.id)));
-    if (near < least) least = near, found = Pick{pin, true};
+  const auto look = [&](const SelectedItem& item, const Region& box) {
+    const double near = distanceOf(pointer, boxLines(box));
+    if (near < least) least = near, found = Pick{item, true};
+  };
+  for (const SelectedItem& pin : shownPins(project, selected)) look(pin, *findPin(project, pin.id));
+  if (found) return found;
+  for (const Probe& probe : project.probes) {
+    if (probe.region) look({OutlineKind::Probe, probe.id}, *probe.region);
   }
   return found ? found : wallAt(project.environment, pointer);
 }

@@ -10,7 +10,8 @@
 
 namespace ps {
 
-/// What can be picked that has no matter: walls, and pins of bodies that are selected. Pure: no picture, no document.
+/// What can be picked that has no matter: walls, boxes of probes, and pins of bodies that are selected. Pure: no
+/// picture, no document.
 
 using Lines = std::vector<std::pair<Vector3, Vector3>>;
 
@@ -23,8 +24,8 @@ struct Pick {
   SelectedItem item;
   bool byLine = false;  ///< at one of its edges, not on its face
 };
-/// Pins first, then edges of walls, then floors and lids by the face that one sees; matter in front of a wall hides it.
-/// Sides are looked through, as they are drawn, and so is what a section cuts away.
+/// Pins first, then boxes of probes, then edges of walls, then floors and lids by the face that one sees; matter in
+/// front of a wall hides it. Sides are looked through, as they are drawn, and so is what a section cuts away.
 std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedItem>& selected, const Pointer& pointer);
 /// The pins of bodies that are selected, or of which one is.
 std::vector<SelectedItem> shownPins(const Project& project, const std::vector<SelectedItem>& selected);

@@ -90,6 +90,10 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
   for (const Sink& sink : project.sinks) {
     if (within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
   }
+  for (const Probe& probe : project.probes) {
+    if (probe.region && within(0.5 * (probe.region->minimum + probe.region->maximum)))
+      items.push_back({OutlineKind::Probe, probe.id});
+  }
   return items;
 }
 
@@ -122,7 +126,7 @@ void SelectTool::click(const Pointer& pointer) {
   selection.mark(scene.revision, scene.id[*hit]);
 }
 
-/// Of walls that are selected or pointed at, and of pins.
+/// Of walls that are selected or pointed at, of boxes in which probes measure, and of pins.
 std::vector<Wire> SelectTool::wires() const {
   const Project& project = box().document().project();
   const Selection& selection = box().selection();
@@ -135,6 +139,9 @@ std::vector<Wire> SelectTool::wires() const {
     const SelectedItem item{OutlineKind::Wall, scene.walls[k].id};
     const bool selected = selection.has(item.kind, item.id);
     if (selected || m_hovered == item) add(item, wallLines(scene, k, selected), false);
+  }
+  for (const Probe& probe : project.probes) {
+    if (probe.region) add({OutlineKind::Probe, probe.id}, boxLines(*probe.region), true);
   }
   for (const SelectedItem& pin : shownPins(project, selection.items()))
     add(pin, boxLines(*findPin(project, pin.id)), true);
@@ -152,11 +159,12 @@ ToolPicture SelectTool::picture() const {
 }
 
 std::vector<Gesture> SelectTool::gestures() const {
-  std::vector<Gesture> list{{QStringLiteral("Click"),
-                             QStringLiteral("Select the body, tap, drain, wall or pin, and tell the temperature"),
-                             {}},
-                            {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
-                            {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
+  std::vector<Gesture> list{
+      {QStringLiteral("Click"),
+       QStringLiteral("Select the body, tap, drain, wall, pin or box of a probe, and tell the temperature"),
+       {}},
+      {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
+      {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
   for (Gesture& gesture : m_handles.gestures()) list.push_back(std::move(gesture));
   return list;
 }

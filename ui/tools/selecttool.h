@@ -7,8 +7,9 @@
 
 namespace ps {
 
-/// Selects what is clicked and tells how warm it is there, walls and pins too; takes hold of taps and drains. With
-/// Shift one more, with Ctrl whatever lies in a frame that is drawn. Whatever else is dragged turns the view.
+/// Selects what is clicked and tells how warm it is there, walls, pins and boxes of probes too; takes hold of taps and
+/// drains. With Shift one more, with Ctrl whatever lies in a frame that is drawn. Whatever else is dragged turns the
+/// view.
 class SelectTool final : public Tool {
  public:
   explicit SelectTool(Toolbox& box) : Tool(box), m_handles(box) {}
