@@ -83,6 +83,22 @@ std::optional<Vector3> shiftBetween(const VoxelShape& before, const VoxelShape& 
   return after.origin - before.origin + before.spacing * Vector3(way[0], way[1], way[2]);
 }
 
+SolidShape solidOf(const BoxShape& box) {
+  SolidShape solid;
+  solid.parameters.values["kind"] = std::string("block");
+  place(solid, "size", box.size);
+  place(solid, "position", box.center);
+  solid.unknown = box.unknown;
+  return solid;
+}
+
+/// The shape of either kind of block as the solid one; of another solid its own.
+std::optional<SolidShape> solidIn(const Body& body) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) return solidOf(*box);
+  const auto* solid = std::get_if<SolidShape>(&body.shape);
+  return solid ? std::optional(*solid) : std::nullopt;
+}
+
 /// Whether two solids are the same but for where they are.
 bool sameForm(SolidShape a, SolidShape b) {
   for (SolidShape* solid : {&a, &b}) {
@@ -133,10 +149,7 @@ Vector3 centroidOf(const Body& body) {
 }
 
 std::string whyNotTurned(const Body& body) {
-  if (std::holds_alternative<BoxShape>(body.shape))
-    return "a block of whole layers stands along the axes; a solid block can be turned";
-  if (std::holds_alternative<VoxelShape>(body.shape)) return "what is sketched stands along the axes of its cells";
-  return {};
+  return std::holds_alternative<VoxelShape>(body.shape) ? "what is sketched stands along the axes of its cells" : "";
 }
 
 std::string whyNotScaled(const Body& body) {
@@ -151,6 +164,7 @@ RigidMove possibleMove(const Body& body, const RigidMove& wanted) {
 }
 
 Body moved(Body body, const RigidMove& move) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape); box && move.turns()) body.shape = solidOf(BoxShape(*box));
   if (auto* box = std::get_if<BoxShape>(&body.shape)) {
     box->center += move.shift;
   } else if (auto* solid = std::get_if<SolidShape>(&body.shape)) {
@@ -181,36 +195,25 @@ Body scaled(Body body, const Vector3& factors) {
 }
 
 Body sizedAs(Body body, const Body& other) {
-  auto* box = std::get_if<BoxShape>(&body.shape);
-  auto* solid = std::get_if<SolidShape>(&body.shape);
-  if (const auto* wanted = std::get_if<BoxShape>(&other.shape); box && wanted) box->size = wanted->size;
-  if (const auto* wanted = std::get_if<SolidShape>(&other.shape); solid && wanted) {
-    SolidShape sized = *wanted;
-    const SolidForm form(*solid);
-    place(sized, "position", form.middle());
-    for (size_t a = 0; a < 3; ++a) {
-      const std::string turn = key("rotation", a);
-      if (const auto set = solid->parameters.values.find(turn); set != solid->parameters.values.end())
-        sized.parameters.values[turn] = set->second;
-      else
-        sized.parameters.values.erase(turn);
-    }
-    *solid = std::move(sized);
+  const std::optional<SolidShape> own = solidIn(body), wanted = solidIn(other);
+  if (!own || !wanted || sameForm(*own, *wanted)) return body;
+  SolidShape sized = *wanted;
+  place(sized, "position", SolidForm(*own).middle());
+  for (size_t a = 0; a < 3; ++a) {
+    const std::string turn = key("rotation", a);
+    sized.parameters.values.erase(turn);
+    if (const auto set = own->parameters.values.find(turn); set != own->parameters.values.end())
+      sized.parameters.values[turn] = set->second;
   }
+  body.shape = std::move(sized);
   return body;
 }
 
 std::optional<RigidMove> moveBetween(const Body& before, const Body& after) {
   RigidMove move;
-  if (before.shape.index() != after.shape.index()) return std::nullopt;
-  if (const auto* box = std::get_if<BoxShape>(&before.shape)) {
-    const auto& other = std::get<BoxShape>(after.shape);
-    if (box->size != other.size) return std::nullopt;
-    move.shift = other.center - box->center;
-  } else if (const auto* solid = std::get_if<SolidShape>(&before.shape)) {
-    const auto& other = std::get<SolidShape>(after.shape);
-    if (!sameForm(*solid, other)) return std::nullopt;
-    const SolidForm from(*solid), to(other);
+  if (const auto solid = solidIn(before), other = solidIn(after); solid || other) {
+    if (!solid || !other || !sameForm(*solid, *other)) return std::nullopt;
+    const SolidForm from(*solid), to(*other);
     const Matrix3 turn = to.axes() * from.axes().transpose();
     if (to.axes() != from.axes()) move.turn = Quaternion(turn).normalized();
     move.shift = move.turns() ? Vector3(to.middle() - move.turn * from.middle()) : Vector3(to.middle() - from.middle());

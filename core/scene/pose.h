@@ -21,14 +21,14 @@ Vector3 pivotOf(const Body& body);
 /// Of the matter that fills it evenly, m. Of a mesh with holes: of what its triangles enclose, as far as they do.
 Vector3 centroidOf(const Body& body);
 
-/// "" or why a body's form cannot be turned: blocks of layers and sketches lie along the axes.
+/// "" or why a body's form cannot be turned: sketches lie along the axes.
 std::string whyNotTurned(const Body& body);
 /// "" or why it cannot be made larger or smaller.
 std::string whyNotScaled(const Body& body);
 /// The nearest move that a body's form can make: sketches go by whole cells.
 RigidMove possibleMove(const Body& body, const RigidMove& wanted);
 /// The body at another pose, with its pins and what varies along it; the move is one that it can make. Pins become the
-/// boxes around what they were.
+/// boxes around what they were, a block of whole layers that is turned the solid block of its place and size.
 Body moved(Body body, const RigidMove& move);
 /// The body with its sizes along its own axes (of a solid) or the scene's times these factors, about its pivot. Not of
 /// sketches.
@@ -36,7 +36,7 @@ Body scaled(Body body, const Vector3& factors);
 /// The body with the sizes of another one of its kind, where it stands.
 Body sizedAs(Body body, const Body& other);
 /// How what was made of one body comes to stand where the other would be made; nothing where the shapes differ in more
-/// than their pose, or not at all.
+/// than their pose, or not at all. A block of whole layers and a solid one of its size do not.
 std::optional<RigidMove> moveBetween(const Body& before, const Body& after);
 
 }  // namespace ps

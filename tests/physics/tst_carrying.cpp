@@ -4,6 +4,7 @@
 #include "core/base/statestream.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/engine.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
@@ -116,6 +117,7 @@ class TestCarrying : public QObject {
   void turnedItStandsWhereAResetMakesIt();
   void aPlaceIsAParameterToo();
   void posesAreFoundAgain();
+  void aBlockOfLayersIsTurned();
   void goneBackItStandsWhereTheDocumentHasIt();
 
  private:
@@ -328,7 +330,41 @@ void TestCarrying::posesAreFoundAgain() {
   QVERIFY(!moveBetween(body, body));
   Body larger = scaled(body, {2, 1, 1});
   QVERIFY(!moveBetween(body, larger));
-  QVERIFY(!whyNotTurned(scenes::block("box", 2, kSpacing, {0, 0, 0}, 300)).empty());
+}
+
+/// A block of whole layers becomes a solid one as it is turned: its matter goes along, and weighs the same from the
+/// next reset on. Back, it is what it was.
+void TestCarrying::aBlockOfLayersIsTurned() {
+  Project project = inSpace("bonds");
+  Body box = scenes::block("thing", 6, kSpacing, {0.1, 0.2, 0}, 260);
+  box.material = project.bodies[0].material;
+  project.bodies[0] = box;
+  QVERIFY(whyNotTurned(box).empty());
+  const RigidMove move = RigidMove::about({0.3, 0, 0}, Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 0, 1))));
+  const Body turnedBox = moved(box, move);
+  const SolidForm form(std::get<SolidShape>(turnedBox.shape));
+  const auto& layers = std::get<BoxShape>(box.shape);
+  QVERIFY(form.kind() == SolidForm::Kind::Block && form.size() == layers.size);
+  QVERIFY((form.middle() - move.of(layers.center)).norm() < 1e-12);
+  const auto found = moveBetween(box, turnedBox), back = moveBetween(turnedBox, box);
+  QVERIFY(found && found->turn.angularDistance(move.turn) < 1e-7 && (found->shift - move.shift).norm() < 1e-7);
+  QVERIFY(back && (back->of(move.of({0.2, 0.1, 0})) - Vector3(0.2, 0.1, 0)).norm() < 1e-7);
+  Body larger = box;
+  std::get<BoxShape>(larger.shape).size *= 2;
+  QVERIFY(!moveBetween(larger, turnedBox));
+  Engine engine(project, m_plugins);
+  play(engine, 3);
+  const auto before = grainsOf(engine, "thing");
+  double mass = 0;
+  for (const auto& [id, grain] : before) mass += grain.mass;
+  engine.apply(MoveBody{std::make_shared<const Body>(turnedBox), move});
+  const auto live = grainsOf(engine, "thing");
+  QCOMPARE(live.size(), before.size());
+  for (const auto& [id, grain] : live) QVERIFY((grain.place - move.of(before.at(id).place)).norm() < 1e-3 * kSpacing);
+  engine.reset();
+  double after = 0;
+  for (const auto& [id, grain] : grainsOf(engine, "thing")) after += grain.mass;
+  QVERIFY(std::abs(after - mass) < 1e-5 * mass);
 }
 
 /// A run that goes back to before a body was moved has its matter moved as well, for nothing goes back in the document:

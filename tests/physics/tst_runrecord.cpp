@@ -36,11 +36,11 @@ Project open(const QString& name, PluginRegistry& plugins) {
   return project;
 }
 
-/// The first body a little further, turned where its form allows.
+/// The first body a little further, turned where it is a solid.
 Command further(const Project& project) {
   Body body = project.bodies.front();
   const RigidMove turn = RigidMove::about(pivotOf(body), Quaternion(Eigen::AngleAxisd(0.3, Vector3(1, 2, 2) / 3)));
-  RigidMove move = whyNotTurned(body).empty() ? turn : RigidMove{};
+  RigidMove move = std::holds_alternative<SolidShape>(body.shape) ? turn : RigidMove{};
   move.shift += Vector3(0.01, 0.02, 0);
   move = possibleMove(body, move);
   body = moved(std::move(body), move);

@@ -225,13 +225,55 @@ class TestHandles : public SampleWindowTest {
   }
 
   /// What cannot be turned says so, and has no handles.
-  void blocksOfLayersAreNotTurned() {
-    selectIce("rotate");
+  void sketchesAreNotTurned() {
+    Body sketched = ice();
+    sketched.name = "Sketched";
+    sketched.shape = VoxelShape{};
+    auto& voxels = std::get<VoxelShape>(sketched.shape);
+    voxels.spacing = m_window->tools().spacing();
+    voxels.origin = {0, 0.6, 0};
+    voxels.palette.push_back({sketched.material});
+    voxels.runs.push_back({0, 0, 0, 3, 0});
+    m_window->selection().selectBody(document().addBody(sketched));
+    m_window->tools().activate("rotate");
     const GizmoPicture shown = *m_window->tools().tool().picture().gizmo;
     QVERIFY(!shown.gizmo);
-    QVERIFY2(shown.note.contains(QStringLiteral("Ice block")) && shown.note.contains(QStringLiteral("along the axes")),
+    QVERIFY2(shown.note.contains(QStringLiteral("Sketched")) && shown.note.contains(QStringLiteral("along the axes")),
              qPrintable(shown.note));
     viewPicture(QStringLiteral("handles-note.png"));
+  }
+
+  /// A block of layers becomes a solid one of its size and place, with rows of its own: a step there and back.
+  void aBlockOfLayersIsTurned() {
+    selectIce("move");
+    dragPart({GizmoPart::Kind::Arm, 1}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("0.2"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    const Vector3 matter = iceMatter();
+    const size_t count = placesOf(kIce).size();
+    const BoxShape before = std::get<BoxShape>(ice().shape);
+    view()->update();
+    QTRY_VERIFY_WITH_TIMEOUT((handles().centre - matter).norm() < 1e-4, kLong);
+    view()->frameAll();
+    selectIce("rotate");
+    const int steps = document().undoStack().index();
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("90"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY(std::holds_alternative<SolidShape>(ice().shape));
+    const SolidForm form(std::get<SolidShape>(ice().shape));
+    QVERIFY(form.kind() == SolidForm::Kind::Block && (form.size() - before.size).norm() < 1e-12);
+    QVERIFY((form.middle() - before.center).norm() < 1e-6);
+    QVERIFY((iceMatter() - matter).norm() < 1e-5);
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("shape/ice/rotation_z"));
+    QVERIFY(row);
+    QCOMPARE(row->valueText(), QStringLiteral("90.0 °"));
+    toTheStart();
+    QCOMPARE(placesOf(kIce).size(), count);
+    document().undoStack().undo();
+    QVERIFY(ice().shape == decltype(ice().shape)(before));
+    QVERIFY((iceMatter() - matter).norm() < 1e-5);
   }
 
   void sizesWaitForTheReset() {

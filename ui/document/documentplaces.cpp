@@ -89,6 +89,7 @@ void Document::applyPlacement(const Placement& to) {
                               valueOf(std::get<SolidShape>(before.shape).parameters, declared)});
     }
     if (move || keys.empty()) notify(BodyChanged{body.id, {}, move});
+    if (move && before.shape.index() != here.shape.index()) notify(BodyChanged{body.id});  // it has other rows
   }
   for (const BodyPins& pins : to.pins) {
     at(m_project.bodies, pins.id)->pins = pins.boxes;
