@@ -158,6 +158,45 @@ class TestThings : public SampleWindowTest {
     QCOMPARE(project().bodies.size(), bodies);
   }
 
+  /// A copy that was put elsewhere and turned is copied on in the same way, as long as it stays selected.
+  void copiesGoOnInTheSameWay() {
+    trigger("add.ellipsoid");
+    const std::string first = project().bodies.back().id;
+    trigger("edit.duplicate");
+    const std::string second = m_window->selection().body();
+    QVERIFY(second != first);
+    const Vector3 from = middle(first), step(0.07, 0.01, 0);
+    const auto set = [this](const std::string& id, const char* key, double value) {
+      QCOMPARE(document().setParameter({Owner::Shape, id, key}, value), QString());
+    };
+    const auto turnOf = [this](const std::string& id) {
+      return std::get<double>(document().value({Owner::Shape, id, "rotation_z"}));
+    };
+    set(second, "position_x", from.x() + step.x());
+    set(second, "position_y", from.y() + step.y());
+    set(second, "position_z", from.z());
+    set(second, "rotation_z", 30);
+    const int steps = document().undoStack().index();
+    std::string last = second;
+    Vector3 way = step;
+    for (const double turn : {60.0, 90.0}) {  // each goes on from the one before
+      const Vector3 before = middle(last);
+      trigger("edit.duplicate");
+      last = m_window->selection().body();
+      const double sine = 0.5, cosine = std::sqrt(0.75);  // of 30 degrees
+      way = Vector3(cosine * way.x() - sine * way.y(), sine * way.x() + cosine * way.y(), 0);
+      QVERIFY((middle(last) - before - way).norm() < 1e-9);
+      QVERIFY(std::abs(turnOf(last) - turn) < 1e-6);
+    }
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    // Selected anew, it is copied to where there is room, as it stands.
+    m_window->selection().clear();
+    m_window->selection().selectBody(last);
+    trigger("edit.duplicate");
+    QVERIFY(m_window->selection().body() != last);
+    QVERIFY(std::abs(turnOf(m_window->selection().body()) - 90) < 1e-6);
+  }
+
   /// "Ball" twice is "Ball" and "Ball 2", however it comes.
   void noTwoAreCalledTheSame() {
     const auto names = [this] {

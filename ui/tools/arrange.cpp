@@ -5,6 +5,8 @@
 #include "ui/tools/placing.h"
 #include "ui/tools/surface.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -219,6 +221,73 @@ Placement dropped(const Project& project, Placement things, const MatterBoxes& m
     if (!one.thing.bodies.empty()) below.push_back({one.box.minimum + way, one.box.maximum + way});
   }
   return out;
+}
+
+namespace {
+
+RigidMove moveOf(const Vector3& from, const Vector3& to, const Vector3& direction, const Vector3& now) {
+  RigidMove move;
+  if (direction != now) move.turn = Quaternion::FromTwoVectors(direction, now);
+  move.shift = move.turns() ? Vector3(to - move.turn * from) : Vector3(to - from);
+  return move;
+}
+RigidMove moveOf(const Body& before, const Body& now) {
+  return moveBetween(sizedAs(before, now), now).value_or(RigidMove{});
+}
+RigidMove moveOf(const Emitter& before, const Emitter& now) {
+  return moveOf(before.point, now.point, before.direction, now.direction);
+}
+RigidMove moveOf(const SceneWall& before, const SceneWall& now) {
+  return moveOf(before.point, now.point, before.normal, now.normal);
+}
+template <class Box>
+RigidMove moveOfBox(const Box& before, const Box& now) {
+  return {Quaternion::Identity(), 0.5 * (now.minimum + now.maximum - before.minimum - before.maximum)};
+}
+RigidMove moveOf(const Sink& before, const Sink& now) { return moveOfBox(before, now); }
+RigidMove moveOf(const Probe& before, const Probe& now) {
+  return before.region && now.region ? moveOfBox(*before.region, *now.region) : RigidMove{};
+}
+
+void go(Body& body, const RigidMove& move) { body = moved(std::move(body), possibleMove(body, move)); }
+void go(Emitter& emitter, const RigidMove& move) {
+  emitter.point = move.of(emitter.point);
+  emitter.direction = move.turn * emitter.direction;
+}
+void go(SceneWall& wall, const RigidMove& move) {
+  wall.point = move.of(wall.point);
+  wall.normal = move.turn * wall.normal;
+}
+void go(Sink& sink, const RigidMove& move) { sink.minimum += move.shift, sink.maximum += move.shift; }
+void go(Probe& probe, const RigidMove& move) {
+  if (probe.region) probe.region->minimum += move.shift, probe.region->maximum += move.shift;
+}
+
+/// visit(as it was, as it is) for each.
+template <class Visit>
+void eachPair(const Placement& before, Placement& now, Visit&& visit) {
+  const auto each = [&](const auto& was, auto& is) {
+    for (size_t k = 0; k < std::min(was.size(), is.size()); ++k) visit(was[k], is[k]);
+  };
+  each(before.bodies, now.bodies);
+  each(before.emitters, now.emitters);
+  each(before.sinks, now.sinks);
+  each(before.walls, now.walls);
+  each(before.probes, now.probes);
+}
+
+}  // namespace
+
+bool standElsewhere(const Placement& before, const Placement& now) {
+  bool any = false;
+  Placement there = now;
+  eachPair(before, there, [&](const auto& was, auto& is) { any = any || !moveOf(was, is).isNothing(); });
+  return any;
+}
+
+Placement continued(const Placement& before, Placement now) {
+  eachPair(before, now, [](const auto& was, auto& is) { go(is, moveOf(was, is)); });
+  return now;
 }
 
 }  // namespace ps

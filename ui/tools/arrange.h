@@ -32,4 +32,9 @@ Placement distributed(Placement things, const MatterBoxes& matter, int axis);
 /// Each let down onto what is below it: the floor, or another body, which may have fallen too. Walls stay.
 Placement dropped(const Project& project, Placement things, const MatterBoxes& matter);
 
+/// Whether any of some things stands elsewhere than before, or is turned. Both hold the same ones, in the same order.
+bool standElsewhere(const Placement& before, const Placement& now);
+/// Things once more as far on, and as far turned, as they are from where they were before: each by its own move.
+Placement continued(const Placement& before, Placement now);
+
 }  // namespace ps

@@ -14,6 +14,8 @@ namespace ps {
 
 /// Property of actions: see PaletteEntry::replaces.
 inline constexpr const char* kReplaces = "replacesScene";
+/// Ctrl+K finds an action by these words too: a property of it.
+inline constexpr const char* kWords = "words";
 
 /// The actions of a window, each declared once by a name like "file.save": menus, keys and the palette have them.
 class Actions {

@@ -38,6 +38,7 @@ void HandleActions::addTo(QMenu* edit) {
   m_actions.add(edit, QStringLiteral("edit.pivot"), QStringLiteral("Pivot of the handles…"),
                 {QKeySequence(QString::fromLatin1(kPivotKey))}, [this] { m_pivots->popup(QCursor::pos()); });
   m_pivots = edit->addMenu(QStringLiteral("Pivot"));
+  m_pivots->setToolTipsVisible(true);
   for (size_t k = 0; k < std::size(kPivots); ++k) {
     const PivotRow& row = kPivots[k];
     QAction* action = m_actions.add(m_pivots, QStringLiteral("edit.pivot.") + QString::fromLatin1(row.id),

@@ -78,6 +78,21 @@ std::string bodyBehind(const SelectedItem& item) {
   return pin ? pin->body : std::string();
 }
 
+/// Those of the same ids, as they are now.
+Placement standing(const Document& document, Placement things) {
+  const auto each = [](auto& items, const auto& find) {
+    for (auto& item : items) {
+      if (const auto* now = find(item.id)) item = *now;
+    }
+  };
+  each(things.bodies, [&](const std::string& id) { return document.body(id); });
+  each(things.emitters, [&](const std::string& id) { return document.emitter(id); });
+  each(things.sinks, [&](const std::string& id) { return document.sink(id); });
+  each(things.walls, [&](const std::string& id) { return document.wall(id); });
+  each(things.probes, [&](const std::string& id) { return document.probe(id); });
+  return things;
+}
+
 void place(Project& things, const Placement& as) {
   things.bodies = as.bodies;
   things.emitters = as.emitters;
@@ -95,16 +110,25 @@ ThingActions::ThingActions(Session& session, Selection& selection, const Materia
       m_materials(materials),
       m_actions(actions),
       m_notices(notices),
-      m_pins(session.document(), selection, notices) {}
+      m_pins(session.document(), selection, notices) {
+  QObject::connect(&selection, &Selection::changed, &m_watch, [this] {
+    if (m_copies && m_selection.items() != itemsOf(m_copies->made)) m_copies.reset();
+  });
+}
 
 void ThingActions::makeMenu(QMenu* menu) {
+  menu->setToolTipsVisible(true);
   m_actions.add(menu, QStringLiteral("edit.cut"), QStringLiteral("Cut"), {keys("Ctrl+X")}, [this] {
     if (copy()) remove("cutting %1");
   });
   m_actions.add(menu, QStringLiteral("edit.copy"), QStringLiteral("Copy"), {keys("Ctrl+C")}, [this] { copy(); });
   m_actions.add(menu, QStringLiteral("edit.paste"), QStringLiteral("Paste"), {keys("Ctrl+V")}, [this] { paste(); });
-  m_actions.add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"), {keys("Ctrl+D")},
-                [this] { duplicate(); });
+  QAction* copies = m_actions.add(menu, QStringLiteral("edit.duplicate"), QStringLiteral("Duplicate"), {keys("Ctrl+D")},
+                                  [this] { duplicate(); });
+  copies->setToolTip(QStringLiteral(
+      "The copy stands beside all that is there, and is selected. Move or turn it: the next copy of it goes "
+      "on by as much, as long as it stays selected."));
+  copies->setProperty(kWords, QStringLiteral("duplicate again with offset repeat copies in a row or circle"));
   m_actions.add(menu, QStringLiteral("edit.delete"), QStringLiteral("Delete"), {QKeySequence(Qt::Key_Delete)},
                 [this] { remove("deletion of %1"); });
   menu->addSeparator();
@@ -224,28 +248,53 @@ void ThingActions::paste() {
     m_notices.refuse(refusal, QStringLiteral("The project in the clipboard holds nothing."));
     return;
   }
-  insert(std::move(things), QStringLiteral("pasting %1"), refusal, false);
+  insert(std::move(things), QStringLiteral("pasting %1"), refusal, Where::IfFree);
 }
 
 void ThingActions::duplicate() {
   if (m_pins.alone()) return m_pins.duplicate();
-  Project things = excerptOf(m_session.document().project(), m_selection.items());
+  const Document& document = m_session.document();
+  Project things = excerptOf(document.project(), m_selection.items());
   if (isEmpty(things)) return;
-  insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."), true);
+  Copies copies{thingsOf(things), {}, false};
+  if (m_copies) {
+    const Placement now = standing(document, m_copies->made);
+    copies.goOn = m_copies->goOn || standElsewhere(m_copies->made, now);
+    if (copies.goOn) {
+      copies.from = now;
+      place(things, continued(m_copies->from, now));
+    }
+  }
+  copies.made = insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."),
+                       copies.goOn ? Where::Here : Where::Beside);
+  if (!copies.made.empty()) m_copies = std::move(copies);
 }
 
-/// Where there is room for them, and selected. `beside`: not where they are.
-void ThingActions::insert(Project things, const QString& title, const QString& refusal, bool beside) {
+std::optional<Vector3> ThingActions::wayTo(const Placement& things, Where where) const {
+  const Project& project = m_session.document().project();
+  const Vector3 none = Vector3::Zero();
+  if (where == Where::Beside || (where == Where::IfFree && overlapsAny(project, things, matter())))
+    return wayToFreeRoom(project, things, matter());
+  const auto box = where == Where::Here ? boundsOf(things, {}) : std::nullopt;
+  const Environment& scene = project.environment;
+  for (int a = 0; box && a < 3; ++a) {
+    const double at = box->middle()[a];
+    if (!scene.periodic[static_cast<size_t>(a)] && (at < scene.boundsMinimum[a] || at > scene.boundsMaximum[a]))
+      return std::nullopt;
+  }
+  return none;
+}
+
+/// As far as there is room for them, and selected: what has come.
+Placement ThingActions::insert(Project things, const QString& title, const QString& refusal, Where where) {
   Document& document = m_session.document();
   const QString what = whatOf(things);
   nameApart(things, document.project());
   const Placement as = thingsOf(things);
-  const std::optional<Vector3> way = beside || overlapsAny(document.project(), as, matter())
-                                         ? wayToFreeRoom(document.project(), as, matter())
-                                         : Vector3(Vector3::Zero());
+  const std::optional<Vector3> way = wayTo(as, where);
   if (!way) {
     m_notices.refuseUntilEdited(refusal, QStringLiteral("There is no room in the scene for %1.").arg(what));
-    return;
+    return {};
   }
   place(things, shifted(as, *way));
   for (Body& body : things.bodies) body.locked = false;
@@ -254,6 +303,7 @@ void ThingActions::insert(Project things, const QString& title, const QString& r
   const bool had = document.changeCount() == before;
   m_notices.refuse(refusal, had ? QStringLiteral("The scene has %1 already.").arg(what) : QString());
   if (!come.empty()) m_selection.selectAll(itemsOf(come));
+  return come;
 }
 
 /// Locked bodies stay, with their pins, and are told of.

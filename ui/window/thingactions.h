@@ -3,9 +3,11 @@
 #include "ui/tools/arrange.h"
 #include "ui/window/pinactions.h"
 
+#include <QtCore/QObject>
 #include <QtCore/QString>
 
 #include <functional>
+#include <optional>
 
 class QMenu;
 
@@ -41,7 +43,10 @@ class ThingActions {
   void arrange(const QString& title, const std::function<Placement(Placement, const MatterBoxes&)>& change,
                const QString& note = {});
   void drop();
-  void insert(Project things, const QString& title, const QString& refusal, bool beside);
+  /// Where things come to stand: where they are if nothing else is there, beside all, or where they are in any case.
+  enum class Where { IfFree, Beside, Here };
+  std::optional<Vector3> wayTo(const Placement& things, Where where) const;
+  Placement insert(Project things, const QString& title, const QString& refusal, Where where);
   MatterBoxes matter() const;
 
   Session& m_session;
@@ -50,6 +55,14 @@ class ThingActions {
   const Actions& m_actions;
   Notices& m_notices;
   PinActions m_pins;
+
+  /// Copies that were made last: while they stay selected, the next ones go on as these were put elsewhere.
+  struct Copies {
+    Placement from, made;
+    bool goOn = false;  ///< they did so themselves
+  };
+  std::optional<Copies> m_copies;
+  QObject m_watch;  ///< of the selection
 };
 
 }  // namespace ps

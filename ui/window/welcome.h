@@ -20,9 +20,6 @@ class Viewport;
 class WelcomePage;
 class WindowLayout;
 
-/// Ctrl+K finds an action by these words too: a property of it.
-inline constexpr const char* kWords = "words";
-
 /// The welcome page in a window: when it shows, what its buttons do, the menu of samples, and pictures of what is
 /// opened and saved. While it shows there are no docks.
 class Welcome : public QObject {
