@@ -61,6 +61,45 @@ class TestPreferences : public SampleWindowTest {
     QCOMPARE(field<QComboBox>("On the disk, at most")->currentText(), QStringLiteral("Nothing"));
   }
 
+  /// By their menus; what is typed for a step is taken as a number with a unit, or told of.
+  void handlesAreKept() {
+    Toolbox& tools = m_window->tools();
+    tools.activate("move");
+    m_window->action(QStringLiteral("edit.snap"))->trigger();
+    m_window->action(QStringLiteral("edit.snap.surfaces"))->trigger();
+    m_window->action(QStringLiteral("edit.pivot.each"))->trigger();
+    QVERIFY(tools.handles().snap.on && tools.handles().snap.surfaces && tools.handles().pivot == Pivot::Each);
+    QVERIFY(m_window->action(QStringLiteral("edit.snap"))->isChecked());
+    const auto type = [this](const char* label, const char* text) {
+      for (QLineEdit* line : m_window->findChildren<QLineEdit*>()) {
+        if (line->accessibleName() != QLatin1String(label)) continue;
+        line->setText(QString::fromUtf8(text));
+        line->setModified(true);
+        Q_EMIT line->editingFinished();
+        return line->text();
+      }
+      return QString();
+    };
+    QCOMPARE(type("Moves by", "5 mm"), QStringLiteral("5 mm"));
+    QCOMPARE(type("Turns by", "30"), QStringLiteral("30 °"));
+    QCOMPARE(type("Scales by", "0"), QStringLiteral("0.1"));
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("It must be between")),
+             qPrintable(m_window->notice()->text()));
+    QCOMPARE(tools.handles().snap.move, 0.005);
+    QCOMPARE(tools.handles().snap.turn, 30.0);
+    QCOMPARE(tools.handles().snap.scale, 0.1);
+    QCOMPARE(preferences::handles(), tools.handles());
+    const auto gestures = tools.tool().gestures();
+    QVERIFY(std::any_of(gestures.begin(), gestures.end(), [](const Gesture& gesture) {
+      return gesture.does.contains(QStringLiteral("freely, not by steps of 5 mm"));
+    }));
+    QCOMPARE(type("Moves by", "spacing"), QStringLiteral("spacing"));
+    QCOMPARE(preferences::handles().snap.move, 0.0);
+    tools.setHandles({});
+    preferences::setHandles({});
+    tools.activate("select");
+  }
+
   /// In rows, graphs, legend and outliner, and typed values; the document stays in kelvin.
   void temperaturesAreShownAsPreferred() {
     const Address floor{Owner::Wall, "floor", "temperature"};

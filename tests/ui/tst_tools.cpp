@@ -97,6 +97,69 @@ class TestTools : public ToolTest {
     QVERIFY(!tool.picture().gizmo->gizmo && tool.picture().gizmo->note.contains(QStringLiteral("locked")));
   }
 
+  /// By the steps that are set, all the time or while a key is held.
+  void handlesGoBySteps() {
+    m_selection->selectBody("ice");
+    m_tools->activate("move");
+    const Vector3 before = pivotOf(*m_document->body("ice")), grip = before + Vector3(0.06, 0, 0);
+    const auto way = [&](bool key) {
+      Tool& tool = m_tools->tool();
+      Pointer to = aimed(grip + Vector3(0.043, 0, 0));
+      to.control = key;
+      if (!tool.press(aimed(grip))) return -1.0;
+      tool.drag(to);
+      const double gone = (pivotOf(*m_document->body("ice")) - before).x();
+      tool.cancel();
+      return gone;
+    };
+    HandleSettings settings;
+    const auto set = [&](bool on, double move) {
+      settings.snap.on = on;
+      settings.snap.move = move;
+      m_tools->setHandles(settings);
+    };
+    QVERIFY(std::abs(way(false) - 0.043) < 1e-9 && std::abs(way(true) - kSpacing) < 1e-9);
+    set(true, 0);
+    QVERIFY(std::abs(way(false) - kSpacing) < 1e-9 && std::abs(way(true) - 0.043) < 1e-9);
+    set(true, 0.01);
+    QVERIFY(std::abs(way(false) - 0.04) < 1e-9);
+    settings.snap.turn = 45;
+    m_tools->setHandles(settings);
+    m_tools->activate("rotate");
+    const double arm = armOf(aimed(before), before), degree = std::acos(-1.0) / 180;
+    const auto onRing = [&](double angle) {  // about y, from z towards x
+      return aimed(before + arm * Vector3(std::sin(angle * degree), 0, std::cos(angle * degree)));
+    };
+    QVERIFY(m_tools->tool().press(onRing(20)));
+    QCOMPARE(m_tools->tool().picture().gizmo->active, (std::optional(GizmoPart{GizmoPart::Kind::Ring, 1})));
+    m_tools->tool().drag(onRing(70));
+    m_tools->tool().release(onRing(70));
+    QVERIFY(std::abs(std::get<double>(m_document->value({Owner::Shape, "ice", "rotation_y"})) - 45) < 1e-6);
+  }
+
+  /// Onto what is below: another body, and the floor again.
+  void movesLandOnWhatIsBelow() {
+    m_document->addBody(scenes::block("table", 4, kSpacing, {0.21, 2 * kSpacing, 0}, 263));
+    m_selection->selectBody("ice");
+    m_tools->activate("move");
+    HandleSettings settings;
+    settings.snap.on = settings.snap.surfaces = true;
+    settings.snap.move = 0.05;
+    m_tools->setHandles(settings);
+    const Vector3 before = pivotOf(*m_document->body("ice"));
+    const auto pull = [&](double far) {
+      const Vector3 grip = pivotOf(*m_document->body("ice")) + Vector3(0.06, 0, 0);
+      if (!m_tools->tool().press(aimed(grip))) return false;
+      m_tools->tool().drag(aimed(grip + Vector3(far, 0, 0)));
+      m_tools->tool().release(aimed(grip + Vector3(far, 0, 0)));
+      return true;
+    };
+    QVERIFY(pull(0.2));
+    QVERIFY((pivotOf(*m_document->body("ice")) - before - Vector3(0.2, 4 * kSpacing, 0)).norm() < 1e-9);
+    QVERIFY(pull(-0.2));
+    QVERIFY((pivotOf(*m_document->body("ice")) - before).norm() < 1e-9);
+  }
+
   void aBrushThatFailsIsPutAside_data() {
     QTest::addColumn<QString>("behaviour");
     QTest::addColumn<QString>("words");

@@ -7,6 +7,7 @@
 #include <QtCore/QStorageInfo>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps::preferences {
 namespace {
@@ -14,8 +15,11 @@ namespace {
 constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
                      *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
                      *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse",
-                     *kPivot = "handles/pivot";
+                     *kPivot = "handles/pivot", *kSnap = "handles/snap", *kSurfaces = "handles/surfaces",
+                     *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
+                     *kScaleStep = "handles/scaleStep";
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
+constexpr double kMostStep = 1e4;
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
 /// Whatever stands in the file.
@@ -70,8 +74,29 @@ void setTemperatures(TemperatureUnit unit) { set(kTemperatures, static_cast<int>
 MousePreset mouse() { return static_cast<MousePreset>(number(kMouse, 0, 0, static_cast<int>(MousePreset::Cad))); }
 void setMouse(MousePreset preset) { set(kMouse, static_cast<int>(preset)); }
 
-HandleSettings handles() { return {static_cast<Pivot>(number(kPivot, 0, 0, static_cast<int>(Pivot::Origin)))}; }
-void setHandles(const HandleSettings& settings) { set(kPivot, static_cast<int>(settings.pivot)); }
+HandleSettings handles() {
+  HandleSettings settings;
+  settings.pivot = static_cast<Pivot>(number(kPivot, 0, 0, static_cast<int>(Pivot::Origin)));
+  Snapping& snap = settings.snap;
+  snap.on = QSettings().value(QLatin1String(kSnap), snap.on).toBool();
+  snap.surfaces = QSettings().value(QLatin1String(kSurfaces), snap.surfaces).toBool();
+  for (const auto& [key, step] :
+       {std::pair(kMoveStep, &snap.move), {kTurnStep, &snap.turn}, {kScaleStep, &snap.scale}}) {
+    bool known = false;
+    const double value = QSettings().value(QLatin1String(key), *step).toDouble(&known);
+    if (known && value > 0 && value < kMostStep) *step = value;
+  }
+  return settings;
+}
+void setHandles(const HandleSettings& settings) {
+  const Snapping& snap = settings.snap;
+  set(kPivot, static_cast<int>(settings.pivot));
+  set(kSnap, snap.on);
+  set(kSurfaces, snap.surfaces);
+  set(kMoveStep, snap.move);
+  set(kTurnStep, snap.turn);
+  set(kScaleStep, snap.scale);
+}
 
 bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
 bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }

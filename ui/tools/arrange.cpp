@@ -2,6 +2,7 @@
 #include "ui/tools/arrange.h"
 
 #include "ui/document/wallside.h"
+#include "ui/render/framing.h"
 #include "ui/tools/placing.h"
 #include "ui/tools/surface.h"
 
@@ -113,6 +114,15 @@ double gridOf(const Placement& things) {
 
 }  // namespace
 
+MatterBoxes matterBoxesOf(const Snapshot* scene) {
+  MatterBoxes boxes;
+  if (!scene || !scene->bodyIds) return boxes;
+  for (uint32_t k = 0; k < scene->bodyIds->size(); ++k) {
+    if (const auto box = ps::boxOf(*scene, k)) boxes[(*scene->bodyIds)[k]] = {box->first, box->second};
+  }
+  return boxes;
+}
+
 std::optional<BodyBounds> boundsOf(const Placement& things, const MatterBoxes& matter) {
   std::optional<BodyBounds> all;
   eachBox(things, matter, [&](const BodyBounds& box, const Placement&) {
@@ -162,6 +172,24 @@ bool overlapsAny(const Project& project, const Placement& things, const MatterBo
   return any;
 }
 
+std::vector<BodyBounds> bodiesBeside(const Project& project, const Placement& things, const MatterBoxes& matter) {
+  std::vector<BodyBounds> boxes;
+  for (const Body& body : project.bodies) {
+    const bool same =
+        std::any_of(things.bodies.begin(), things.bodies.end(), [&](const Body& other) { return other.id == body.id; });
+    if (!same) boxes.push_back(boxOf(body, matter));
+  }
+  return boxes;
+}
+
+double heightUnder(const BodyBounds& box, const std::vector<BodyBounds>& bodies, double floor) {
+  double height = floor;
+  for (const BodyBounds& other : bodies) {
+    if (overlap(box, other, 0) && overlap(box, other, 2)) height = std::max(height, other.maximum.y());
+  }
+  return height;
+}
+
 Placement aligned(Placement things, const MatterBoxes& matter, int axis, Side side) {
   const std::vector<Boxed> row = placed(things, matter);
   Placement out;
@@ -198,12 +226,7 @@ Placement distributed(Placement things, const MatterBoxes& matter, int axis) {
 
 Placement dropped(const Project& project, Placement things, const MatterBoxes& matter) {
   const double floor = floorHeight(project.environment);
-  std::vector<BodyBounds> below;
-  for (const Body& body : project.bodies) {
-    const bool falls =
-        std::any_of(things.bodies.begin(), things.bodies.end(), [&](const Body& other) { return other.id == body.id; });
-    if (!falls) below.push_back(boxOf(body, matter));
-  }
+  std::vector<BodyBounds> below = bodiesBeside(project, things, matter);
   // The lowest first: what falls may land on what has fallen.
   std::vector<Boxed> falling = boxed(things, matter);
   std::stable_sort(falling.begin(), falling.end(),

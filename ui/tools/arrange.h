@@ -6,13 +6,19 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ps {
+
+struct Snapshot;
 
 /// Where things are against each other: pure functions, of values. Matter of bodies counts where it is by now.
 
 /// Around the matter of bodies as it stands, by Body::id; those that have none stand as the document has them.
 using MatterBoxes = std::map<std::string, BodyBounds>;
+
+/// Those of a scene as a view shows it.
+MatterBoxes matterBoxesOf(const Snapshot* scene);
 
 /// Around all of them; nothing around what has no extent, as walls.
 std::optional<BodyBounds> boundsOf(const Placement& things, const MatterBoxes& matter);
@@ -22,6 +28,11 @@ std::optional<Vector3> wayToFreeRoom(const Project& project, const Placement& th
 
 /// Whether one of them would stand in something that is there.
 bool overlapsAny(const Project& project, const Placement& things, const MatterBoxes& matter);
+
+/// Around the bodies of a scene that are none of some things.
+std::vector<BodyBounds> bodiesBeside(const Project& project, const Placement& things, const MatterBoxes& matter);
+/// m, the highest top of those over or under which a box stands, and of the floor.
+double heightUnder(const BodyBounds& box, const std::vector<BodyBounds>& bodies, double floor);
 
 enum class Side { Least, Middle, Greatest };
 /// Things with their sides, or middles, at one place along an axis (0 x, 1 y, 2 z): that of all of them together. Walls

@@ -6,6 +6,7 @@
 #include "ui/session/selection.h"
 #include "ui/theme/numbers.h"
 #include "ui/tools/aim.h"
+#include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
@@ -20,7 +21,6 @@ namespace {
 using Kind = Gizmo::Kind;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kTurnStep = 15 * kDegree, kScaleStep = 0.1;
 
 /// One of the three tools in words, and what its number is.
 struct KindRow {
@@ -54,6 +54,19 @@ QString valueText(Kind kind, const GizmoDrag& dragged, bool hasAmount) {
 QString pinsName(const Document& document, const BodyPins& pins) {
   const QString body = nameOf(*document.body(pins.id));
   return pins.chosen.size() == 1 ? QStringLiteral("a pin of %1").arg(body) : QStringLiteral("pins of %1").arg(body);
+}
+
+/// m, radians or a share, to whole multiples of which a drag goes.
+double stepOf(const Snapping& snap, Kind kind, double spacing) {
+  if (kind == Kind::Move) return snap.move > 0 ? snap.move : spacing;
+  return kind == Kind::Rotate ? snap.turn * kDegree : snap.scale;
+}
+QString stepWords(const Snapping& snap, Kind kind) {
+  if (kind == Kind::Rotate) return formatShort(snap.turn) + QStringLiteral("°");
+  if (kind == Kind::Scale) return formatShort(snap.scale);
+  if (!(snap.move > 0)) return QStringLiteral("the particles' spacing");
+  const UnitPrefix prefix = prefixFor(snap.move);
+  return formatQuantity(snap.move / prefix.factor, prefix.symbol + QStringLiteral("m"));
 }
 
 /// What they go about, of things that are turned or stretched.
@@ -103,6 +116,11 @@ bool GizmoTool::press(const Pointer& pointer) {
   m_pressed->scene = nullptr;  // its memory is not held meanwhile
   m_before = placementOf(box().document(), things);
   m_matterBefore = m_matter;
+  if (m_kind == Kind::Move) {
+    const MatterBoxes boxes = matterBoxesOf(pointer.scene.get());
+    m_bounds = boundsOf(m_before, boxes);
+    m_beside = bodiesBeside(box().document().project(), m_before, boxes);
+  }
   m_dragged = m_grip->exactly(m_kind == Kind::Scale ? 1 : 0);
   m_typed.clear();
   m_wrong = false;
@@ -118,12 +136,20 @@ void GizmoTool::drag(const Pointer& pointer) {
   }
   if (m_pressed && !wandered(*m_pressed, pointer)) return;
   m_pressed.reset();
-  const double step = !(pointer.control || pointer.alt) ? 0
-                      : m_kind == Kind::Move            ? box().spacing()
-                      : m_kind == Kind::Rotate          ? kTurnStep
-                                                        : kScaleStep;
-  const GizmoDrag dragged = m_grip->drag(pointer, step);
+  const Snapping& snap = box().handles().snap;
+  const bool snaps = snap.on != (pointer.control || pointer.alt);
+  GizmoDrag dragged = m_grip->drag(pointer, snaps ? stepOf(snap, m_kind, box().spacing()) : 0);
+  const bool upright = m_grip->part() == GizmoPart{GizmoPart::Kind::Arm, 1};
+  if (snaps && snap.surfaces && m_kind == Kind::Move && !upright) dragged.way = landing(dragged.way);
   if (m_typed.isEmpty()) apply(dragged);
+}
+
+Vector3 GizmoTool::landing(Vector3 way) const {
+  if (!m_bounds) return way;
+  const BodyBounds there{m_bounds->minimum + way, m_bounds->maximum + way};
+  const double floor = floorHeight(box().document().project().environment);
+  way.y() = heightUnder(there, m_beside, floor) - m_bounds->minimum.y();
+  return way;
 }
 
 /// Not out of the scene, where nothing lives.
@@ -275,6 +301,7 @@ QString GizmoTool::words() const {
 
 std::vector<Gesture> GizmoTool::gestures() const {
   const KindRow& row = rowOf(m_kind);
+  const Snapping& snap = box().handles().snap;
   const QString pivot =
       m_kind == Kind::Move
           ? QStringLiteral("Chooses where the handles stand: in the middle, or on the last selected")
@@ -283,9 +310,12 @@ std::vector<Gesture> GizmoTool::gestures() const {
           {QStringLiteral("Type a number"), QStringLiteral("While dragging: just so far; with a unit, “25 mm”"),
            QStringLiteral("while dragging")},
           {QStringLiteral("Ctrl or Alt"),
-           QStringLiteral("Goes by steps: the particles' spacing, 15°, a tenth; Shift is ten times finer"),
-           QStringLiteral("by steps")},
+           (snap.on ? QStringLiteral("Goes freely, not by steps of %1; Shift is ten times finer")
+                    : QStringLiteral("Goes by steps of %1; Shift is ten times finer"))
+               .arg(stepWords(snap, m_kind)),
+           snap.on ? QStringLiteral("freely") : QStringLiteral("by steps")},
           {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")},
+          {QString::fromLatin1(kSnapKey), QStringLiteral("Goes by steps all the time, or no longer"), {}},
           {QString::fromLatin1(kPivotKey), pivot, {}}};
 }
 

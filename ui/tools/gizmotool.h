@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/tools/arrange.h"
 #include "ui/tools/gizmo.h"
 #include "ui/tools/placing.h"
 #include "ui/tools/selecttool.h"
@@ -8,9 +9,12 @@ namespace ps {
 
 /// Opens the choice of what the handles go about.
 inline constexpr const char* kPivotKey = "Ctrl+.";
+/// Turns steps on and off.
+inline constexpr const char* kSnapKey = "Shift+S";
 
 /// Moves, turns or stretches all that is selected by handles, or by a number that is typed while one is dragged. One
-/// drag is one undo step. Clicks select; whatever else is dragged turns the view.
+/// drag is one undo step; it goes by steps as Toolbox::handles() say. Clicks select; whatever else is dragged turns the
+/// view.
 class GizmoTool : public Tool {
  public:
   GizmoTool(Toolbox& box, Gizmo::Kind kind) : Tool(box), m_kind(kind), m_select(box) {}
@@ -35,6 +39,8 @@ class GizmoTool : public Tool {
   Placeable selected() const;
   std::optional<Gizmo> gizmo(const Placeable& things) const;
   Vector3 withinBounds(const Vector3& way) const;
+  /// Down or up onto what is below.
+  Vector3 landing(Vector3 way) const;
   void apply(GizmoDrag dragged);
   void enter();
   void end(bool keep);
@@ -49,6 +55,8 @@ class GizmoTool : public Tool {
   uint64_t m_begun = 0;              ///< Document::changeCount() before the drag
   Placement m_before;
   MatterPlaces m_matterBefore;
+  std::optional<BodyBounds> m_bounds;  ///< around what is moved, as it was
+  std::vector<BodyBounds> m_beside;    ///< around the other bodies
   GizmoDrag m_dragged;
   QString m_typed;       ///< "": the pointer leads
   double m_entered = 0;  ///< what that says: m, radians, a factor

@@ -219,7 +219,7 @@ void MainWindow::makeMenus() {
       std::make_unique<ThingActions>(*m_session, *m_selection, *findChild<MaterialsPanel*>(), m_actions, *m_notices);
   m_things->makeMenu(edit);
   m_things->makeArrangeMenu(edit->addMenu(QStringLiteral("Arrange")));
-  auto* handles = new HandleActions(*m_tools, m_actions, this);
+  auto* handles = new HandleActions(*m_tools, m_actions, *m_notices, this);
   handles->addTo(edit);
   m_pane->showHandles(*handles);
   m_actions.add(edit, QStringLiteral("edit.project"), QStringLiteral("Project properties…"), {},

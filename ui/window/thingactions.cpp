@@ -9,7 +9,6 @@
 #include "ui/document/freename.h"
 #include "ui/document/pinaddress.h"
 #include "ui/panels/materialspanel.h"
-#include "ui/render/framing.h"
 #include "ui/session/excerpt.h"
 #include "ui/session/pinexcerpt.h"
 #include "ui/session/selection.h"
@@ -184,15 +183,7 @@ void ThingActions::drop() {
   arrange(QStringLiteral("dropping %1"), change, note);
 }
 
-MatterBoxes ThingActions::matter() const {
-  MatterBoxes boxes;
-  const SnapshotPtr scene = m_session.snapshot();
-  if (!scene || !scene->bodyIds) return boxes;
-  for (uint32_t k = 0; k < scene->bodyIds->size(); ++k) {
-    if (const auto box = boxOf(*scene, k)) boxes[(*scene->bodyIds)[k]] = {box->first, box->second};
-  }
-  return boxes;
-}
+MatterBoxes ThingActions::matter() const { return matterBoxesOf(m_session.snapshot().get()); }
 
 /// Their panel has the focus: the chosen one is meant, not what is selected.
 bool ThingActions::ofMaterials() const {

@@ -211,8 +211,19 @@ void ViewportPane::showHandles(const HandleActions& handles) {
   pivot->setAccessibleName(pivot->toolTip());
   pivot->setPopupMode(QToolButton::InstantPopup);
   pivot->setMenu(handles.pivots());
-  pivot->setFocusPolicy(Qt::TabFocus);
-  row->addWidget(pivot);
+  auto* snap = new QToolButton;
+  snap->setDefaultAction(handles.snap());
+  snap->setAccessibleName(snap->toolTip());
+  auto* steps = new QToolButton;
+  steps->setIcon(icon(QStringLiteral("chevron-down")));
+  steps->setToolTip(QStringLiteral("By which steps the handles go, and whether onto surfaces"));
+  steps->setAccessibleName(steps->toolTip());
+  steps->setPopupMode(QToolButton::InstantPopup);
+  steps->setMenu(handles.snapping());
+  for (QToolButton* button : {pivot, snap, steps}) {
+    button->setFocusPolicy(Qt::TabFocus);
+    row->addWidget(button);
+  }
 }
 
 /// A brush has the icon of its id where the program carries one, and the brush's otherwise, with its name beside it.
