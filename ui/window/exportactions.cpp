@@ -7,8 +7,8 @@
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
-#include "ui/window/exportdialog.h"
-#include "ui/window/filmdialog.h"
+#include "ui/window/exportform.h"
+#include "ui/window/filmform.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
@@ -60,11 +60,12 @@ void ExportActions::addTo(QMenu* menu, const Viewport* view) {
   };
   QMainWindow* window = &m_actions.window();
   add(QStringLiteral("file.film"), QStringLiteral("Export film or pictures…"),
-      QStringLiteral("What was recorded of the run, in the view and the colours of now."),
-      [this, window, view] { return new FilmDialog(m_session, view, window); });
+      QStringLiteral("What was recorded of the run, in the view and the colours of now."), [this, window, view] {
+        return new RunDialog(new FilmForm(m_session, view), QStringLiteral("Export a film"), window);
+      });
   add(QStringLiteral("file.export"), QStringLiteral("Export particles or surfaces…"),
       QStringLiteral("What was recorded of the run, for ParaView, Blender and others, a file for each frame."),
-      [this, window] { return new ExportDialog(m_session, window); });
+      [this, window] { return new RunDialog(new ExportForm(m_session), QStringLiteral("Export the run"), window); });
 }
 
 void ExportActions::setEnabled(bool on) {

@@ -86,7 +86,7 @@ MainWindow::MainWindow(const Options& options)
   makeMiddle();
   m_layout = new WindowLayout(*this, {options.restore, options.dark, options.themeAsked});
   m_curves = new CurveTarget(*m_session, *m_selection, this);
-  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector, *m_curves}, viewport());
+  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector, *m_curves, viewport()});
   m_notices = new Notices(*m_session, *notice(), m_actions, this);
   m_restore = new RestoreOffer(*m_session, *m_notices, options.restore, this);
   m_files = new FileActions(*m_session, m_actions, *m_notices, *m_restore,
@@ -131,7 +131,8 @@ void MainWindow::openFile(const QString& path) { m_files->open(path); }
 void MainWindow::saveTo(const QString& path) { m_files->saveTo(path); }
 bool MainWindow::revealParameter(const Address& address, bool focus) {
   m_welcome->leave();
-  if (workspaceTab() == kTuneTab) showWorkspace(kSceneTab);  // Tune has no rows
+  // The others have no rows.
+  if (workspaceTab() != kSketchTab) showWorkspace(kSceneTab);
   return m_pages->reveal(address, focus);
 }
 
@@ -160,10 +161,12 @@ void MainWindow::makeTopBar() {
   m_top = new TopBar(undoAction, redoAction, search, headset);
   setMenuWidget(m_top);
   QTabBar* workspaces = m_top->workspaces();
-  for (const char* name : {"Scene", "Tune", "Sketch"}) workspaces->addTab(QString::fromLatin1(name));
+  for (const char* name : {"Scene", "Tune", "Sketch", "Film"}) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
-    m_layout->setWorkspace(index == kTuneTab ? Workspace::Tune : Workspace::Scene);
+    m_layout->setWorkspace(index == kTuneTab   ? Workspace::Tune
+                           : index == kFilmTab ? Workspace::Film
+                                               : Workspace::Scene);
     m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);
   });
   connect(m_tools.get(), &Toolbox::toolChanged, this, &MainWindow::onTool);
@@ -175,7 +178,7 @@ MainWindow::WorkspaceTab MainWindow::workspaceTab() const {
 
 void MainWindow::showWorkspace(WorkspaceTab tab) { m_top->workspaces()->setCurrentIndex(tab); }
 
-/// A brush is held in Sketch alone; what else is taken in hand leaves Tune as it is.
+/// A brush is held in Sketch alone; what else is taken in hand leaves Tune and Film as they are.
 void MainWindow::onTool() {
   m_welcome->leave();
   const bool draws = m_tools->tool().usesBrush();
