@@ -28,6 +28,7 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& f
   take(m_link->shown(), frame);
   carry(frame);
   turn(frame);
+  m_panels.follow(frame, *m_view);
   tellHands(frame);
   showHands(frame);
   static const Snapshot kEmpty;
@@ -73,7 +74,8 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     HandsSeen::Hand& told = seen.hands[hand];
     told.input = input;
     told.holds = input.hold > kHeld && !m_carrying;
-    if (m_carrying) told.input.draw = 0;
+    told.panel = m_carrying ? std::nullopt : m_panels.pointed(hand);
+    if (m_carrying || m_panels.takes(hand)) told.input.draw = 0;
     if (!input.aim) continue;
     told.tip = m_stand.toScene(tipOf(*input.aim));
     const Quaternion turned = m_stand.toScene(*input.aim).orientation;
@@ -86,22 +88,28 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
 void LiveScene::showHands(const HeadsetFrame& frame) {
   m_props.opaque.clear();
   m_props.clear.clear();
+  m_props.panels.clear();
   for (const size_t hand : {kLeft, kRight}) {
     const std::optional<HandPose>& aim = frame.hands[hand].aim;
     if (!aim) continue;
     const BrushVolume& brush = m_view->brushes[hand];
     addWand(m_props, m_stand.toScene(*aim), 1 / m_stand.scale, brush.colour, m_view->look.dark);
-    if (!m_carrying) addVolume(m_props, m_stand.toScene(tipOf(*aim)), brush);
+    if (m_carrying) continue;
+    if (const auto hit = m_panels.hit(hand))
+      addBeam(m_props, m_stand.toScene(*aim), 1 / m_stand.scale, (*hit - aim->position).norm(), m_view->accent);
+    else if (!m_panels.takes(hand))
+      addVolume(m_props, m_stand.toScene(tipOf(*aim)), brush);
   }
+  m_panels.addTo(m_props, m_stand, *m_view);
   m_renderer.show(m_props);
 }
 
-/// A tick for each stroke that began.
+/// A tick for each stroke that began, and for what is pointed at on panels.
 std::array<std::optional<Vibration>, 2> LiveScene::feel() {
   std::array<std::optional<Vibration>, 2> felt;
   for (const size_t hand : {kLeft, kRight}) {
-    if (m_view->strokes[hand] > m_felt[hand]) felt[hand] = Vibration{};
-    m_felt[hand] = m_view->strokes[hand];
+    if (m_view->ticks[hand] > m_felt[hand]) felt[hand] = Vibration{};
+    m_felt[hand] = m_view->ticks[hand];
   }
   return felt;
 }
@@ -114,7 +122,7 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
     m_lasts = moves ? std::min(frame.time - m_came, kLongest) : 0;
     m_came = frame.time;
   }
-  if (m_view->project == 0) m_felt = view->strokes;  // those of earlier stays
+  if (m_view->project == 0) m_felt = view->ticks;  // those of earlier stays
   if (view->project != m_view->project) m_stand = standBefore(frame.head, view->box);
   m_view = std::move(view);
 }

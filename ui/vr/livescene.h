@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/vr/headset.h"
 #include "ui/vr/headsetlink.h"
+#include "ui/vr/panels.h"
 #include "ui/vr/stand.h"
 
 namespace ps::vr {
@@ -38,8 +39,9 @@ class LiveScene : public HeadsetScene {
   };
   std::optional<Carrying> m_carrying;
   bool m_turns = false;              ///< asked for already
-  std::array<uint64_t, 2> m_felt{};  ///< strokes
-  Props m_props;                     ///< kept for its memory
+  std::array<uint64_t, 2> m_felt{};  ///< ticks
+  Panels m_panels;
+  Props m_props;  ///< kept for its memory
   /// What the renderer has prepared: while only head and hands move, it stays.
   uint64_t m_prepared = 0;
   double m_share = -1;  ///< nothing yet

@@ -99,9 +99,8 @@ MainWindow::MainWindow(const Options& options)
   m_palette = new CommandPalette(this);
   m_tour = new Tour(*this);
   connectParts();
-  m_vr = std::make_unique<VrMode>(VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status,
-                                                *m_actions.find(QStringLiteral("simulation.vr")),
-                                                *m_actions.find(QStringLiteral("simulation.tryVr"))});
+  m_vr = std::make_unique<VrMode>(
+      VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status, *m_curves, m_actions});
   m_layout->applyDefault();
   m_layout->restore();
   qApp->installEventFilter(this);
@@ -277,6 +276,8 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                   m_session->recorded().showNewest();
                   graphs()->fit();
                 });
+  menu->addSeparator();
+  m_sketch->addGravity(menu);
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("simulation.vr")));
   m_actions.add(menu, QStringLiteral("simulation.tryVr"), QStringLiteral("Try VR without a headset"), {}, {});
