@@ -3,6 +3,7 @@
 #include "core/io/projectio.h"
 #include "core/simulation/runrecord.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/film/thumbnail.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/help/helpwindow.h"
@@ -291,6 +292,43 @@ class TestPreferences : public SampleWindowTest {
     document().undoStack().undo();
     QVERIFY(document().about() == before);
     QVERIFY(m_window->windowTitle().contains(QString::fromStdString(before.title)));
+  }
+
+  /// Drawn beside the interface, one step each, and shown in the dialog.
+  void theProjectHasAPicture() {
+    const std::string before = writeProject(document().project());
+    m_window->action(QStringLiteral("edit.project"))->trigger();
+    auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+    QVERIFY(about && QTest::qWaitForWindowExposed(about));
+    const auto button = [about](const QString& text) {
+      const auto all = about->findChildren<QPushButton*>();
+      const auto it = std::find_if(all.begin(), all.end(), [&](const QPushButton* one) { return one->text() == text; });
+      return it == all.end() ? nullptr : *it;
+    };
+    QPushButton* remove = button(QStringLiteral("Remove"));
+    QPushButton* take = button(QStringLiteral("Take from view"));
+    QVERIFY(take && remove && !remove->isEnabled());
+    const auto shown = [about] {
+      const auto labels = about->findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(), [](const QLabel* label) { return !label->pixmap().isNull(); });
+    };
+    QVERIFY(!shown());
+    const int steps = document().undoStack().index();
+    QTest::mouseClick(take, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(!document().project().thumbnail.empty(), kLong);
+    QCOMPARE(pictureOf(document().project().thumbnail).size(), QSize(320, 180));
+    QVERIFY(shown() && remove->isEnabled());
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("picture"));
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) about->grab().save(folder + QStringLiteral("/tst_project_picture.png"));
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QVERIFY(document().project().thumbnail.empty() && !shown());
+    document().undoStack().undo();
+    QVERIFY(!document().project().thumbnail.empty() && shown());
+    document().undoStack().undo();
+    QCOMPARE(document().undoStack().index(), steps);
+    QCOMPARE(writeProject(document().project()), before);
+    about->close();
   }
 
   /// With a unit; what is no duration is told of, and the one before stays.

@@ -4,6 +4,7 @@
 #include "tests/shared/scenes.h"
 #include "tests/ui/windowtesting.h"
 #include "ui/document/document.h"
+#include "ui/film/thumbnail.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/theme/theme.h"
@@ -214,6 +215,26 @@ class TestWelcome : public QObject {
     picture("welcome_recent");
     opens([this] { recent().front()->click(); });
     QCOMPARE(document().path(), path);
+  }
+
+  /// What a project brings along is shown in place of what was last seen of it.
+  void aPictureOfItsOwnGoesFirst() {
+    startLater();
+    const QString path = m_directory->filePath(QStringLiteral("red.json"));
+    QFile::remove(thumbnailPath(path));
+    QImage red(320, 180, QImage::Format_RGB32);
+    red.fill(qRgb(255, 0, 0));
+    ProjectAbout about = document().about();
+    about.thumbnail = thumbnailOf(red);
+    document().setAbout(about, QStringLiteral("picture"));
+    m_window->saveTo(path);
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(thumbnailPath(path)), kLong);
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 1, kLong);
+    const QImage shown = recent().front()->project().picture;
+    QCOMPARE(shown.size(), red.size());
+    QCOMPARE(shown.pixel(160, 90), red.pixel(160, 90));
+    QVERIFY(pictureOf("AAAA").isNull());  // no picture
   }
 
   /// Samples are in nobody's way: neither recent, nor drawn into the cache.

@@ -112,11 +112,12 @@ void ShareActions::writeCopy(const QString& path) {
     why = QStringLiteral("This is the file that is open: choose another name for the copy.");
   m_notices.refuse(QStringLiteral("No copy is written."), why);
   if (!why.isEmpty()) return;
-  const QImage shown = m_view ? m_view->grabFramebuffer() : QImage();
+  const bool hasPicture = !document.project().thumbnail.empty();
+  const QImage shown = m_view && !hasPicture ? m_view->grabFramebuffer() : QImage();
   m_session.work().start(
       {kCopy, path, [path, shown, project = document.project(), plugins = m_session.registry()](const KeptRun&) {
          SharedCopy copy = copyForSharing(project, *plugins);
-         copy.project.thumbnail = thumbnailOf(shown);
+         if (copy.project.thumbnail.empty()) copy.project.thumbnail = thumbnailOf(shown);
          return write(std::move(copy), *plugins, path);
        }});
 }
