@@ -11,6 +11,7 @@
 #include "ui/session/selection.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QMimeData>
@@ -108,6 +109,30 @@ class TestBodies : public SampleWindowTest {
     while (document().undoStack().canUndo()) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("In cm")));  // nobody asks for what is gone
+  }
+
+  /// By Esc in the view: nothing comes of it, and the next one is read.
+  void escGivesUpAMesh() {
+    const QString rabbit = QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj");
+    const std::string before = writeProject(document().project());
+    drop(rabbit);
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("was given up")),
+             qPrintable(m_window->notice()->text()));
+    QCOMPARE(writeProject(document().project()), before);
+    drop(rabbit);  // one thread reads them in their order
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{2}, kLong);
+    QVERIFY(noticeButton(*m_window, QStringLiteral("In cm")));
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  void theStatusLineSaysHowFarAMeshIs() {
+    StatusLine* line = m_window->statusLine();
+    line->setWork(QStringLiteral("Mending"), 80);
+    QVERIFY(line->parts().contains(QStringLiteral("80 % mending")));
+    line->setWork({}, -1);
+    QVERIFY(line->parts().filter(QStringLiteral("mending")).isEmpty());
   }
 
   /// A fixed body of the mesh's surface, whose temperature may be held: the row of that acts on the running scene.

@@ -120,6 +120,20 @@ class TestMendingWindow : public SampleWindowTest {
     QTRY_VERIFY(session().snapshot() && session().snapshot()->id.size() == 125);
   }
 
+  /// Once it is told of, by Esc in the view as well, which its button says.
+  void escGivesUpASceneInTheMaking() {
+    constexpr int kSide = 60;
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() == 125 && !session().engine()->making(), kLong);
+    document().open(scenes::iceOnPlate(kSide, 300), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Cancel"))->toolTip().contains(QStringLiteral("Esc")));
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.empty() && !session().engine()->making(), kLong);
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() == 125, kLong);
+  }
+
   void aRequiredPluginIsAskedForOnceMoreWhenSaved() {
     const QTemporaryDir directory;
     const QString path = directory.filePath(QStringLiteral("needy.json"));

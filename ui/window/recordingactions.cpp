@@ -7,7 +7,6 @@
 #include "ui/session/recordingfiles.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
@@ -93,13 +92,13 @@ void RecordingActions::chooseOpen() {
   if (!path.isEmpty()) m_session.recordings().open(path);
 }
 
-void RecordingActions::onWorking(const QString& stage, double done) {
-  const QString text = QStringLiteral("%1 %").arg(formatFixed(100 * done, 0));
+void RecordingActions::onWorking(const QString& stage, double done, double left) {
+  const QString text = progressText(done, left);
   if (std::exchange(m_tells, true)) {
     m_notices.bar().setText(kWorking, text);
   } else {
     m_notices.bar().show(kWorking, MessageLevel::Info, stage, text,
-                         {{QStringLiteral("Cancel"), [this] { m_session.recordings().cancel(); }}});
+                         {NoticeBar::cancelButton([this] { m_session.recordings().cancel(); })});
   }
 }
 
