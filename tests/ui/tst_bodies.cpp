@@ -7,8 +7,10 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
+#include "ui/rows/panelheader.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
@@ -70,7 +72,14 @@ class TestBodies : public SampleWindowTest {
     const std::string id = document().project().bodies.back().id;
     const QString width = QStringLiteral("shape/%1/size_x").arg(QString::fromStdString(id));
     QTRY_VERIFY(m_window->inspector().bodyPanel()->row(width));
+    // How many particles it would be is told before it is so.
+    const auto* header = m_window->inspector().bodyPanel()->findChild<PanelHeader*>();
+    const auto ahead = [&] { return particlesAhead(particleCount(*document().body(id), 0.02)); };
+    const QString first = ahead();
+    QVERIFY2(header->toolTip().endsWith(first), qPrintable(header->toolTip()));
     QCOMPARE(document().setParameter({Owner::Shape, id, "size_x"}, 0.2), QString());
+    QVERIFY(ahead() != first);
+    QTRY_VERIFY2(header->toolTip().endsWith(ahead()), qPrintable(header->toolTip()));
     QCOMPARE(document().setParameter({Owner::Shape, id, "rotation_x"}, 90.0), QString());
     QVERIFY(!document().setParameter({Owner::Shape, id, "size_y"}, 0.0).isEmpty());
     toTheStart();
