@@ -81,7 +81,10 @@ Session::~Session() {
 }
 
 void Session::start() {
-  m_worker->run([this, paths = m_options.pluginPaths] {
+  std::vector<std::string> paths = m_options.pluginPaths;
+  if (const QString own = preferences::folder(preferences::Folder::Plugins); !own.isEmpty())
+    paths.insert(paths.begin(), own.toStdString());
+  m_worker->run([this, paths = std::move(paths)] {
     PluginRegistry::Options options;
     options.extraPaths = paths;
     QMetaObject::invokeMethod(this,

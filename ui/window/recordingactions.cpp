@@ -4,6 +4,7 @@
 #include "core/io/recording.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -12,7 +13,6 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
-#include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
@@ -79,8 +79,8 @@ void RecordingActions::chooseSave() {
   const Document& document = m_session.document();
   QString suggestion = RecordingFiles::beside(document.path());
   if (suggestion.isEmpty() || m_session.files().isSample(document.path())) {
-    suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
-                 fileNameFor(document.title()) + QLatin1String(kRecordingEnding);
+    suggestion = preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) +
+                 QLatin1String(kRecordingEnding);
   }
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save the recording"), suggestion, kFilter);
   if (!path.isEmpty()) m_session.recordings().save(path);

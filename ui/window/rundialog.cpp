@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -15,7 +16,6 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
-#include <QtCore/QStandardPaths>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QHBoxLayout>
@@ -123,8 +123,7 @@ QString RunDialog::besideProject(const QString& ending) const {
   const QString& path = document.path();
   if (!path.isEmpty() && !m_session.files().isSample(path))
     return QFileInfo(path).absolutePath() + QLatin1Char('/') + QFileInfo(path).completeBaseName() + ending;
-  return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
-         fileNameFor(document.title()) + ending;
+  return preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) + ending;
 }
 
 QString RunDialog::writtenText(size_t frames, const QString& where) {
