@@ -7,6 +7,7 @@
 #include "ui/film/thumbnail.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
+#include "ui/session/session.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/welcome/cardgrid.h"
@@ -17,6 +18,7 @@
 #include "ui/window/welcome.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
@@ -99,6 +101,33 @@ class TestWelcome : public QObject {
     open();
     QTest::qWait(100);
     QVERIFY(!m_window->tour().running());
+  }
+
+  /// From the window to matter that moves, in this order, and nobody has to click for it.
+  void theFirstStartReachesARunningSample() {
+    const MainWindow::Options options = starting();
+    m_window = std::make_unique<MainWindow>(options);
+    Session& session = m_window->session();
+    const auto order = std::make_shared<QStringList>();
+    const auto note = [order](const char* what) { return [order, what] { *order << QLatin1String(what); }; };
+    connect(&session, &Session::ready, this, note("plugins"));
+    connect(&session.files(), &DocumentFiles::opened, this, note("opened"));
+    connect(m_window.get(), &MainWindow::projectShown, this, note("shown"));
+    m_window->resize(1600, 1000);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QElapsedTimer since;
+    since.start();
+    m_window->start();
+    QTRY_VERIFY_WITH_TIMEOUT(order->contains(QStringLiteral("shown")), kLong);
+    qInfo("the sample shows after %lld ms", since.elapsed());
+    QCOMPARE(*order, QStringList({QStringLiteral("plugins"), QStringLiteral("opened"), QStringLiteral("shown")}));
+    QCOMPARE(document().path(), options.sample);
+    QTRY_VERIFY_WITH_TIMEOUT(session.now() > 0, kLong);
+    const double then = session.now();
+    QTRY_VERIFY_WITH_TIMEOUT(session.now() > then, kLong);
+    QVERIFY(session.playing() && !m_window->welcome().shown());
+    QVERIFY(!QApplication::activeModalWidget() && !QApplication::activePopupWidget());
   }
 
   void laterStartsShowThePage() {
@@ -281,12 +310,15 @@ class TestWelcome : public QObject {
  private:
   Document& document() { return m_window->session().document(); }
   WelcomePage* page() { return m_window->welcome().page(); }
-  void open() {
+  MainWindow::Options starting() const {
     MainWindow::Options options;
     options.sample = kProjects + QStringLiteral("/ice-on-hot-plate.json");
     options.samples = kProjects;
     options.session.autosaveDirectory = m_directory->filePath(QStringLiteral("copies"));
-    m_window = shownWindow(options, {1600, 1000});
+    return options;
+  }
+  void open() {
+    m_window = shownWindow(starting(), {1600, 1000});
     QVERIFY(m_window);
   }
   /// Not for the first time.
