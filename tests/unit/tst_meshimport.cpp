@@ -161,7 +161,7 @@ class TstMeshImport : public QObject {
     told.expect(1);
     const ProgressScope scope(&told);
     QVERIFY(importMesh(kRabbit.toStdString()).facts.closed());
-    QVERIFY(told.stages == (std::vector<std::string>{"Reading", "Reducing"}));  // nobody waits for mending here
+    QVERIFY(told.stages == (std::vector<std::string>{"Reading", "Mending", "Reducing"}));
     QVERIFY2(told.read > 0.3, qPrintable(QString::number(told.read)));
     QVERIFY(!told.falls);
     QVERIFY(std::abs(told.last - 1) < 1e-9);
