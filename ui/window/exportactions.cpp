@@ -5,7 +5,6 @@
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/exportform.h"
 #include "ui/window/filmform.h"
@@ -82,14 +81,12 @@ void ExportActions::open(const std::function<QDialog*()>& make) {
 }
 
 void ExportActions::onWorking(const QString& stage, double done, double left) {
-  QString text = QStringLiteral("%1 %").arg(formatFixed(100 * done, 0));
-  if (left >= 0) text += QStringLiteral(", %1 left").arg(spanText(left));
-  if (m_session.work().isCancelled()) text = QStringLiteral("Giving up…");
+  const QString text = m_session.work().isCancelled() ? QStringLiteral("Giving up…") : progressText(done, left);
   if (std::exchange(m_tells, true)) {
     m_notices.bar().setText(kTopic, text);
   } else {
     m_notices.bar().show(kTopic, MessageLevel::Info, stage, text,
-                         {{QStringLiteral("Cancel"), [this] { m_session.work().cancel(); }}});
+                         {NoticeBar::cancelButton([this] { m_session.work().cancel(); })});
   }
 }
 

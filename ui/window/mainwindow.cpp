@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/document/document.h"
+#include "ui/fitting/fitpanel.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
@@ -14,6 +15,7 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
+#include "ui/session/recordingfiles.h"
 #include "ui/session/resuming.h"
 #include "ui/session/runwork.h"
 #include "ui/session/selection.h"
@@ -311,6 +313,7 @@ void MainWindow::connectParts() {
     }
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
+  connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
   connect(m_inspector, &Inspector::keyRefused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
@@ -435,6 +438,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QMainWindow::closeEvent(event);
 }
 
+bool MainWindow::cancelLongWork() {
+  if (m_session->cancelMaking() || m_bodies->cancelReading()) return true;
+  if (m_session->work().cancel() || m_session->recordings().cancelTold()) return true;
+  auto* fitting = findChild<FitPanel*>();
+  return fitting && fitting->cancel();
+}
+
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
     QMainWindow::keyPressEvent(event);
@@ -446,7 +456,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     m_welcome->leave();
   } else if (m_centre->currentWidget() != m_pane) {
     m_centre->setCurrentWidget(m_pane);
-  } else if (m_session->work().cancel()) {
+  } else if (cancelLongWork()) {
     return;
   } else if (m_layout->fullViewport()) {
     m_layout->setFullViewport(false);

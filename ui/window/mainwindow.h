@@ -120,6 +120,7 @@ class MainWindow : public QMainWindow {
   void makeHelpMenu(QMenu* menu);
   void makeSimulationMenu(QMenu* menu);
   void connectParts();
+  bool cancelLongWork();  ///< false where there is none
   void onReady();
   void showPluginProblems();
   void updateTitle();

@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
@@ -17,7 +18,6 @@
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QSignalBlocker>
-#include <QtCore/QStandardPaths>
 #include <QtCore/QTimer>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QGridLayout>
@@ -158,8 +158,7 @@ QString RunForm::besideProject(const QString& ending) const {
   const QString& path = document.path();
   if (!path.isEmpty() && !m_session.files().isSample(path))
     return QFileInfo(path).absolutePath() + QLatin1Char('/') + QFileInfo(path).completeBaseName() + ending;
-  return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
-         fileNameFor(document.title()) + ending;
+  return preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) + ending;
 }
 
 QString RunForm::writtenText(size_t frames, const QString& where) {
