@@ -22,6 +22,7 @@
 
 #include <QtGui/QAction>
 
+#include <cmath>
 #include <utility>
 
 namespace ps {
@@ -222,10 +223,13 @@ void VrMode::end(const vr::Ending& ending) {
 void VrMode::showState() {
   m_action.setChecked(m_headset != nullptr);
   m_without.setChecked(m_window != nullptr);
+  QString in = QStringLiteral("In VR");
+  if (m_headset && m_headset->detail() < 1)
+    in += QStringLiteral(", pictures at %1 %, to be in time").arg(std::lround(100 * m_headset->detail()));
   m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")
                             : !m_headset              ? QString()
                             : m_leaving               ? QStringLiteral("Leaving VR")
-                            : m_headset->frames() > 0 ? QStringLiteral("In VR")
+                            : m_headset->frames() > 0 ? in
                                                       : QStringLiteral("Entering VR"));
 }
 

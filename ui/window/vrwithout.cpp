@@ -25,7 +25,8 @@ constexpr double kReach = 0.03;  // m for each notch of the wheel
 constexpr double kNotch = 120;
 constexpr const char* kHints[] = {
     "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach",
-    "Right-drag: look    W A S D E Q: walk    Arrows: size, turn    N: material    U: undo    P: board    Space: play  "
+    "Right-drag: look    W A S D E Q: walk    Arrows: size, turn    N: material    U: undo    P: board    F: go there  "
+    "  Space: play  "
     "  "
     "Esc: end"};
 
@@ -105,6 +106,7 @@ void VrWithout::useKeys(double passed) {
     input.hold = down(Qt::Key_G) || (used && down(Qt::Key_Shift)) ? 1 : 0;
   }
   m_room.input(vr::kLeft).first = down(Qt::Key_Space);
+  m_room.input(vr::kLeft).steerY = double(down(Qt::Key_F));
   vr::HandInput& main = m_room.input(vr::kRight);
   main.first = down(Qt::Key_U);
   main.second = down(Qt::Key_P);
