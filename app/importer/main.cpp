@@ -6,6 +6,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -42,6 +43,20 @@ class Beside : public Assimp::DefaultIOSystem {
 
  private:
   fs::path m_folder;
+};
+
+/// Tells the one who asked for the mesh how far it is.
+class Telling : public Assimp::ProgressHandler {
+ public:
+  bool Update(float share) override {
+    constexpr float kStep = 0.01f;
+    if (share > 1 || share < m_told + kStep) return true;  // some readers say -1, or per cent
+    m_told = share;
+    return writeShare(STDOUT_FILENO, share);
+  }
+
+ private:
+  float m_told = 0;
 };
 
 void limit(int what, rlim_t most) {
@@ -92,7 +107,8 @@ SceneMesh trianglesOf(const aiScene& scene) {
 
 MeshFile readMesh(const std::string& path) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new Beside(path));  // which it deletes
+  importer.SetIOHandler(new Beside(path));     // which it deletes
+  importer.SetProgressHandler(new Telling());  // likewise
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyInteger(
       AI_CONFIG_PP_RVC_FLAGS,

@@ -92,7 +92,6 @@ SharedCopy copyForSharing(Project project, const PluginRegistry& plugins) {
     dropMaterials(project.pluginsRequired, plugins);
   }
   project.end.reset();
-  project.thumbnail.clear();
   for (const std::string& id : usedPlugins(project))
     if (!comesAlong(plugins, id)) copy.needed.push_back(id);
   copy.project = std::move(project);

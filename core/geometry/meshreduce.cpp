@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geometry/meshreduce.h"
 
+#include "core/base/progress.h"
 #include "core/geometry/meshrepair.h"
 
 #include <meshoptimizer.h>
@@ -23,6 +24,7 @@ MeshReduction reduce(SceneMesh& mesh, size_t most) {
   const size_t count = mesh.points.size(), stride = sizeof mesh.points[0];
   const double extent = double{meshopt_simplifyScale(points, count, stride)};
   for (size_t wanted = most; wanted < from; wanted += wanted / 2 + 1) {
+    advance(0);
     SceneMesh reduced = mesh;
     float error = 0;
     const size_t left = meshopt_simplify(reduced.triangles.data()->data(), mesh.triangles.data()->data(), 3 * from,

@@ -14,7 +14,7 @@ struct MeshReduction {
 /// Collapses edges where that moves the surface least (quadrics of Garland & Heckbert 1997, "Surface simplification
 /// using quadric error metrics", by meshoptimizer), until `most` triangles are left. More are, where fewer would have
 /// another topology or, of a closed mesh, change its volume by more than kKeptVolume. Of a mesh that has been repaired:
-/// points that are the same place are one. The same bits for the same mesh.
+/// points that are the same place are one. The same bits for the same mesh. Throws Cancelled.
 MeshReduction reduce(SceneMesh& mesh, size_t most);
 inline constexpr double kKeptVolume = 0.005;
 

@@ -2,6 +2,7 @@
 #include "core/geometry/meshrepair.h"
 
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/scene/solidform.h"
 
 #include <Eigen/Geometry>
@@ -100,9 +101,11 @@ MeshRepair repair(SceneMesh& mesh) {
   if (const std::string problem = problemOf(mesh); !problem.empty()) throw InputError("of its mesh " + problem);
   MeshRepair done;
   done.joined = weld(mesh);
+  advance(0);
   done.left = std::erase_if(mesh.triangles, [&](const Triangle& t) { return !hasArea(mesh, t); });
   if (mesh.triangles.empty()) throw InputError("the mesh has no triangle with an area");
   dropUnused(mesh);
+  advance(0);
   done.turned = signedVolume(mesh) < 0;
   for (Triangle& t : mesh.triangles) {
     if (done.turned) std::swap(t[1], t[2]);

@@ -22,8 +22,8 @@ struct MeshRepair {
 
 /// Makes one point of those that are the same place (within a millionth of the mesh's extent), leaves out triangles
 /// without an area and points that no triangle needs, and turns all triangles of a mesh that is inside out.
-/// Throws InputError for a point that is no number, a triangle of a point that does not exist, and where no triangle is
-/// left.
+/// Throws Cancelled, and InputError for a point that is no number, a triangle of a point that does not exist, and where
+/// no triangle is left.
 MeshRepair repair(SceneMesh& mesh);
 
 }  // namespace ps

@@ -29,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "phasesketch-import";
+constexpr double kReading = 0.7, kMending = 0.15, kReducing = 0.15;  ///< of the time that it takes
+constexpr size_t kReadSteps = 1000;
 constexpr int kLook = 50;                             ///< ms between two questions whether to go on
 constexpr size_t kMostBytes = size_t{1} << 30;        ///< of what the process tells
 constexpr double kLeastSize = 1e-6, kMostSize = 1e4;  ///< m, as solids may have
@@ -73,6 +75,7 @@ class MeshProcess {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(std::lround(1000 * patience));
     std::string bytes;
     std::vector<char> part(1 << 16);
+    size_t told = 0;
     for (;;) {
       advance(0);
       if (std::chrono::steady_clock::now() > end) throw InputError("was not read within the time that a mesh may take");
@@ -83,6 +86,11 @@ class MeshProcess {
       if (count <= 0) return bytes;
       if (bytes.size() + static_cast<size_t>(count) > kMostBytes) throw InputError("has more triangles than fit");
       bytes.append(part.data(), static_cast<size_t>(count));
+      if (const auto share = takeShare(bytes)) {
+        const auto steps = static_cast<size_t>(*share * kReadSteps);
+        advance(steps - std::min(steps, told));
+        told = std::max(told, steps);
+      }
     }
   }
   /// Its exit status, as of waitpid().
@@ -169,14 +177,17 @@ ImportedMesh importMesh(const std::string& path, std::optional<double> metresPer
     std::error_code problem;
     if (!fs::exists(path, problem)) throw InputError("there is no such file");
     if (!fs::is_regular_file(path, problem)) throw InputError("is no file");
+    beginStage("Reading", kReading, kReadSteps);
     MeshFile file = readFile(path, patience);
     ImportedMesh imported;
     imported.unitIsOfFile = !metresPerUnit && file.metresPerUnit > 0;
     const double meant = extentOf(file.mesh).maxCoeff() > kMostSize ? 0.001 : 1;
     imported.metresPerUnit = metresPerUnit.value_or(imported.unitIsOfFile ? file.metresPerUnit : meant);
     scale(file.mesh, imported.metresPerUnit);
+    beginStage("Mending", kMending, 1);
     imported.repair = repair(file.mesh);
     requireSize(file.mesh);
+    beginStage("Reducing", kReducing, 1);
     advance(0);
     imported.reduction = reduce(file.mesh, most);
     file.mesh.name = fs::path(path).stem();
@@ -184,6 +195,7 @@ ImportedMesh importMesh(const std::string& path, std::optional<double> metresPer
     imported.facts = factsOf(file.mesh);
     file.mesh.origin = originOf(fs::path(path).filename(), imported);
     imported.mesh = std::make_shared<const SceneMesh>(std::move(file.mesh));
+    advance(1);
     return imported;
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());

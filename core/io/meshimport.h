@@ -30,8 +30,9 @@ struct ImportedMesh {
 /// its own, the program phasesketch-import beside this one, which may take 4 GiB and `patience` s: whatever the file
 /// holds, this process is safe. Without `metresPerUnit` the file's own unit holds, and where it says none, metres, or
 /// millimetres where that would be beyond 10 km. What is broken is mended (see repair()), what has more than `most`
-/// triangles reduced (see reduce()); both are said in the mesh's origin. Asks the thread's Progress now and then
-/// whether to go on. Throws InputError "PATH: what is wrong, and what to do".
+/// triangles reduced (see reduce()); both are said in the mesh's origin. Advances the thread's Progress
+/// by stages that weigh 1 together: reading, mending, reducing. Throws Cancelled, and InputError "PATH: what is wrong,
+/// and what to do".
 ImportedMesh importMesh(const std::string& path, std::optional<double> metresPerUnit = std::nullopt,
                         double patience = 120, size_t most = kKeptTriangles);
 

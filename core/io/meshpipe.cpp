@@ -19,6 +19,11 @@ struct Head {
   uint64_t points = 0, triangles = 0;
 };
 
+struct Share {
+  char magic[4] = {'P', 'S', 'M', '%'};
+  float share = 0;
+};
+
 bool writeAll(int descriptor, const void* data, size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -46,6 +51,26 @@ const char* take(std::vector<T>& values, uint64_t count, const char* from) {
 constexpr size_t kMostSaid = 240;  ///< bytes
 
 }  // namespace
+
+bool writeShare(int descriptor, float share) {
+  Share told;
+  told.share = share;
+  return writeAll(descriptor, &told, sizeof told);
+}
+
+std::optional<double> takeShare(std::string& bytes) {
+  std::optional<double> last;
+  const Share wanted;
+  Share told;
+  size_t taken = 0;
+  for (; bytes.size() - taken >= sizeof told; taken += sizeof told) {
+    std::memcpy(&told, bytes.data() + taken, sizeof told);
+    if (std::memcmp(told.magic, wanted.magic, sizeof told.magic) != 0) break;
+    if (told.share >= 0 && told.share <= 1) last = double{told.share};
+  }
+  bytes.erase(0, taken);
+  return last;
+}
 
 bool writeMesh(int descriptor, const MeshFile& file, const std::string& problem) {
   Head head;

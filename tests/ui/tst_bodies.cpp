@@ -7,10 +7,13 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
+#include "ui/rows/panelheader.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QMimeData>
@@ -69,7 +72,14 @@ class TestBodies : public SampleWindowTest {
     const std::string id = document().project().bodies.back().id;
     const QString width = QStringLiteral("shape/%1/size_x").arg(QString::fromStdString(id));
     QTRY_VERIFY(m_window->inspector().bodyPanel()->row(width));
+    // How many particles it would be is told before it is so.
+    const auto* header = m_window->inspector().bodyPanel()->findChild<PanelHeader*>();
+    const auto ahead = [&] { return particlesAhead(particleCount(*document().body(id), 0.02)); };
+    const QString first = ahead();
+    QVERIFY2(header->toolTip().endsWith(first), qPrintable(header->toolTip()));
     QCOMPARE(document().setParameter({Owner::Shape, id, "size_x"}, 0.2), QString());
+    QVERIFY(ahead() != first);
+    QTRY_VERIFY2(header->toolTip().endsWith(ahead()), qPrintable(header->toolTip()));
     QCOMPARE(document().setParameter({Owner::Shape, id, "rotation_x"}, 90.0), QString());
     QVERIFY(!document().setParameter({Owner::Shape, id, "size_y"}, 0.0).isEmpty());
     toTheStart();
@@ -108,6 +118,30 @@ class TestBodies : public SampleWindowTest {
     while (document().undoStack().canUndo()) document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("In cm")));  // nobody asks for what is gone
+  }
+
+  /// By Esc in the view: nothing comes of it, and the next one is read.
+  void escGivesUpAMesh() {
+    const QString rabbit = QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj");
+    const std::string before = writeProject(document().project());
+    drop(rabbit);
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("was given up")),
+             qPrintable(m_window->notice()->text()));
+    QCOMPARE(writeProject(document().project()), before);
+    drop(rabbit);  // one thread reads them in their order
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{2}, kLong);
+    QVERIFY(noticeButton(*m_window, QStringLiteral("In cm")));
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  void theStatusLineSaysHowFarAMeshIs() {
+    StatusLine* line = m_window->statusLine();
+    line->setWork(QStringLiteral("Mending"), 80);
+    QVERIFY(line->parts().contains(QStringLiteral("80 % mending")));
+    line->setWork({}, -1);
+    QVERIFY(line->parts().filter(QStringLiteral("mending")).isEmpty());
   }
 
   /// A fixed body of the mesh's surface, whose temperature may be held: the row of that acts on the running scene.

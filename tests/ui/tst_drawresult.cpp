@@ -148,14 +148,23 @@ class TestDrawResult : public SampleWindowTest {
     QVERIFY(rows->parameters().empty());
   }
 
+  void aSearchIsGivenUp_data() {
+    QTest::addColumn<bool>("byKey");
+    QTest::newRow("button") << false;
+    QTest::newRow("Esc in the view") << true;
+  }
   void aSearchIsGivenUp() {
+    QFETCH(bool, byKey);
     chooseQuantity("Ice: Solid mass");
     panel()->parameters()->add(kFloor);
     wantedView()->setWanted({{20.0}, {10000.0}});  // runs of twenty seconds
     QSignalSpy ended(panel(), &FitPanel::ended);
     QTest::mouseClick(button("Find values"), Qt::LeftButton);
     QTest::qWait(200);
-    QTest::mouseClick(button("Cancel"), Qt::LeftButton);
+    if (byKey)
+      QTest::keyClick(view(), Qt::Key_Escape);
+    else
+      QTest::mouseClick(button("Cancel"), Qt::LeftButton);
     QVERIFY(ended.wait(kLong));
     QVERIFY(button("Find values")->isVisible());
     QVERIFY(!button("Apply")->isEnabled());

@@ -10,8 +10,8 @@
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
-#include "ui/window/exportdialog.h"
-#include "ui/window/filmdialog.h"
+#include "ui/window/exportform.h"
+#include "ui/window/filmform.h"
 #include "ui/window/statusline.h"
 
 #include <QtCore/QDir>
@@ -76,8 +76,7 @@ class TestExportWindow : public SampleWindowTest {
   void everyFormatIsWritten() {
     QFETCH(const int, row);
     const ExportFormat& format = exportFormats()[static_cast<size_t>(row)];
-    auto* dialog = openDialog<ExportDialog>("file.export");
-    QVERIFY(dialog);
+    QVERIFY(openDialog<ExportForm>("file.export"));
     field<QComboBox>("Format")->setCurrentIndex(row);
     field<QLineEdit>("From, in s")->setText(QStringLiteral("0.1"));
     field<QLineEdit>("To, in s")->setText(QStringLiteral("0,3"));
@@ -98,10 +97,11 @@ class TestExportWindow : public SampleWindowTest {
 
   /// In the view's camera and colours: the middle of the picture is what the view shows there.
   void picturesAreWritten() {
-    QVERIFY(openDialog<FilmDialog>("file.film"));
+    QVERIFY(openDialog<FilmForm>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(1);
     field<QComboBox>("Size")->setCurrentIndex(field<QComboBox>("Size")->count() - 1);
-    const QSize size = field<QComboBox>("Size")->currentData().toSize();
+    const QSize seen = (QSizeF(view()->size()) * view()->devicePixelRatioF()).toSize();
+    const QSize size(seen.width() / 2 * 2, seen.height() / 2 * 2);
     choose("Frames", 12);
     const QString folder = m_folder.filePath(QStringLiteral("pictures"));
     place(folder);
@@ -128,7 +128,7 @@ class TestExportWindow : public SampleWindowTest {
   /// By a program of that name, which shows what it is given: the frames, whole and in order.
   void filmsGoThroughFfmpeg() {
     const OtherFfmpeg ffmpeg("for last; do :; done\ncat > \"$last\"\n");
-    QVERIFY(openDialog<FilmDialog>("file.film"));
+    QVERIFY(openDialog<FilmForm>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     field<QComboBox>("Size")->setCurrentIndex(0);
     choose("Frames", 12);
@@ -144,7 +144,7 @@ class TestExportWindow : public SampleWindowTest {
 
   void aFilmThatFailsLeavesNothing() {
     const OtherFfmpeg ffmpeg("echo no such encoder >&2\nexit 1\n");
-    QVERIFY(openDialog<FilmDialog>("file.film"));
+    QVERIFY(openDialog<FilmForm>("file.film"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     place(m_folder.filePath(QStringLiteral("none.mp4")));
     QSignalSpy failed(&session().work(), &RunWork::failed);
@@ -157,7 +157,7 @@ class TestExportWindow : public SampleWindowTest {
   }
 
   void whatCannotBeIsSaid() {
-    QVERIFY(openDialog<ExportDialog>("file.export"));
+    QVERIFY(openDialog<ExportForm>("file.export"));
     field<QLineEdit>("From, in s")->setText(QStringLiteral("0.3"));
     field<QLineEdit>("To, in s")->setText(QStringLiteral("0.1"));
     QVERIFY(!button("Export")->isEnabled());
@@ -176,9 +176,36 @@ class TestExportWindow : public SampleWindowTest {
     m_window->notice()->close(QStringLiteral("export"));
   }
 
+  /// The workspace Film asks for the same beside the view. Its range goes on with the run, until somebody types one.
+  void aWorkspaceIsForFilms() {
+    m_window->showWorkspace(MainWindow::kFilmTab);
+    m_form = m_window->layoutOfDocks().dock(QStringLiteral("dock.film"))->findChild<FilmForm*>();
+    QVERIFY(m_form && m_form->isVisible() && !m_window->inspectorDock()->isVisible());
+    QTRY_COMPARE_WITH_TIMEOUT(field<QLineEdit>("To, in s")->text(), QStringLiteral("0.4"), kLong);
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(field<QLineEdit>("To, in s")->text() != QStringLiteral("0.4"), kLong);
+    picture(QStringLiteral("tst_exportwindow_workspace.png"));
+    field<QLineEdit>("To, in s")->selectAll();
+    QTest::keyClicks(field<QLineEdit>("To, in s"), QStringLiteral("0.2"));
+    field<QComboBox>("Format")->setCurrentIndex(1);
+    choose("Frames", 6);
+    field<QComboBox>("Size")->setCurrentIndex(0);
+    const QString folder = m_folder.filePath(QStringLiteral("workspace"));
+    place(folder);
+    QSignalSpy written(&session().work(), &RunWork::done);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QVERIFY(!button("Export")->isEnabled());
+    QVERIFY(written.wait(kLong));
+    QCOMPARE(QDir(folder).entryList({QStringLiteral("frame-*.png")}, QDir::Files).size(), 3);
+    QTRY_VERIFY_WITH_TIMEOUT(button("Export")->isEnabled(), kLong);
+    m_window->notice()->close(QStringLiteral("export"));
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QVERIFY(m_window->inspectorDock()->isVisible());
+  }
+
   /// Esc in the view ends it within 0.2 s; what was written is whole, and listed.
   void escGivesItUp() {
-    QVERIFY(openDialog<ExportDialog>("file.export"));
+    QVERIFY(openDialog<ExportForm>("file.export"));
     const QString folder = m_folder.filePath(QStringLiteral("given-up"));
     field<QComboBox>("Format")->setCurrentIndex(0);
     place(folder);
@@ -226,25 +253,26 @@ class TestExportWindow : public SampleWindowTest {
   }
 
  private:
-  template <class Dialog>
-  Dialog* openDialog(const char* action) {
+  template <class Form>
+  bool openDialog(const char* action) {
     m_window->action(QString::fromLatin1(action))->trigger();
-    m_dialog = m_window->findChild<Dialog*>();
-    return qobject_cast<Dialog*>(m_dialog);
+    auto* dialog = m_window->findChild<RunDialog*>();
+    m_form = dialog ? dialog->findChild<Form*>() : nullptr;
+    return m_form != nullptr;
   }
   template <class Field>
   Field* field(const char* label) {
-    for (Field* one : m_dialog->findChildren<Field*>())
+    for (Field* one : m_form->findChildren<Field*>())
       if (one->accessibleName() == QString::fromLatin1(label)) return one;
     return nullptr;
   }
   QPushButton* button(const char* text) {
-    for (QPushButton* one : m_dialog->findChildren<QPushButton*>())
+    for (QPushButton* one : m_form->findChildren<QPushButton*>())
       if (one->text() == QString::fromLatin1(text)) return one;
     return nullptr;
   }
   bool anyLabelBegins(const char* text) {
-    const auto labels = m_dialog->findChildren<QLabel*>();
+    const auto labels = m_form->findChildren<QLabel*>();
     return std::any_of(labels.begin(), labels.end(),
                        [&](QLabel* label) { return label->text().startsWith(QString::fromUtf8(text)); });
   }
@@ -252,14 +280,14 @@ class TestExportWindow : public SampleWindowTest {
     auto* box = field<QComboBox>(label);
     box->setCurrentIndex(box->findData(data));
   }
-  void place(const QString& path) { static_cast<RunDialog*>(m_dialog)->setPlace(path); }
+  void place(const QString& path) { m_form->setPlace(path); }
   void dialogPicture(const QString& name) {
     const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-    if (!folder.isEmpty()) m_dialog->grab().save(folder + QLatin1Char('/') + name);
+    if (!folder.isEmpty()) m_form->window()->grab().save(folder + QLatin1Char('/') + name);
   }
 
   QTemporaryDir m_folder;
-  QDialog* m_dialog = nullptr;
+  RunForm* m_form = nullptr;
 };
 
 QTEST_MAIN(TestExportWindow)

@@ -82,6 +82,7 @@ class TestLibrary : public SampleWindowTest {
   void phasesAtAGlance() {
     QCOMPARE(transitionsText(*entry(QStringLiteral("Water"))), QStringLiteral("melts at 0 °C, boils at 100 °C"));
     QVERIFY(transitionsText(*entryOf("co2")).startsWith(QStringLiteral("turns to gas at ")));
+    QCOMPARE(transitionsText(*entryOf("wood")), QStringLiteral("decomposes at 327 °C"));
     QVERIFY(entryOf("iron")->tags.contains(QStringLiteral("Metals")));
     QVERIFY(entryOf("nitrogen")->tags.contains(QStringLiteral("Gases")));
     QCOMPARE(transitionsText(*entryOf("honey")), QStringLiteral("never freezes"));

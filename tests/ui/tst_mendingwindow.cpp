@@ -15,6 +15,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/wording.h"
 #include "ui/session/worker.h"
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
@@ -118,6 +119,27 @@ class TestMendingWindow : public SampleWindowTest {
     QVERIFY(session().snapshot() && session().snapshot()->id.empty() && !session().engine()->making());
     document().open(scene(), {}, false, false);
     QTRY_VERIFY(session().snapshot() && session().snapshot()->id.size() == 125);
+  }
+
+  void theTimeThatIsLeftIsTold() {
+    QCOMPARE(secondsLeft(2, 0.2), 8.0);
+    QCOMPARE(secondsLeft(2, 0.01), -1.0);  // too early
+    QCOMPARE(progressText(0.2, 8), QStringLiteral("20 %, 8 s left"));
+    QCOMPARE(progressText(0.01, -1), QStringLiteral("1 %"));
+  }
+
+  /// Once it is told of, by Esc in the view as well, which its button says.
+  void escGivesUpASceneInTheMaking() {
+    constexpr int kSide = 60;
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() == 125 && !session().engine()->making(), kLong);
+    document().open(scenes::iceOnPlate(kSide, 300), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Cancel"))->toolTip().contains(QStringLiteral("Esc")));
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.empty() && !session().engine()->making(), kLong);
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() == 125, kLong);
   }
 
   void aRequiredPluginIsAskedForOnceMoreWhenSaved() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every page of every dock, the library and the welcome page: dark and light, at 100 and 200 %. What is painted is read
-// back as text, so that nothing is cut without a word; pictures are kept beside the test's home.
+// Every page of every dock, pages in the middle, dialogs, menus and the window of each workspace: dark and light, at
+// 100 and 200 %, and small windows at 125 and 300 %. What is painted is read back as text, so that nothing is cut
+// without a word; pictures are kept beside the test's home.
 #include "tests/ui/samplewindow.h"
 #include "ui/theme/plaintext.h"
 #include "ui/window/actions.h"
@@ -15,6 +16,10 @@
 #include <QtGui/QPaintEngine>
 #include <QtGui/QTextDocumentFragment>
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
+#include <QtWidgets/QTabBar>
 #include <QtWidgets/QToolTip>
 
 #include <algorithm>
@@ -139,7 +144,7 @@ class TestPanelPictures : public SampleWindowTest {
       const auto place = std::find_if(docks.begin(), docks.end(),
                                       [&](const DockRow& dock) { return QByteArray(dock.name) == row.dock; });
       QVERIFY(place != docks.end());
-      m_window->layoutOfDocks().setWorkspace(place->scene ? Workspace::Scene : Workspace::Tune);
+      m_window->layoutOfDocks().setWorkspace(place->workspaces.front());
       const QString title = QString::fromLatin1(row.title);
       m_window->layoutOfDocks().showPage(title);
       Dock* dock = m_window->layoutOfDocks().dock(QString::fromLatin1(row.dock));
@@ -160,20 +165,75 @@ class TestPanelPictures : public SampleWindowTest {
     }
   }
 
-  void theSameAtTwiceTheScale() {
+  void dialogs_data() {
+    QTest::addColumn<bool>("dark");
+    QTest::newRow("dark") << true;
+    QTest::newRow("light") << false;
+  }
+  void dialogs() {
+    QFETCH(bool, dark);
+    m_window->setDark(dark);
+    for (const char* action : {"edit.preferences", "edit.project", "file.film", "file.export", "help.shortcuts"}) {
+      m_window->action(QLatin1String(action))->trigger();
+      QDialog* dialog = nullptr;
+      QTRY_VERIFY_WITH_TIMEOUT((dialog = shownDialog()) != nullptr, kLong);
+      look(*dialog, QLatin1String(action));
+      dialog->close();
+      QTRY_VERIFY_WITH_TIMEOUT(!shownDialog(), kLong);
+    }
+  }
+
+  void menus() {
+    auto* bar = m_window->findChild<QMenuBar*>();
+    for (QAction* each : bar->actions()) {
+      each->menu()->popup(m_window->mapToGlobal(QPoint(40, 40)));
+      QTRY_VERIFY_WITH_TIMEOUT(each->menu()->isVisible(), kLong);
+      look(*each->menu(), QStringLiteral("menu ") + fromButtonText(each->text()));
+      each->menu()->close();
+    }
+  }
+
+  void workspaces_data() { dialogs_data(); }
+  void workspaces() {
+    QFETCH(bool, dark);
+    m_window->setDark(dark);
+    const QTabBar* tabs = m_window->findChild<QTabBar*>(QStringLiteral("psWorkspaces"));
+    for (int tab = tabs->count() - 1; tab >= 0; --tab) {
+      m_window->showWorkspace(static_cast<MainWindow::WorkspaceTab>(tab));
+      QTest::qWait(200);
+      look(*m_window, QStringLiteral("window ") + tabs->tabText(tab));
+    }
+  }
+
+  void theSameAtOtherScales_data() {
+    QTest::addColumn<QString>("scale");
+    QTest::addColumn<QStringList>("what");
+    QTest::newRow("125 %") << "1.25" << QStringList{"everyPage:small"};
+    QTest::newRow("200 %") << "2" << QStringList();
+    QTest::newRow("300 %") << "3" << QStringList{"everyPage:small"};
+  }
+  void theSameAtOtherScales() {
+    QFETCH(QString, scale);
+    QFETCH(QStringList, what);
     if (qEnvironmentVariableIsSet("QT_SCALE_FACTOR")) return;
     QProcess again;
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-    environment.insert(QStringLiteral("QT_SCALE_FACTOR"), QStringLiteral("2"));
+    environment.insert(QStringLiteral("QT_SCALE_FACTOR"), scale);
     again.setProcessEnvironment(environment);
     again.setProcessChannelMode(QProcess::MergedChannels);
     m_window->hide();
-    again.start(QCoreApplication::applicationFilePath(), QStringList());
+    again.start(QCoreApplication::applicationFilePath(), what);
     QVERIFY(again.waitForFinished(10 * kLong));
     QVERIFY2(again.exitStatus() == QProcess::NormalExit && again.exitCode() == 0, again.readAll().constData());
   }
 
  private:
+  QDialog* shownDialog() const {
+    for (QDialog* dialog : m_window->findChildren<QDialog*>()) {
+      if (dialog->isVisible()) return dialog;
+    }
+    return nullptr;
+  }
   /// Keeps the picture, and sees to it that it shows something and that what is cut can be read by its tip.
   void look(QWidget& widget, const QString& title) {
     QCoreApplication::processEvents();

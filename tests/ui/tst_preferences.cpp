@@ -2,22 +2,28 @@
 // The dialog of preferences: each choice acts at once, and stands there the next time.
 #include "core/io/projectio.h"
 #include "core/simulation/runrecord.h"
+#include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/film/thumbnail.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/help/helpwindow.h"
+#include "ui/library/materiallibrary.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/navigation.h"
+#include "ui/window/filenames.h"
 #include "ui/window/help.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/shortcutswindow.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QSettings>
 #include <QtCore/QStorageInfo>
+#include <QtCore/QTemporaryDir>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QLabel>
@@ -141,6 +147,37 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(preferences::recordBudget().disk > 0);
     preferences::setRecordFolder({});
     preferences::setRecordDisk(8192);
+  }
+
+  /// Each is chosen in the dialog, acts, and goes back to the usual one.
+  void foldersAreChosen() {
+    const QTemporaryDir folder;
+    openDialog();
+    const auto button = [this](const char* which, const char* act) {
+      const QString name = QString::fromLatin1(which) + QStringLiteral(": ") + QString::fromUtf8(act);
+      return field<QPushButton>(name.toUtf8().constData());
+    };
+    for (const char* which : {"Projects", "Presets", "Plugins"}) {
+      QPushButton* reset = button(which, "Reset");
+      QVERIFY2(reset && !reset->isEnabled(), which);
+      hands::answerDialog(folder.path());
+      button(which, "Choose…")->click();
+      QVERIFY2(reset->isEnabled(), which);
+    }
+    const QString pictures = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!pictures.isEmpty()) dialog()->grab().save(pictures + QStringLiteral("/tst_preferences_folders.png"));
+    QCOMPARE(preferences::projectFolder(), folder.path());
+    QCOMPARE(folderBeside(session()), folder.path());  // a sample has none of its own
+    QCOMPARE(m_window->library().library().folder(), folder.path());
+    QCOMPARE(preferences::folder(preferences::Folder::Plugins), folder.path());
+    const auto labels = dialog()->findChildren<QLabel*>();
+    QVERIFY(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+      return label->isVisible() && label->text().startsWith(QStringLiteral("Start the program again"));
+    }));
+    for (const char* which : {"Projects", "Presets", "Plugins"}) button(which, "Reset")->click();
+    QVERIFY(preferences::projectFolder() != folder.path());
+    QCOMPARE(m_window->library().library().folder(), MaterialLibrary::usualFolder());
+    QCOMPARE(preferences::folder(preferences::Folder::Plugins), QString());
   }
 
   /// The memory is soon full; what is on the disk is counted, and forgotten by the button.
@@ -332,6 +369,43 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(m_window->windowTitle().contains(QString::fromStdString(before.title)));
   }
 
+  /// Drawn beside the interface, one step each, and shown in the dialog.
+  void theProjectHasAPicture() {
+    const std::string before = writeProject(document().project());
+    m_window->action(QStringLiteral("edit.project"))->trigger();
+    auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+    QVERIFY(about && QTest::qWaitForWindowExposed(about));
+    const auto button = [about](const QString& text) {
+      const auto all = about->findChildren<QPushButton*>();
+      const auto it = std::find_if(all.begin(), all.end(), [&](const QPushButton* one) { return one->text() == text; });
+      return it == all.end() ? nullptr : *it;
+    };
+    QPushButton* remove = button(QStringLiteral("Remove"));
+    QPushButton* take = button(QStringLiteral("Take from view"));
+    QVERIFY(take && remove && !remove->isEnabled());
+    const auto shown = [about] {
+      const auto labels = about->findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(), [](const QLabel* label) { return !label->pixmap().isNull(); });
+    };
+    QVERIFY(!shown());
+    const int steps = document().undoStack().index();
+    QTest::mouseClick(take, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(!document().project().thumbnail.empty(), kLong);
+    QCOMPARE(pictureOf(document().project().thumbnail).size(), QSize(320, 180));
+    QVERIFY(shown() && remove->isEnabled());
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("picture"));
+    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    if (!folder.isEmpty()) about->grab().save(folder + QStringLiteral("/tst_project_picture.png"));
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QVERIFY(document().project().thumbnail.empty() && !shown());
+    document().undoStack().undo();
+    QVERIFY(!document().project().thumbnail.empty() && shown());
+    document().undoStack().undo();
+    QCOMPARE(document().undoStack().index(), steps);
+    QCOMPARE(writeProject(document().project()), before);
+    about->close();
+  }
+
   /// With a unit; what is no duration is told of, and the one before stays.
   void theProjectsDurationIsTyped() {
     const std::string before = writeProject(document().project());
@@ -390,13 +464,18 @@ class TestPreferences : public SampleWindowTest {
   void theKeyboardReachesAll() {
     openDialog();
     QSet<QWidget*> reached;
-    for (int k = 0; k < 12; ++k) {
+    for (int k = 0; k < 24; ++k) {
       QTest::keyClick(dialog()->focusWidget() ? dialog()->focusWidget() : dialog(), Qt::Key_Tab);
       reached << dialog()->focusWidget();
     }
     for (const char* label : {"Theme", "Copy it", "In memory, at most", "On the disk, at most"})
       QVERIFY2(reached.contains(field<QComboBox>(label)), label);
     QVERIFY(reached.contains(field<QPushButton>("Folder")));
+    for (const char* which : {"Projects", "Presets", "Plugins"}) {
+      const QString name = QString::fromLatin1(which) + QStringLiteral(": Choose…");
+      auto* choose = field<QPushButton>(name.toUtf8().constData());
+      QVERIFY2(choose && reached.contains(choose), which);
+    }
     QTest::keyClick(dialog(), Qt::Key_Escape);
     QTRY_VERIFY(!dialog() || !dialog()->isVisible());
   }
@@ -434,7 +513,7 @@ class TestPreferences : public SampleWindowTest {
   template <class Field>
   Field* field(const char* label) {
     for (Field* one : dialog()->findChildren<Field*>()) {
-      if (one->accessibleName() == QLatin1String(label)) return one;
+      if (one->accessibleName() == QString::fromUtf8(label)) return one;
     }
     return nullptr;
   }

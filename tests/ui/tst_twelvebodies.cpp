@@ -96,7 +96,7 @@ class TestTwelveBodies : public SampleWindowTest {
 
   void aBowlStandsOnTheTable() {
     choose("aluminium");
-    const std::string bowl = add("tube");
+    const std::string bowl = add("bowl");
     type(Owner::Shape, bowl,
          {{"size_x", "0.12"},
           {"size_z", "0.12"},

@@ -4,8 +4,10 @@
 #include "tests/shared/scenes.h"
 #include "tests/ui/windowtesting.h"
 #include "ui/document/document.h"
+#include "ui/film/thumbnail.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
+#include "ui/session/session.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 #include "ui/welcome/cardgrid.h"
@@ -16,6 +18,7 @@
 #include "ui/window/welcome.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
@@ -98,6 +101,33 @@ class TestWelcome : public QObject {
     open();
     QTest::qWait(100);
     QVERIFY(!m_window->tour().running());
+  }
+
+  /// From the window to matter that moves, in this order, and nobody has to click for it.
+  void theFirstStartReachesARunningSample() {
+    const MainWindow::Options options = starting();
+    m_window = std::make_unique<MainWindow>(options);
+    Session& session = m_window->session();
+    const auto order = std::make_shared<QStringList>();
+    const auto note = [order](const char* what) { return [order, what] { *order << QLatin1String(what); }; };
+    connect(&session, &Session::ready, this, note("plugins"));
+    connect(&session.files(), &DocumentFiles::opened, this, note("opened"));
+    connect(m_window.get(), &MainWindow::projectShown, this, note("shown"));
+    m_window->resize(1600, 1000);
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    QElapsedTimer since;
+    since.start();
+    m_window->start();
+    QTRY_VERIFY_WITH_TIMEOUT(order->contains(QStringLiteral("shown")), kLong);
+    qInfo("the sample shows after %lld ms", since.elapsed());
+    QCOMPARE(*order, QStringList({QStringLiteral("plugins"), QStringLiteral("opened"), QStringLiteral("shown")}));
+    QCOMPARE(document().path(), options.sample);
+    QTRY_VERIFY_WITH_TIMEOUT(session.now() > 0, kLong);
+    const double then = session.now();
+    QTRY_VERIFY_WITH_TIMEOUT(session.now() > then, kLong);
+    QVERIFY(session.playing() && !m_window->welcome().shown());
+    QVERIFY(!QApplication::activeModalWidget() && !QApplication::activePopupWidget());
   }
 
   void laterStartsShowThePage() {
@@ -216,6 +246,26 @@ class TestWelcome : public QObject {
     QCOMPARE(document().path(), path);
   }
 
+  /// What a project brings along is shown in place of what was last seen of it.
+  void aPictureOfItsOwnGoesFirst() {
+    startLater();
+    const QString path = m_directory->filePath(QStringLiteral("red.json"));
+    QFile::remove(thumbnailPath(path));
+    QImage red(320, 180, QImage::Format_RGB32);
+    red.fill(qRgb(255, 0, 0));
+    ProjectAbout about = document().about();
+    about.thumbnail = thumbnailOf(red);
+    document().setAbout(about, QStringLiteral("picture"));
+    m_window->saveTo(path);
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(thumbnailPath(path)), kLong);
+    m_window->action(QStringLiteral("help.welcome"))->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 1, kLong);
+    const QImage shown = recent().front()->project().picture;
+    QCOMPARE(shown.size(), red.size());
+    QCOMPARE(shown.pixel(160, 90), red.pixel(160, 90));
+    QVERIFY(pictureOf("AAAA").isNull());  // no picture
+  }
+
   /// Samples are in nobody's way: neither recent, nor drawn into the cache.
   void samplesAreNotAmongTheRecent() {
     startLater();
@@ -260,12 +310,15 @@ class TestWelcome : public QObject {
  private:
   Document& document() { return m_window->session().document(); }
   WelcomePage* page() { return m_window->welcome().page(); }
-  void open() {
+  MainWindow::Options starting() const {
     MainWindow::Options options;
     options.sample = kProjects + QStringLiteral("/ice-on-hot-plate.json");
     options.samples = kProjects;
     options.session.autosaveDirectory = m_directory->filePath(QStringLiteral("copies"));
-    m_window = shownWindow(options, {1600, 1000});
+    return options;
+  }
+  void open() {
+    m_window = shownWindow(starting(), {1600, 1000});
     QVERIFY(m_window);
   }
   /// Not for the first time.

@@ -244,6 +244,16 @@ Problems tips(View path, View text) {
   return problems;
 }
 
+Problems boxes(View path, View text) {
+  if (!path.starts_with("ui/") && !path.starts_with("app/")) return {};
+  Problems problems;
+  eachLine(text, [&](size_t number, View line) {
+    for (const View box : {"QMessageBox", "QInputDialog", "QProgressDialog", "QErrorMessage"})
+      if (hasWord(line, box)) problems.push_back(at(path, number, "no " + std::string(box) + ": see NoticeBar"));
+  });
+  return problems;
+}
+
 Problems documents(View path, View text, const std::vector<std::string>& known) {
   Problems problems;
   eachLine(text, [&](size_t number, View line) {

@@ -27,6 +27,9 @@ Problems colours(std::string_view path, std::string_view text);
 /// Tooltips come through ui/theme/plaintext.h, which knows what is plain text.
 Problems tips(std::string_view path, std::string_view text);
 
+/// Nothing stands in the way with a question or news: notices and dialogs of our own say them.
+Problems boxes(std::string_view path, std::string_view text);
+
 /// Markdown documents that are mentioned by name exist; `known` are the names of those that do.
 Problems documents(std::string_view path, std::string_view text, const std::vector<std::string>& known);
 

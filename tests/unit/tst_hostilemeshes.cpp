@@ -217,13 +217,15 @@ class TstHostileMeshes : public QObject {
   void meshesOfOthersAreFilledAndRun_data() {
     QTest::addColumn<QString>("path");
     int rows = 0;
-    for (const char* folder :
-         {"/usr/share/glmark2/models", "/usr/share/assimp/models/OBJ", "/usr/share/assimp/models/STL",
-          "/usr/share/assimp/models/PLY", "/usr/share/assimp/models/OFF"}) {
+    const QString models = "/usr/share/assimp/models/";
+    for (const QString& folder :
+         {QString("/usr/share/glmark2/models"), models + "OBJ", models + "STL", models + "PLY", models + "OFF",
+          models + "3MF", models + "Collada", models + "FBX", models + "glTF/BoxTextured-glTF",
+          models + "glTF2/2CylinderEngine-glTF-Binary", models + "glTF2/BoxTextured-glTF"}) {
       for (const QString& name : QDir(folder).entryList(QDir::Files, QDir::Name)) {
-        const QString ending = QFileInfo(name).suffix().toLower();
-        if (!QStringList({"obj", "stl", "ply", "off", "3ds"}).contains(ending)) continue;
-        QTest::newRow(qPrintable(name)) << QString(folder) + "/" + name;
+        static const QStringList kEndings{"obj", "stl", "ply", "off", "3ds", "3mf", "dae", "fbx", "gltf", "glb"};
+        if (!kEndings.contains(QFileInfo(name).suffix().toLower())) continue;
+        QTest::newRow(qPrintable(name)) << folder + "/" + name;
         ++rows;
       }
     }

@@ -15,6 +15,7 @@
 
 #include <random>
 #include <thread>
+#include <vector>
 
 using namespace ps;
 
@@ -141,6 +142,29 @@ class TstMeshImport : public QObject {
         QVERIFY(std::string(error.what()).starts_with(path + ": "));
       }
     }
+  }
+
+  /// By the process that reads, and by what follows here.
+  void howFarItIsIsTold() {
+    struct Told : Progress {
+      std::vector<std::string> stages;
+      double last = 0, read = 0;  ///< share that is told last, and while the process reads
+      bool falls = false;
+      void advanced(size_t) override {
+        const State now = state();
+        if (stages.empty() || stages.back() != now.stage) stages.push_back(now.stage);
+        if (stages.size() == 1) read = now.done;
+        falls = falls || now.done < last;
+        last = now.done;
+      }
+    } told;
+    told.expect(1);
+    const ProgressScope scope(&told);
+    QVERIFY(importMesh(kRabbit.toStdString()).facts.closed());
+    QVERIFY(told.stages == (std::vector<std::string>{"Reading", "Mending", "Reducing"}));
+    QVERIFY2(told.read > 0.3, qPrintable(QString::number(told.read)));
+    QVERIFY(!told.falls);
+    QVERIFY(std::abs(told.last - 1) < 1e-9);
   }
 
   void readingCanBeCancelled() {

@@ -72,6 +72,7 @@ class RepositoryTest : public QObject {
   }
   void coloursComeFromTheTheme() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::colours); }
   void tooltipsKnowWhatIsPlain() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::tips); }
+  void nothingAsksInABox() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::boxes); }
   void mentionedDocumentsExist() {
     std::vector<std::string> known;
     for (const Source& document : sources({""}, {"*.md"}))
@@ -174,6 +175,10 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   row("colour elsewhere", "colours", "core/io/a.cpp", "\"#12ab9f\"\n", 0);
   row("a tooltip past its door", "tips", "ui/panels/a.cpp", "QToolTip::showText(at, text, this);\n", 1);
   row("a tooltip by its door", "tips", "ui/theme/plaintext.cpp", "QToolTip::showText(at, text, of);\n", 0);
+  row("a question in a box", "boxes", "ui/window/a.cpp", "#include <QtWidgets/QMessageBox>\n", 1);
+  row("a box that waits", "boxes", "app/editor/a.cpp", "QProgressDialog dialog(this);\n", 1);
+  row("a dialog of our own", "boxes", "ui/window/a.cpp", "class RunDialog : public QDialog {\n", 0);
+  row("a box in a test", "boxes", "tests/ui/a.cpp", "QMessageBox box;\n", 0);
   row("missing document", "documents", "core/io/a.cpp", QStringLiteral("// see NOWHERE.") + "md\n", 1);
   row("known document", "documents", "core/io/a.cpp", QStringLiteral("// see KNOWN.") + "md\n", 0);
 }
@@ -195,6 +200,8 @@ void RepositoryTest::rulesCatchWhatTheyForbid() {
     found = ps::rules::colours(p, t);
   else if (rule == "tips")
     found = ps::rules::tips(p, t);
+  else if (rule == "boxes")
+    found = ps::rules::boxes(p, t);
   else
     found = ps::rules::documents(p, t, {std::string("KNOWN.") + "md"});
   QVERIFY2(static_cast<int>(found.size()) == problems, joined(found).constData());

@@ -2,11 +2,15 @@
 #include "core/base/error.h"
 #include "tests/vr/scriptedrun.h"
 #include "tests/vr/stay.h"
+#include "ui/vr/detail.h"
+#include "ui/vr/moving.h"
 
 #include <QTest>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 using ps::HeadlessContext;
 using ps::PaintedScene;
@@ -54,6 +58,9 @@ class HeadsetTest : public QObject {
   void contextThatIsTakenIsSaid();
   void sceneThatThrowsEndsTheStay();
   void fiftyStaysLeakNothing();
+  void lateFramesCostSharpness();
+  void lateHeadsetsShowSmallerPictures();
+  void theOtherHandTakesItsWearerThere();
 
  private:
   HeadlessContext m_context{nullptr};
@@ -376,6 +383,75 @@ void HeadsetTest::fiftyStaysLeakNothing() {
   m_context.release();
   QCOMPARE(joined(run.texts("violation")), QByteArray());
   QCOMPARE(run.lines("textures").size(), size_t{51});
+}
+
+/// A few late ones do not count, most of a second does; it comes back where there is time for twice as much.
+void HeadsetTest::lateFramesCostSharpness() {
+  constexpr double kPeriod = 1.0 / 90;
+  ps::vr::Detail detail;
+  const auto frames = [&](int count, double share) {
+    for (int i = 0; i < count; ++i) detail.note(share * kPeriod, kPeriod);
+  };
+  for (int i = 0; i < 30; ++i) frames(20, 0.8), frames(10, 1.5);
+  QCOMPARE(detail.scale(), 1.0);
+  ps::vr::Detail late;
+  for (int i = 0; i < 95; ++i) late.note(1.2 * kPeriod, kPeriod);
+  QCOMPARE(late.scale(), 1.0);
+  late.note(1.2 * kPeriod, kPeriod);
+  QCOMPARE(late.scale(), 0.85);
+  for (int i = 0; i < 1000; ++i) late.note(1.2 * kPeriod, kPeriod);
+  QCOMPARE(late.scale(), 0.5);
+  for (int i = 0; i < 2000; ++i) late.note(0.8 * kPeriod, kPeriod);
+  QCOMPARE(late.scale(), 0.5);  // in time, but with nothing to spare
+  for (int i = 0; i < 450; ++i) late.note(0.4 * kPeriod, kPeriod);
+  QCOMPARE(late.scale(), 0.6);
+}
+
+/// A scene that takes 30 ms: the layers name a smaller part of each picture, and that is what was drawn.
+void HeadsetTest::lateHeadsetsShowSmallerPictures() {
+  const ScriptedRun run(R"({"real_time": true, "period": 0.01, "view": {"width": 100, "height": 80}})");
+  ps::StayPlan plan;
+  plan.leaveAfter = 110;
+  plan.before = [](size_t) -> std::array<std::optional<ps::vr::Vibration>, 2> {
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    return {};
+  };
+  const Stay stay = stayInHeadset(m_context, plan);
+  QVERIFY(stay.ending && !stay.ending->failed);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  const auto& drawn = stay.record.drawn;
+  QCOMPARE(drawn.front().size.width, 100);
+  QCOMPARE(drawn.back().size.width, 85);
+  QCOMPARE(drawn.back().size.height, 68);
+}
+
+/// The stick forward shows where; let go, what was there is below the head, and nothing else about the scene has
+/// changed.
+void HeadsetTest::theOtherHandTakesItsWearerThere() {
+  ps::vr::Moving moving;
+  ps::vr::HeadsetFrame frame;
+  frame.period = 0.01;
+  frame.head.position = {0.2, 1.6, 0.1};
+  ps::vr::HandInput& left = frame.hands[ps::vr::kLeft];
+  left.aim = ps::vr::HandPose{{0, 1, 0}, ps::Quaternion(Eigen::AngleAxisd(-M_PI / 4, Vector3::UnitX()))};
+  left.steerY = 1;
+  moving.follow(frame);
+  QVERIFY(moving.goal() && near(*moving.goal(), {0, 0, -1}, 1e-12));
+  const Vector3 there = moving.stand().toScene(*moving.goal());
+  left.steerY = 0;
+  moving.follow(frame);
+  QVERIFY(!moving.goal() && moving.dims());
+  QVERIFY(near(moving.stand().toRoom(there), {0.2, 0, 0.1}, 1e-12));
+  QCOMPARE(moving.stand().scale, 1.0);
+  // Up into the air there is nowhere to go.
+  left.aim->orientation = ps::Quaternion(Eigen::AngleAxisd(M_PI / 4, Vector3::UnitX()));
+  left.steerY = 1;
+  const Vector3 stood = moving.stand().toRoom(Vector3::Zero());
+  moving.follow(frame);
+  left.steerY = 0;
+  for (int i = 0; i < 20; ++i) moving.follow(frame);
+  QVERIFY(!moving.dims());
+  QCOMPARE(moving.stand().toRoom(Vector3::Zero()), stood);
 }
 
 QTEST_GUILESS_MAIN(HeadsetTest)

@@ -85,7 +85,7 @@ void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
   const std::set<uint32_t> before = idsNow(session());
   const ScriptedRun run(vrScript({}, key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) +
                                          key(50, "right", s, to, kLetGo) +
-                                         key(200, "right", s, to, QStringLiteral(R"(, "/input/b/click": true)"))));
+                                         key(200, "right", s, to, QStringLiteral(R"(, "/input/a/click": true)"))));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QVERIFY2(vr().frames() < 200, "the button came first");

@@ -276,7 +276,7 @@ void Document::removeState() {
 }
 
 ProjectAbout Document::about() const {
-  return {m_project.title, m_project.description, m_project.toTry, m_project.duration};
+  return {m_project.title, m_project.description, m_project.toTry, m_project.duration, m_project.thumbnail};
 }
 
 void Document::setAbout(ProjectAbout about, const QString& text) {
@@ -364,6 +364,7 @@ void Document::applyAbout(const ProjectAbout& about) {
   m_project.description = about.description;
   m_project.toTry = about.toTry;
   m_project.duration = about.duration;
+  m_project.thumbnail = about.thumbnail;
   ++m_changes;
   notify(AboutChanged{});
 }

@@ -3,6 +3,7 @@
 
 #include <QBuffer>
 #include <QImage>
+#include <QImageReader>
 
 namespace ps {
 
@@ -16,6 +17,18 @@ std::string thumbnailOf(const QImage& picture) {
   buffer.open(QIODevice::WriteOnly);
   middle.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
   return bytes.toBase64().toStdString();
+}
+
+QImage pictureOf(const std::string& thumbnail) {
+  constexpr int kMost = 1024;  // others may have written it
+  QByteArray bytes = QByteArray::fromBase64(QByteArray::fromStdString(thumbnail));
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::ReadOnly);
+  QImageReader reader(&buffer, "PNG");
+  reader.setAutoDetectImageFormat(false);
+  const QSize size = reader.size();
+  if (!size.isValid() || size.width() > kMost || size.height() > kMost) return {};
+  return reader.read();
 }
 
 }  // namespace ps

@@ -77,7 +77,8 @@ FitPanel::FitPanel(Session& session, QWidget* parent)
   connect(m_rows, &FitParameterRows::changed, this, &FitPanel::refreshButtons);
   connect(m_view, &WantedView::wantedChanged, this, &FitPanel::refreshButtons);
   connect(m_search, &QPushButton::clicked, this, &FitPanel::search);
-  connect(m_cancel, &QPushButton::clicked, this, [this] { m_job.cancel(); });
+  m_cancel->setToolTip(QStringLiteral("Cancel (Esc)"));
+  connect(m_cancel, &QPushButton::clicked, this, &FitPanel::cancel);
   connect(m_apply, &QPushButton::clicked, this, &FitPanel::apply);
   connect(&m_job, &FitJob::tried, this, &FitPanel::onTried);
   connect(&m_job, &FitJob::finished, this, &FitPanel::onFinished);
@@ -264,6 +265,12 @@ void FitPanel::search() {
   m_job.start(std::make_shared<const Project>(m_session.document().project()), m_session.registry(), m_task);
   say(QStringLiteral("Run 1 of at most %1 …").arg(m_task.mostRuns));
   refreshButtons();
+}
+
+bool FitPanel::cancel() {
+  if (!m_job.isRunning()) return false;
+  m_job.cancel();
+  return true;
 }
 
 void FitPanel::showCourse(const FitTrial& trial) {

@@ -45,6 +45,7 @@ class FitPanel : public QWidget {
 
  public Q_SLOTS:
   void search();
+  bool cancel();  ///< false where none runs
   void apply();
   QString applyKey(size_t parameter);
 

@@ -60,9 +60,11 @@ void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBan
 
 QString transitionsText(const LibraryEntry& entry) {
   QStringList parts;
+  // Wood and rubber have no liquid: what they come to when they are too hot stands for char, which nobody says flows.
+  const bool flows = entry.values.properties.contains("viscosity");
   for (size_t i = 1; i < entry.bands.size(); ++i) {
     const bool gas = entry.bands[i].phase == api::Phase::Gas, solid = entry.bands[i - 1].phase == api::Phase::Solid;
-    const QString verb = !gas    ? QStringLiteral("melts at ")
+    const QString verb = !gas    ? flows ? QStringLiteral("melts at ") : QStringLiteral("decomposes at ")
                          : solid ? QStringLiteral("turns to gas at ")
                                  : QStringLiteral("boils at ");
     parts << verb + temperatureText(entry.bands[i].from, 0);

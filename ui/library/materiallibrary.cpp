@@ -10,6 +10,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/library/runmaterials.h"
+#include "ui/session/preferences.h"
 #include "ui/session/session.h"
 #include "ui/session/worker.h"
 
@@ -98,6 +99,13 @@ std::vector<PhaseBand> bandsOf(const Material& material) {
   return bands;
 }
 
+namespace {
+QString folderMeant(const QString& asked) {
+  const QString preferred = preferences::folder(preferences::Folder::Presets);
+  return !asked.isEmpty() ? asked : preferred.isEmpty() ? MaterialLibrary::usualFolder() : preferred;
+}
+}  // namespace
+
 /// A file of presets as it was read, before its materials are looked into.
 struct MaterialLibrary::Preset {
   QString path, problem;
@@ -105,11 +113,7 @@ struct MaterialLibrary::Preset {
 };
 
 MaterialLibrary::MaterialLibrary(Session& session, const QString& folder, QObject* parent)
-    : QObject(parent),
-      m_session(session),
-      m_folder(folder.isEmpty() ? QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) +
-                                      QStringLiteral("/phasesketch/presets")
-                                : folder) {
+    : QObject(parent), m_session(session), m_folder(folderMeant(folder)) {
   QDir().mkpath(m_folder);
   m_rest.setSingleShot(true);
   m_rest.setInterval(kRest);
@@ -123,6 +127,16 @@ MaterialLibrary::MaterialLibrary(Session& session, const QString& folder, QObjec
     m_waiting.clear();
     read();
   });
+}
+
+QString MaterialLibrary::usualFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/phasesketch/presets");
+}
+
+void MaterialLibrary::setFolder(const QString& folder) {
+  m_folder = folderMeant(folder);
+  QDir().mkpath(m_folder);
+  read();
 }
 
 void MaterialLibrary::read() {

@@ -53,10 +53,12 @@ struct LibraryEntry {
 class MaterialLibrary : public QObject {
   Q_OBJECT
  public:
-  /// `folder`: of presets; "": the user's. It is made when it is missing.
+  /// `folder`: of presets; "": the user's, by preference or else usualFolder(). It is made when it is missing.
   explicit MaterialLibrary(Session& session, const QString& folder = {}, QObject* parent = nullptr);
   const std::vector<LibraryEntry>& entries() const { return m_entries; }  ///< by label, installed ones first
   const QString& folder() const { return m_folder; }
+  void setFolder(const QString& folder);  ///< likewise
+  static QString usualFolder();
   QStringList tags() const;
   void read();
   /// A material with the values that it has now, under a name of its own.

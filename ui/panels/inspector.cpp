@@ -167,7 +167,7 @@ void Inspector::rebuildBody() {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
   if (!showBodiesHeader())
-    m_body->setHeader(nameOf(*body), matter + QStringLiteral(" · ") + QString::fromStdString(shape));
+    m_body->setHeader(nameOf(*body), matter + QStringLiteral(" · ") + QString::fromStdString(shape), countOfBodies());
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
   if (solid) {
@@ -386,6 +386,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
     refreshIdle(address);
+    if (address.owner == Owner::Shape || address.owner == Owner::Solver) countSoon();
     note(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
   } else if (std::holds_alternative<ProjectOpened>(event)) {

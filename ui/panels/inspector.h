@@ -85,6 +85,8 @@ class Inspector : public QObject {
   bool isMixed(const Address& address) const;
   void shareRows(std::vector<RowModel>& rows) const;
   bool showBodiesHeader();  ///< false: one is shown
+  QString countOfBodies() const;
+  void countSoon();
   void refreshMixed(const Address& changed);
   QString setAll(const Address& address, const Value& value);
   QString setOne(const Address& address, const Value& value);
@@ -113,6 +115,8 @@ class Inspector : public QObject {
   mutable size_t m_compared = 0;
   std::string m_probeId;                 ///< shown in the place of the body; "": none
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
+  bool m_counts = false;                 ///< soon: once for all bodies that an edit reaches
+  QString m_count;                       ///< of several bodies, as the header says it
   QString m_grade;                       ///< of the material's sources, as the header says it
   std::set<std::string> m_tracked;       ///< addresses of what has keys, as rows show it
   double m_shownAt = -1;                 ///< s, for which rows show what keys give

@@ -8,7 +8,10 @@
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 
+#include <QtCore/QTimer>
+
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -75,8 +78,28 @@ bool Inspector::showBodiesHeader() {
   }
   if (const Body* body = m_document.body(m_bodyId)) names << nameOf(*body);
   m_body->setHeader(countText(static_cast<size_t>(names.size()), QStringLiteral("body"), QStringLiteral("bodies")),
-                    names.join(QStringLiteral(", ")));
+                    names.join(QStringLiteral(", ")), m_count);
+  countSoon();
   return true;
+}
+
+/// Of those that are shown, as they stand at the start: before what is dragged or typed acts there. "" where none is.
+QString Inspector::countOfBodies() const {
+  const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
+  double count = 0;
+  for (const Address& one : addressesOf({Owner::Body, m_bodyId, ""})) {
+    if (const Body* body = m_document.body(one.id)) count += particleCount(*body, spacing);
+  }
+  return count > 0 ? particlesAhead(count) : QString();
+}
+
+void Inspector::countSoon() {
+  if (std::exchange(m_counts, true)) return;
+  QTimer::singleShot(0, this, [this] {
+    m_counts = false;
+    m_count = countOfBodies();
+    if (m_probeId.empty()) m_body->setHeaderDetail(m_count);
+  });
 }
 
 /// One of several bodies has another value.

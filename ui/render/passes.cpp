@@ -31,6 +31,10 @@ void meshAttributes(GLuint buffer) {
 static_assert(sizeof(MeshVertex) == 40 && sizeof(EdgeVertex) == 40 && sizeof(Instance) == 32);
 static_assert(sizeof(FrameUniforms) == 4 * 64 + 9 * 16);
 
+std::array<float, 3> floats(const Vector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
 void drawEverywhere(const VertexArray& plain) {
   plain.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -75,6 +79,21 @@ void Passes::show(const Props& props) {
   m_fence.wait();
   for (const auto& [buffer, mesh] : {std::pair{&m_opaqueProps, &props.opaque}, {&m_clearProps, &props.clear}})
     buffer->upload(GL_ARRAY_BUFFER, mesh->data(), mesh->size() * sizeof(MeshVertex));
+  std::vector<std::array<float, 5>> corners;
+  while (m_panelPictures.size() < props.panels.size()) m_panelPictures.emplace_back();
+  auto picture = m_panelPictures.begin();
+  for (const Panel& panel : props.panels) {
+    for (const size_t k : {0, 1, 2, 0, 2, 3}) {
+      const std::array<float, 3> at = floats(panel.corners[k]);
+      corners.push_back({at[0], at[1], at[2], k == 1 || k == 2 ? 1.f : 0.f, k < 2 ? 1.f : 0.f});
+    }
+    PanelPicture& held = *picture++;
+    if (held.image == panel.image) continue;
+    held.image = panel.image;
+    held.texture.upload(panel.image->width, panel.image->height, GL_RGBA, GL_UNSIGNED_BYTE, panel.image->pixels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+  }
+  m_panels.upload(GL_ARRAY_BUFFER, corners.data(), corners.size() * sizeof(corners[0]));
   m_fence.set();
 }
 
@@ -366,6 +385,39 @@ void Passes::drawFinal(const Job& job) {
     drawTiles(m_detailTiles, frame.detailTiles);
 }
 
+/// Over the smoothed picture: what is written on them stays sharp.
+void Passes::drawPanels(const Job& job) {
+  const auto& [prepared, frame, layers, plain] = job;
+  const int scale = frame.still ? 2 : 1;
+  glBindFramebuffer(GL_FRAMEBUFFER, frame.place.framebuffer);
+  glViewport(frame.place.x, frame.place.y, frame.width / scale, frame.height / scale);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  const Program& program = m_programs.panel;
+  program.use();
+  program.texture("distanceTexture", 1, layers.distance.name());
+  program.texture("fluidTexture", 2, layers.fluid.name());
+  glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
+  glUniform1i(program.at("scale"), scale);
+  glUniform2i(program.at("origin"), frame.place.x, frame.place.y);
+  const VertexArray array;
+  array.bind();
+  glBindBuffer(GL_ARRAY_BUFFER, m_panels.name());
+  constexpr GLsizei kStride = 5 * sizeof(float);
+  for (const auto& [index, size, offset] : {std::array{0, 3, 0}, {1, 2, 3}}) {
+    glEnableVertexAttribArray(static_cast<GLuint>(index));
+    glVertexAttribPointer(static_cast<GLuint>(index), size, GL_FLOAT, GL_FALSE, kStride,
+                          reinterpret_cast<const void*>(static_cast<size_t>(offset) * sizeof(float)));
+  }
+  auto picture = m_panelPictures.begin();
+  for (size_t k = 0; k < prepared.props.panels.size(); ++k) {
+    program.texture("image", 0, (picture++)->texture.name());
+    glDrawArrays(GL_TRIANGLES, 6 * static_cast<GLint>(k), 6);
+  }
+  glDisable(GL_BLEND);
+}
+
 void Passes::prepare(const Prepared& prepared) {
   const VertexArray plain;
   m_fence.wait();
@@ -391,6 +443,7 @@ void Passes::draw(const Prepared& prepared, const ViewFrame& frame, Layers& laye
   if (prepared.instances.outlined && frame.still) drawOutline(job, {Target({&layers.picture}, nullptr).name(), 0, 0});
   drawFinal(job);
   if (prepared.instances.outlined && !frame.still) drawOutline(job, frame.place);
+  if (!prepared.props.panels.empty()) drawPanels(job);
   m_fence.set();
 }
 

@@ -8,6 +8,8 @@
 #include "ui/render/viewframe.h"
 
 #include <cstdint>
+#include <list>
+#include <memory>
 
 namespace ps::render {
 
@@ -25,7 +27,7 @@ Quality qualityOf(const char* rendererName);
 inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
 
 /// Shaders, textures and buffers, and the passes in their order: the shadow picture once for everything that is
-/// prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost, final, outline for each picture.
+/// prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost, final, outline, panels for each picture.
 class Passes {
  public:
   Passes();
@@ -56,6 +58,7 @@ class Passes {
     Program edge{"edge.vert", "edge.frag"};
     Program outlineMask{"outlinemask.vert", "outlinemask.frag", "particle.glsl"};
     Program ghost{"tiles.vert", "ghost.frag"};
+    Program panel{"panel.vert", "panel.frag"};
     Program outline{"tiles.vert", "outline.frag"};
     Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
   };
@@ -84,6 +87,7 @@ class Passes {
   void drawGhost(const Job& job);
   void drawOutline(const Job& job, const PicturePlace& place);
   void drawFinal(const Job& job);
+  void drawPanels(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
                      int triangles = 1);
   void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
@@ -96,7 +100,13 @@ class Passes {
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
   Buffer m_particles, m_opaque, m_clear, m_edges, m_guides;  // of what is prepared
-  Buffer m_opaqueProps, m_clearProps;
+  Buffer m_opaqueProps, m_clearProps, m_panels;
+  /// By their place among the panels.
+  struct PanelPicture {
+    Texture texture{GL_RGBA8, GL_LINEAR_MIPMAP_LINEAR};
+    std::shared_ptr<const PanelImage> image;  ///< that it holds
+  };
+  std::list<PanelPicture> m_panelPictures;
   Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles,
       m_ghostTiles;  // of the picture being drawn
   Fence m_fence;     // behind the last call, whose context may have been another

@@ -84,9 +84,23 @@ struct MeshVertex {
   std::array<float, 4> material;          ///< sRGB; render::Kind (opaque) or opacity (clear)
 };
 
-/// What is shown among the scene and is no part of it: controllers, brushes in hands. Triangles.
+/// What is painted on a panel: RGBA8, sRGB multiplied by its opacity, rows from the top.
+struct PanelImage {
+  int width = 0, height = 0;  ///< pixels
+  std::vector<uint8_t> pixels;
+};
+
+/// A flat rectangle that shows a picture, on its front.
+struct Panel {
+  std::array<Vector3, 4> corners;  ///< m: lower left, lower right, upper right, upper left as one looks at it
+  std::shared_ptr<const PanelImage> image;
+};
+
+/// What is shown among the scene and is no part of it: controllers, brushes in hands (triangles), panels (the farthest
+/// first).
 struct Props {
   std::vector<MeshVertex> opaque, clear;
+  std::vector<Panel> panels;
 };
 
 struct Eye;

@@ -18,6 +18,7 @@ constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *
                      *kPivot = "handles/pivot", *kSnap = "handles/snap", *kSurfaces = "handles/surfaces",
                      *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
                      *kScaleStep = "handles/scaleStep";
+constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
@@ -63,6 +64,16 @@ RecordBudget recordBudget(size_t onDisk) {
   const size_t memory = static_cast<size_t>(recordMemory()) * kMiB, disk = static_cast<size_t>(recordDisk()) * kMiB;
   const QString folder = recordFolder();
   return {memory > 0 ? memory : usual, std::min(disk, roomOnDisk(folder, onDisk)), folder.toStdString()};
+}
+
+QString folder(Folder which) {
+  return QSettings().value(QLatin1String(kFolders[static_cast<size_t>(which)])).toString();
+}
+void setFolder(Folder which, const QString& path) { set(kFolders[static_cast<size_t>(which)], path); }
+
+QString projectFolder() {
+  const QString chosen = folder(Folder::Projects);
+  return chosen.isEmpty() ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) : chosen;
 }
 
 int autosaveInterval() { return number(kAutosave, kUsualAutosave, kLeastAutosave, kMostAutosave); }

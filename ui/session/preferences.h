@@ -30,6 +30,13 @@ size_t usualRecordMemory();
 /// All of these; of the disk no more than half of what would be free there without the bytes that the record has there.
 RecordBudget recordBudget(size_t onDisk = 0);
 
+/// A folder that somebody chose in place of the usual one, or, of plugins, beside those; "" where nobody did.
+enum class Folder { Projects, Presets, Plugins };
+QString folder(Folder which);
+void setFolder(Folder which, const QString& path);
+/// Where projects lie while nothing else says so: the folder chosen for them, or else the user's documents.
+QString projectFolder();
+
 /// s between copies of unsaved work.
 int autosaveInterval();
 void setAutosaveInterval(int seconds);

@@ -15,6 +15,7 @@
 #include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
@@ -75,7 +76,9 @@ RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
   connect(&m_clock, &QTimer::timeout, this, [this] {
     const Progress::State state = m_progress->state();
     m_told = true;
-    Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done);
+    const double seconds = static_cast<double>(m_since.elapsed()) / 1000;
+    Q_EMIT working(QString::fromUtf8(state.stage ? state.stage : "Beginning"), state.done,
+                   secondsLeft(seconds, state.done));
   });
   connect(&session.files(), &DocumentFiles::reopened, this,
           [this](const AutosavedSession& left) { m_comesBack = left.look.hasRun; });
@@ -113,6 +116,7 @@ QString RecordingFiles::beside(const QString& project) {
 void RecordingFiles::begin() {
   m_progress = std::make_shared<Progress>();
   ++m_jobs;
+  m_since.start();
   m_clock.start();
 }
 
@@ -126,6 +130,12 @@ void RecordingFiles::cancel() {
   for (const auto& progress : {m_progress, m_reading}) {
     if (progress) progress->cancel();
   }
+}
+
+bool RecordingFiles::cancelTold() {
+  if (!m_told || m_progress->cancelled()) return false;
+  cancel();
+  return true;
 }
 
 void RecordingFiles::save(const QString& path) {

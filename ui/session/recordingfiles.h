@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/session/worker.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 #include <QtCore/QString>
 #include <QtCore/QTimer>
@@ -33,6 +34,8 @@ class RecordingFiles : public QObject {
   void open(const QString& path);
   /// Gives up what is being written or read: files stay as they were.
   void cancel();
+  /// The same for what working() tells of; false where it tells of nothing, or that is given up already.
+  bool cancelTold();
   /// All that is recorded, for when the window is opened again, with a state of now; of a run of more than `most` bytes
   /// its end alone; of one that has not come back yet, its file stays. Blocks until that is written, and what was to be
   /// written before, but waits no more than 3 s for a frame that the engine is amid. False: there is nothing to keep,
@@ -41,8 +44,9 @@ class RecordingFiles : public QObject {
   static constexpr size_t kMostKept = size_t{64} << 20;
 
  Q_SIGNALS:
-  void working(const QString& stage, double done);  ///< for a while already; `done` 0..1; often
-  void ended();                                     ///< after the last of those
+  /// For a while already; `done` 0..1; `left` in s, -1 where it is too early to tell; often.
+  void working(const QString& stage, double done, double left);
+  void ended();  ///< after the last of those
   void saved(const QString& path, qulonglong frames);
   /// `kept`: the run is still there, to be saved elsewhere.
   void saveFailed(const QString& path, const QString& problem, bool kept);
@@ -77,7 +81,8 @@ class RecordingFiles : public QObject {
   Session& m_session;
   std::shared_ptr<Progress> m_progress, m_reading;  ///< of the newest job, and of the newest that reads
   int m_jobs = 0;
-  QTimer m_clock;  ///< runs while there are any
+  QTimer m_clock;         ///< runs while there are any
+  QElapsedTimer m_since;  ///< the newest began
   bool m_told = false;
   bool m_comesBack = false;       ///< the project that is being reopened has its run
   bool m_keptIsBack = true;       ///< else that one is being read yet, or about to stand there

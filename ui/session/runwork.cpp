@@ -5,13 +5,13 @@
 #include "core/simulation/enginethread.h"
 #include "core/simulation/keptrun.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 
 #include <utility>
 
 namespace ps {
 namespace {
 constexpr int kClockInterval = 200;  // ms
-constexpr double kTells = 0.02;      // share from which what is left can be told
 }  // namespace
 
 struct RunWork::Outcome {
@@ -48,8 +48,7 @@ QString RunWork::stage() const {
 void RunWork::tell() {
   const Progress::State state = m_progress->state();
   const double seconds = static_cast<double>(m_since.elapsed()) / 1000;
-  const double left = state.done > kTells ? seconds * (1 - state.done) / state.done : -1;
-  Q_EMIT working(stage(), state.done, left);
+  Q_EMIT working(stage(), state.done, secondsLeft(seconds, state.done));
 }
 
 void RunWork::start(Task task) {

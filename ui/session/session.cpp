@@ -17,6 +17,7 @@
 #include "ui/session/runwork.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/transitions.h"
+#include "ui/session/wording.h"
 #include "ui/session/worker.h"
 
 #include <clocale>
@@ -80,7 +81,10 @@ Session::~Session() {
 }
 
 void Session::start() {
-  m_worker->run([this, paths = m_options.pluginPaths] {
+  std::vector<std::string> paths = m_options.pluginPaths;
+  if (const QString own = preferences::folder(preferences::Folder::Plugins); !own.isEmpty())
+    paths.insert(paths.begin(), own.toStdString());
+  m_worker->run([this, paths = std::move(paths)] {
     PluginRegistry::Options options;
     options.extraPaths = paths;
     QMetaObject::invokeMethod(this,
@@ -126,19 +130,28 @@ void Session::tellMaking() {
   const auto state = m_engine ? m_engine->making() : std::nullopt;
   if (state) {
     m_toldMaking = true;
-    Q_EMIT making(QString::fromUtf8(state->stage ? state->stage : "Beginning"), state->done);
+    if (state->done < m_made) m_makingSince.start();
+    m_made = state->done;
+    const double seconds = static_cast<double>(m_makingSince.elapsed()) / 1000;
+    Q_EMIT making(QString::fromUtf8(state->stage ? state->stage : "Beginning"), m_made, secondsLeft(seconds, m_made));
     return;
   }
   m_making.stop();
   if (std::exchange(m_toldMaking, false)) Q_EMIT madeOrNot();
 }
 
-void Session::cancelMaking() {
-  if (m_engine) m_engine->cancelMaking();
+bool Session::cancelMaking() {
+  if (!m_toldMaking || !m_engine->making()) return false;
+  m_engine->cancelMaking();
+  return true;
 }
 
 void Session::onSnapshot() {
-  if (m_engine && m_engine->making() && !m_making.isActive()) m_making.start();
+  if (m_engine && m_engine->making() && !m_making.isActive()) {
+    m_made = 0;
+    m_makingSince.start();
+    m_making.start();
+  }
   if (!m_values.isActive()) m_values.start();
   const SnapshotPtr now = newest();
   m_recorded->follow(now);

@@ -5,6 +5,7 @@
 #include "ui/session/autosave.h"
 #include "ui/session/messagelog.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 #include <QtCore/QString>
 #include <QtCore/QTimer>
@@ -83,8 +84,8 @@ class Session : public QObject {
   bool playing() const;
   /// What acts at the next reset acts at once: the scene stands paused at its start, where nothing is lost by that.
   bool appliesAtOnce() const;
-  /// Gives up the scene that is being made.
-  void cancelMaking();
+  /// Gives up the scene that making() tells of. False where it tells of none.
+  bool cancelMaking();
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
   bool isBroken() const;
   // Preferences as they are by now.
@@ -102,9 +103,10 @@ class Session : public QObject {
   void happened(const ps::EngineEvent& event);  ///< in the order of their numbers, none left out
   void stateKept();
   void stateNotKept(const QString& problem);
-  void making(const QString& stage, double done);  ///< a scene, for a while already; `done` 0..1; often
-  void madeOrNot();                                ///< after the last of those
-  void projectShown();                             ///< the first snapshot of an opened project has arrived
+  /// A scene, for a while already; `done` 0..1; `left` in s, -1 where it is too early to tell; often.
+  void making(const QString& stage, double done, double left);
+  void madeOrNot();     ///< after the last of those
+  void projectShown();  ///< the first snapshot of an opened project has arrived
 
  private:
   void adoptPlugins(std::shared_ptr<PluginRegistry> plugins);
@@ -138,6 +140,8 @@ class Session : public QObject {
   uint64_t m_eventsRead = 0;
   QTimer m_values, m_totals;
   QTimer m_making;  ///< runs while a scene is being made
+  QElapsedTimer m_makingSince;
+  double m_made = 0;  ///< share that was told last; less than that is another scene's
   bool m_toldMaking = false;
   std::unique_ptr<EngineThread> m_engine;
   std::unique_ptr<SceneLink> m_link;

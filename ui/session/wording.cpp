@@ -12,7 +12,8 @@
 namespace ps {
 namespace {
 
-constexpr int kRunning = 3;  // significant digits of what may change with every frame
+constexpr double kTells = 0.02;  // share from which what is left can be told
+constexpr int kRunning = 3;      // significant digits of what may change with every frame
 
 /// All digits stay, zeros too, so that it keeps its width.
 QString runningText(double shown, const QString& unit) {
@@ -28,6 +29,8 @@ QString countText(size_t count, const QString& one, const QString& many) {
   return QString::number(count) + QLatin1Char(' ') + (count == 1 ? one : many);
 }
 
+QString particlesAhead(double count) { return QStringLiteral("≈ %1 particles").arg(formatShort(count, 3)); }
+
 QString spanText(double seconds) {
   const auto whole = static_cast<long long>(std::llround(std::max(0.0, seconds)));
   if (whole < 60) return QStringLiteral("%1 s").arg(whole);
@@ -35,6 +38,13 @@ QString spanText(double seconds) {
   if (hours < 1) return QStringLiteral("%1 min %2 s").arg(minutes).arg(whole % 60);
   if (days < 1) return QStringLiteral("%1 h %2 min").arg(hours).arg(minutes % 60);
   return QStringLiteral("%1 d %2 h").arg(days).arg(hours % 24);
+}
+
+double secondsLeft(double seconds, double done) { return done > kTells ? seconds * (1 - done) / done : -1; }
+
+QString progressText(double done, double left) {
+  const QString text = formatFixed(100 * done, 0) + QStringLiteral(" %");
+  return left < 0 ? text : text + QStringLiteral(", %1 left").arg(spanText(left));
 }
 
 QString clockText(double seconds) {

@@ -13,8 +13,14 @@ struct EngineEvent;
 QString sentence(const QString& text);
 /// "1 body", "2 bodies".
 QString countText(size_t count, const QString& one, const QString& many);
+/// "≈ 1 240 particles": how many there would be.
+QString particlesAhead(double count);
 /// "2 h 20 min", "41 min", "38 s": spans of time as people say them.
 QString spanText(double seconds);
+/// s for which work goes on, of which `done` (0..1) took `seconds`; -1 where it is too early to tell.
+double secondsLeft(double seconds, double done);
+/// "37 %, 8 s left"; "37 %" where `left` is negative.
+QString progressText(double done, double left);
 /// "00:42.00": minutes, seconds, hundredths.
 QString clockText(double seconds);
 /// Whether there is matter that phases count: what is held in place is not among it.

@@ -108,6 +108,7 @@ void DrawTool::dragTouch(const Pointer& pointer) {
 
 void DrawTool::touchAt(const Vector3& point) {
   m_cursor->centre = point;
+  m_cursor->pressure = m_hand.pressure;
   const QString problem = m_touch.move(point, m_hand.seconds - m_began, m_hand.pressure);
   if (!problem.isEmpty()) refuse(problem);
 }
@@ -171,6 +172,7 @@ void DrawTool::drag(const Pointer& pointer) {
 
 void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_cursor->centre = point;
+  m_cursor->pressure = pointer.pressure;
   const QString problem = m_stroke.move(point, pointer.seconds - m_began, pointer.pressure);
   if (!problem.isEmpty()) endAsItIs(problem);
 }

@@ -39,6 +39,7 @@ struct BrushCursor {
   Vector3 centre{0, 0, 0};  ///< m
   Vector3 extent{0, 0, 0};  ///< half extents, m
   double floor = 0;         ///< m, height of what lies below
+  double pressure = 1;      ///< 0 .. 1, of a hand that draws
   bool box = false, erase = false;
 };
 

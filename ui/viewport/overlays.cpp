@@ -297,9 +297,10 @@ class CursorPainter {
     m_painter.drawPolyline(outline);
   }
   void tag(const BrushCursor& cursor, const QRectF& bounds) {
-    const QString text =
-        QStringLiteral("r %1   height %2")
-            .arg(lengthText(cursor.extent[0]), lengthText(std::max(0.0, cursor.centre[1] - cursor.floor)));
+    QString text = QStringLiteral("r %1   height %2")
+                       .arg(lengthText(cursor.extent[0]), lengthText(std::max(0.0, cursor.centre[1] - cursor.floor)));
+    // A mouse always presses fully: that is no news.
+    if (cursor.pressure < 1) text += QStringLiteral("   pressure %1 %").arg(formatFixed(100 * cursor.pressure, 0));
     const QFont font = Theme::font(TextRole::Small);
     const QRectF rect(bounds.right() + 8, bounds.top(), textWidth(text, font) + 2 * kPadding, 20);
     paintGround(m_painter, rect);

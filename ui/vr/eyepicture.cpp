@@ -2,6 +2,7 @@
 #include "ui/vr/eyepicture.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps::vr {
 namespace {
@@ -33,7 +34,7 @@ std::vector<uint32_t> texturesOf(XrSwapchain swapchain) {
 
 }  // namespace
 
-EyePicture::EyePicture(const Session& session, const PictureSize& size) : m_size(size) {
+EyePicture::EyePicture(const Session& session, const PictureSize& size) : m_size(size), m_used(size) {
   requireSrgb(session.handle());
   auto info = structure<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
   info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT;
@@ -56,7 +57,7 @@ EyePicture::~EyePicture() {
   xrDestroySwapchain(m_swapchain);
 }
 
-RenderTarget EyePicture::acquire() {
+RenderTarget EyePicture::acquire(double scale) {
   uint32_t index = 0;
   check(xrAcquireSwapchainImage(m_swapchain, nullptr, &index), "xrAcquireSwapchainImage");
   auto wait = structure<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
@@ -67,12 +68,14 @@ RenderTarget EyePicture::acquire() {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffer);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m_textures.at(index), 0);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
-  return {m_framebuffer, 0, 0, m_size};
+  const auto part = [scale](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
+  m_used = {part(m_size.width), part(m_size.height), false};
+  return {m_framebuffer, 0, 0, m_used};
 }
 
 void EyePicture::release() { check(xrReleaseSwapchainImage(m_swapchain, nullptr), "xrReleaseSwapchainImage"); }
 
-XrSwapchainSubImage EyePicture::shown() const { return {m_swapchain, {{0, 0}, {m_size.width, m_size.height}}, 0}; }
+XrSwapchainSubImage EyePicture::shown() const { return {m_swapchain, {{0, 0}, {m_used.width, m_used.height}}, 0}; }
 
 std::array<PictureSize, 2> recommendedSizes(const Runtime& runtime) {
   std::array<XrViewConfigurationView, 2> views;

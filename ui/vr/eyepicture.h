@@ -17,13 +17,14 @@ class EyePicture {
   EyePicture& operator=(const EyePicture&) = delete;
 
   /// Takes the next picture; what is drawn into the target is shown after release(). Values are written as they are: a
-  /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off.
-  RenderTarget acquire();
+  /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off. `scale`: pixels along a side that are used, of those there
+  /// are.
+  RenderTarget acquire(double scale);
   void release();
   XrSwapchainSubImage shown() const;  ///< for a layer
 
  private:
-  PictureSize m_size;
+  PictureSize m_size, m_used;
   XrSwapchain m_swapchain = XR_NULL_HANDLE;
   std::vector<uint32_t> m_textures;
   uint32_t m_framebuffer = 0;

@@ -88,6 +88,12 @@ void addWand(Props& props, const HandPose& hand, double scale, const Colour& col
     addBand(props.opaque, hand, scale, kRings[i + 1], kRings[i], *colours[i]);
 }
 
+void addBeam(Props& props, const HandPose& hand, double scale, double length, const Colour& colour) {
+  const Ring rings[] = {
+      {-kTip, 0.003}, {0.004 - length, 0.001}, {0.004 - length, 0.005}, {0.001 - length, 0.005}, {0.001 - length, 0}};
+  for (size_t i = 0; i + 1 < std::size(rings); ++i) addBand(props.opaque, hand, scale, rings[i + 1], rings[i], colour);
+}
+
 void addVolume(Props& props, const Vector3& centre, const BrushVolume& brush) {
   if ((brush.half.array() <= 0).any()) return;
   (brush.box ? addBox : addBall)(props.clear, centre, brush.half, brush.colour);

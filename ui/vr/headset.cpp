@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/headset.h"
 
+#include "ui/vr/cardclock.h"
+#include "ui/vr/detail.h"
 #include "ui/vr/eyepicture.h"
 #include "ui/vr/hands.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -47,8 +50,9 @@ class Current {
 /// What there is during a stay; made in this order, and put away in the other.
 class Headset::Loop {
  public:
-  explicit Loop(const HeadsetSetup& setup)
+  Loop(const HeadsetSetup& setup, std::atomic<double>& shown)
       : m_setup(setup),
+        m_shown(shown),
         m_runtime({XR_MNDX_EGL_ENABLE_EXTENSION_NAME, "XR_EXT_local_floor"}),
         m_session(m_runtime),
         m_hands(m_runtime, m_session),
@@ -61,6 +65,7 @@ class Headset::Loop {
 
   void frame() {
     const XrFrameState state = m_session.waitFrame();
+    const steady_clock::time_point began = steady_clock::now();
     m_session.beginFrame();
     m_hands.sync();
     std::optional<std::array<XrView, 2>> views;
@@ -69,15 +74,20 @@ class Headset::Loop {
       m_session.endFrame(state.predictedDisplayTime, {});
       return;
     }
+    m_clock.begin();
     prepare(state, *views);
     auto layer = structure<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
     std::array<XrCompositionLayerProjectionView, 2> shown;
     for (const size_t eye : {size_t{0}, size_t{1}}) shown[eye] = draw(eye, (*views)[eye]);
+    m_clock.end();
     layer.space = m_session.floor();
     layer.viewCount = 2;
     layer.views = shown.data();
     const auto* header = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
     m_session.endFrame(state.predictedDisplayTime, {&header, 1});
+    const double worked = std::chrono::duration<double>(steady_clock::now() - began).count();
+    m_detail.note(std::max(worked, m_clock.took()), kNanosecond * double(state.predictedDisplayPeriod));
+    m_shown = m_detail.scale();
   }
 
  private:
@@ -96,7 +106,7 @@ class Headset::Loop {
 
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
     EyePicture& picture = *m_pictures[eye];
-    const RenderTarget target = picture.acquire();
+    const RenderTarget target = picture.acquire(m_detail.scale());
     m_scene->draw(eye, eyeOf(view, m_setup.nearPlane, m_setup.farPlane), target);
     picture.release();
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
@@ -107,11 +117,14 @@ class Headset::Loop {
   }
 
   const HeadsetSetup& m_setup;
+  std::atomic<double>& m_shown;
   Runtime m_runtime;
   Session m_session;
   Hands m_hands;
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;
+  Detail m_detail;
+  CardClock m_clock;
 };
 
 Headset::Headset(HeadsetSetup setup) : m_setup(std::move(setup)), m_thread([this] { run(); }) {}
@@ -139,7 +152,7 @@ void Headset::run() {
 
 Ending Headset::stay() {
   const Current current(m_setup);
-  Loop loop(m_setup);
+  Loop loop(m_setup, m_detail);
   Session& session = loop.session();
   std::optional<steady_clock::time_point> asked;
   for (;;) {

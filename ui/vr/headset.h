@@ -54,6 +54,8 @@ class Headset {
   /// Nothing while it lasts.
   std::optional<Ending> ending() const;
   uint64_t frames() const { return m_frames; }  ///< that were submitted
+  /// Pixels along a side of the eyes' pictures, of those that the headset asks for: fewer while frames come late.
+  double detail() const { return m_detail; }
 
  private:
   void run();
@@ -63,6 +65,7 @@ class Headset {
   HeadsetSetup m_setup;
   std::atomic<bool> m_leave = false;
   std::atomic<uint64_t> m_frames = 0;
+  std::atomic<double> m_detail = 1;
   mutable std::mutex m_mutex;
   std::optional<Ending> m_ending;
   std::thread m_thread;

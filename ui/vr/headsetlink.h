@@ -20,6 +20,25 @@ struct BrushVolume {
   std::array<float, 3> colour{};  ///< sRGB
 };
 
+/// Panels of the interface: the later ones lie over the earlier ones.
+enum PanelIndex : size_t { kPalette, kBoard, kPopup, kPanels };
+
+struct PanelView {
+  std::shared_ptr<const PanelImage> image;  ///< nullptr: it is not there
+  double width = 0, height = 0;             ///< m
+  size_t on = kBoard;                       ///< of a popup: that it came from
+  double right = 0, down = 0;               ///< m, of a popup: of its middle from that of the other
+};
+
+/// Where a hand points at a panel.
+struct PanelPoint {
+  size_t panel = kPalette;
+  double x = 0, y = 0;  ///< 0..1 right and down from its upper left corner; beyond while it presses
+  double depth = 0;     ///< m, from the panel to the tip, or along the beam
+  bool tip = false;     ///< with the wand's tip; otherwise by its beam
+  bool pressed = false;
+};
+
 /// What hands do at a time, where the scene stands by then.
 struct HandsSeen {
   struct Hand {
@@ -27,7 +46,8 @@ struct HandsSeen {
     Vector3 up{0, 1, 0};         ///< a unit vector: the hand's own
     Vector3 forward{0, 0, -1};   ///< likewise, along which it points
     bool holds = false;          ///< its grip is pressed, and does not carry the scene
-    HandInput input;             ///< in the room
+    std::optional<PanelPoint> panel;
+    HandInput input;  ///< in the room; a trigger that is a panel's business is not pulled
   };
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
@@ -42,8 +62,11 @@ struct HeadsetView {
   uint64_t picture = 0;                ///< another one where any of those above may be another
   uint64_t project = 0;                ///< with another one the scene is set before its wearer anew
   std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
-  std::array<uint64_t, 2> strokes{};   ///< that they have begun: each is felt
-  Box box;                             ///< m, around all that there is to see of the project when it came
+  std::array<uint64_t, 2> ticks{};     ///< of strokes that they have begun, and of what they point at: each is felt
+  std::array<PanelView, kPanels> panels;
+  uint64_t brought = 0;           ///< with another one the board is set before its wearer anew
+  std::array<float, 3> accent{};  ///< sRGB, of beams
+  Box box;                        ///< m, around all that there is to see of the project when it came
 };
 
 /// Between the interface's thread and the headset's. What is handed over nobody changes any more; neither waits for

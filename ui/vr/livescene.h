@@ -2,7 +2,8 @@
 #pragma once
 #include "ui/vr/headset.h"
 #include "ui/vr/headsetlink.h"
-#include "ui/vr/stand.h"
+#include "ui/vr/moving.h"
+#include "ui/vr/panels.h"
 
 namespace ps::vr {
 
@@ -19,8 +20,6 @@ class LiveScene : public HeadsetScene {
  private:
   void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);
   double share(const HeadsetFrame& frame) const;
-  void carry(const HeadsetFrame& frame);
-  void turn(const HeadsetFrame& frame);
   void tellHands(const HeadsetFrame& frame);
   void showHands(const HeadsetFrame& frame);
   std::array<std::optional<Vibration>, 2> feel();
@@ -30,16 +29,10 @@ class LiveScene : public HeadsetScene {
   std::shared_ptr<const HeadsetView> m_view = std::make_shared<HeadsetView>();
   SnapshotPtr m_before;
   double m_came = 0, m_lasts = 0;  ///< s: when the matter did, and how long it takes to get there from that before
-  Stand m_stand;
-  /// By both hands, from when they took hold of the scene.
-  struct Carrying {
-    Stand from;
-    std::array<Vector3, 2> hands;  ///< m, in the room
-  };
-  std::optional<Carrying> m_carrying;
-  bool m_turns = false;              ///< asked for already
-  std::array<uint64_t, 2> m_felt{};  ///< strokes
-  Props m_props;                     ///< kept for its memory
+  Moving m_moving;
+  std::array<uint64_t, 2> m_felt{};  ///< ticks
+  Panels m_panels;
+  Props m_props;  ///< kept for its memory
   /// What the renderer has prepared: while only head and hands move, it stays.
   uint64_t m_prepared = 0;
   double m_share = -1;  ///< nothing yet

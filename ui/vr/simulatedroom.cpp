@@ -47,6 +47,9 @@ HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
   const Vector3 way = eyes.orientation * Vector3(m_x * kTangent * aspect, m_y * kTangent, -1).normalized();
   HandInput& used = m_hands[m_used];
   used.aim = used.grip = HandPose{eyes.position + (m_reach[m_used] - kTip) * way, along(way)};
+  // The palm of a left hand that rests faces the eyes: it holds the palette.
+  HandPose& palm = *m_hands[kLeft].grip;
+  if (m_used != kLeft) palm.orientation = Quaternion::FromTwoVectors(Vector3::UnitX(), eyes.position - palm.position);
   HeadsetFrame frame;
   frame.time = seconds;
   frame.period = std::max(0.0, seconds - m_before);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/welcome/gallery.h"
 
+#include "ui/film/thumbnail.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/worker.h"
 #include "ui/welcome/thumbnails.h"
@@ -22,6 +23,7 @@ constexpr qint64 kMostBytes = 4 << 20;  // of a file that is read for its words 
 
 struct Words {
   QString title, toTry;
+  std::string thumbnail;  ///< "" where the project has no picture of its own
 };
 
 /// Empty where the file cannot be read, is none of ours, or is too large to be looked into.
@@ -29,7 +31,8 @@ Words wordsIn(const QString& path) {
   QFile file(path);
   if (file.size() > kMostBytes || !file.open(QIODevice::ReadOnly)) return {};
   const QJsonObject project = QJsonDocument::fromJson(file.readAll()).object();
-  return {project[QLatin1String("title")].toString(), project[QLatin1String("toTry")].toString()};
+  return {project[QLatin1String("title")].toString(), project[QLatin1String("toTry")].toString(),
+          project[QLatin1String("thumbnail")].toString().toStdString()};
 }
 
 std::vector<Sample> readList(const QJsonArray& list, const QString& folder) {
@@ -94,8 +97,9 @@ void Gallery::readRecent(std::function<void(std::vector<RecentProject>)> then) {
       if (!folder.isEmpty() && path.startsWith(folder + QLatin1Char('/'))) continue;
       const QFileInfo info(path);
       const Words words = wordsIn(path);
+      const QImage own = pictureOf(words.thumbnail);
       recent.push_back({path, words.title.isEmpty() ? info.completeBaseName() : words.title, words.toTry,
-                        info.lastModified(), QImage(thumbnailPath(path))});
+                        info.lastModified(), own.isNull() ? QImage(thumbnailPath(path)) : own});
     }
     QMetaObject::invokeMethod(this, [then, recent = std::move(recent)]() mutable { then(std::move(recent)); });
   });

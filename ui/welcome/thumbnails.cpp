@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "ui/document/document.h"
+#include "ui/film/thumbnail.h"
 #include "ui/session/cachefolder.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/session.h"
@@ -19,6 +20,7 @@ namespace ps {
 namespace {
 
 constexpr int kQuality = 85;
+constexpr QSize kDrawnOwn{640, 360};  // twice as large as what is kept, which smooths its edges
 
 /// A picture that cannot be drawn or kept is no loss: the list shows an icon instead.
 bool keep(const SceneShot& shot, const QString& path) {
@@ -59,6 +61,9 @@ Thumbnails::Thumbnails(Session& session, std::function<std::optional<SceneShot>(
     else
       m_worker.run([kept] { useCached(kept); });
   });
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event)) ++m_asked;
+  });
   connect(&session.files(), &DocumentFiles::saved, this, [this](const QString&, bool present) {
     if (present) take();
   });
@@ -72,6 +77,30 @@ void Thumbnails::take() {
   m_worker.run([this, project, shot = std::move(*shot)] {
     if (!keep(shot, thumbnailPath(project))) return;
     QMetaObject::invokeMethod(this, [this, project] { Q_EMIT taken(project); });
+  });
+}
+
+void Thumbnails::takeOwn() {
+  std::optional<SceneShot> shot = m_shot();
+  if (!shot) {
+    Q_EMIT ownTaken(QStringLiteral("The view shows no matter."));
+    return;
+  }
+  m_worker.run([this, asked = ++m_asked, shot = std::move(*shot)] {
+    std::string picture;
+    QString problem;
+    try {
+      picture = thumbnailOf(drawShot(shot, kDrawnOwn));
+    } catch (const Error& error) {
+      problem = QStringLiteral("No picture could be drawn: %1.").arg(QString::fromUtf8(error.what()));
+    }
+    QMetaObject::invokeMethod(this, [this, asked, picture = std::move(picture), problem] {
+      if (asked != m_asked) return;
+      ProjectAbout about = m_session.document().about();
+      about.thumbnail = picture;
+      if (problem.isEmpty()) m_session.document().setAbout(about, QStringLiteral("picture"));
+      Q_EMIT ownTaken(problem);
+    });
   });
 }
 

@@ -30,16 +30,21 @@ class Thumbnails : public QObject {
   static constexpr int kSettle = 4000;  ///< ms after a project has shown, for matter to move a little
   /// `shot`: what the view shows now; nothing: no matter, or no view.
   Thumbnails(Session& session, std::function<std::optional<SceneShot>()> shot, QObject* parent = nullptr);
-  void take();                     ///< of the document as it is shown now
+  void take();  ///< of the document as it is shown now
+  /// The same, as the project's own picture, in one step of undo; ownTaken() follows, unless it is asked for once more
+  /// or another project is opened before.
+  void takeOwn();
   void end() { m_worker.wait(); }  ///< what is being drawn is drawn: before the session goes
 
  Q_SIGNALS:
   void taken(const QString& project);
+  void ownTaken(const QString& problem);  ///< "": the project has it
 
  private:
   Session& m_session;
   std::function<std::optional<SceneShot>()> m_shot;
   QTimer m_settle;
+  int m_asked = 0;  ///< how often an own picture was, or its project went
   Worker m_worker;  // ends first
 };
 

@@ -12,6 +12,7 @@
 #include "ui/document/wallside.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/session/worker.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
@@ -22,7 +23,6 @@
 #include <phasesketch/thin.h>
 
 #include <QtCore/QFileInfo>
-#include <QtCore/QTimer>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
@@ -58,7 +58,7 @@ struct UnitRow {
 constexpr UnitRow kUnits[] = {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "millimetres"}, {"in", "inches"}};
 constexpr double kOfScene = 0.2;    ///< size of a new solid, of the scene's narrower side
 constexpr double kOverRoom = 1.25;  ///< of the scene's room, what a mesh whose unit is not known may be
-constexpr int kPatience = 300;      ///< ms until reading is told of
+constexpr int kPatience = 300;      ///< ms until reading is told of, and until that is told anew
 constexpr const char* kTopic = "mesh";
 constexpr const char* kMeshes =
     "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.blend);;All files (*)";
@@ -136,7 +136,7 @@ double spacingOf(const Document& document) {
 
 /// Of a body that is not there yet, or of one that has just come.
 QString countText(const Body& body, const Document& document) {
-  return QStringLiteral("≈ %1 particles").arg(formatShort(particleCount(body, spacingOf(document)), 3));
+  return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
 }  // namespace
@@ -147,6 +147,8 @@ BodyActions::BodyActions(Session& session, Selection& selection, const Actions& 
   connect(&session, &Session::ready, this, [this] {
     for (QAction* action : m_adding) action->setEnabled(true);
   });
+  m_clock.setInterval(kPatience);
+  connect(&m_clock, &QTimer::timeout, this, &BodyActions::showReading);
   connect(&session.document(), &Document::changed, this, [this] {
     if (m_asked.empty() || m_session.document().body(m_asked)) return;
     m_asked.clear();
@@ -302,9 +304,10 @@ std::string BodyActions::add(Body body, const std::string& without) {
 void BodyActions::importMesh(const QString& path, MeshUse use) {
   stopReading();
   m_reading = std::make_shared<Progress>();
-  QTimer::singleShot(kPatience, this, [this, path, reading = m_reading] {
-    if (reading == m_reading) showReading(path);
-  });
+  m_reading->expect(1);
+  m_name = QFileInfo(path).fileName();
+  m_since.start();
+  m_clock.start();
   m_worker.run([this, path, use, reading = m_reading] {
     const ProgressScope scope(reading.get());
     auto imported = std::make_shared<ImportedMesh>();
@@ -322,20 +325,39 @@ void BodyActions::importMesh(const QString& path, MeshUse use) {
   });
 }
 
-void BodyActions::showReading(const QString& path) {
-  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
-                       QStringLiteral("Reading “%1”.").arg(QFileInfo(path).fileName()), {},
-                       {{QStringLiteral("Cancel"), [this] { stopReading(); }}});
+void BodyActions::showReading() {
+  const Progress::State state = m_reading->state();
+  const QString stage = QString::fromUtf8(state.stage ? state.stage : "Beginning");
+  const double left = secondsLeft(static_cast<double>(m_since.elapsed()) / 1000, state.done);
+  const QString text = stage + QStringLiteral(", ") + progressText(state.done, left);
+  if (std::exchange(m_tells, true)) {
+    m_notices.bar().setText(QString::fromLatin1(kTopic), text);
+  } else {
+    m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info, QStringLiteral("Reading “%1”.").arg(m_name),
+                         text, {NoticeBar::cancelButton([this] { cancelReading(); })});
+  }
+  Q_EMIT reading(stage, static_cast<int>(100 * state.done));
 }
 
 void BodyActions::stopReading() {
   if (m_reading) m_reading->cancel();
   m_reading.reset();
+  m_clock.stop();
+  if (std::exchange(m_tells, false)) Q_EMIT reading({}, -1);
+}
+
+bool BodyActions::cancelReading() {
+  if (!m_reading) return false;
+  stopReading();
+  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
+                       QStringLiteral("Reading “%1” was given up.").arg(m_name),
+                       QStringLiteral("The scene is as it was."));
+  return true;
 }
 
 void BodyActions::onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
                              const QString& problem) {
-  m_reading.reset();
+  stopReading();
   m_notices.bar().close(QString::fromLatin1(kTopic));
   const QString name = QFileInfo(path).fileName();
   if (!problem.isEmpty()) {

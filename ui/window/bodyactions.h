@@ -5,8 +5,10 @@
 #include "core/scene/solidform.h"
 #include "ui/session/worker.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 
 #include <memory>
 #include <vector>
@@ -37,11 +39,15 @@ class BodyActions : public QObject {
   void addToWallMenu(QMenu* menu);
   /// Reads a mesh in the background and adds it; what goes wrong is told over the view.
   void importMesh(const QString& path, MeshUse use = MeshUse::Matter);
+  /// Gives up the mesh that is being read. False where none is.
+  bool cancelReading();
   /// By its ending, one of those that meshes have.
   static bool isMesh(const QString& path);
 
  Q_SIGNALS:
   void rowWanted(const ps::Address& address);  ///< of what has come
+  /// A mesh, for a while already; often. -1 per cent: no more.
+  void reading(const QString& stage, int percent);
 
  private:
   void chooseMesh(MeshUse use);
@@ -55,7 +61,7 @@ class BodyActions : public QObject {
   void showImported(const std::string& id);
   void askUnit(const std::string& id, double metresPerUnit);
   void setUnit(std::string id, double from, double to);  ///< a copy: the notice that asks goes meanwhile
-  void showReading(const QString& path);
+  void showReading();
   void stopReading();
 
   Session& m_session;
@@ -65,6 +71,10 @@ class BodyActions : public QObject {
   std::vector<QAction*> m_adding;       ///< need plugins; solids first
   std::string m_asked;                  ///< body whose unit was asked for last; "": none
   std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
+  QString m_name;                       ///< of its file
+  QElapsedTimer m_since;                ///< it is being read
+  QTimer m_clock;                       ///< tells how far it is
+  bool m_tells = false;                 ///< that has begun
   Worker m_worker;                      ///< reads meshes; ends first
 };
 

@@ -5,10 +5,9 @@
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
-#include "ui/window/exportdialog.h"
-#include "ui/window/filmdialog.h"
+#include "ui/window/exportform.h"
+#include "ui/window/filmform.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
@@ -60,11 +59,12 @@ void ExportActions::addTo(QMenu* menu, const Viewport* view) {
   };
   QMainWindow* window = &m_actions.window();
   add(QStringLiteral("file.film"), QStringLiteral("Export film or pictures…"),
-      QStringLiteral("What was recorded of the run, in the view and the colours of now."),
-      [this, window, view] { return new FilmDialog(m_session, view, window); });
+      QStringLiteral("What was recorded of the run, in the view and the colours of now."), [this, window, view] {
+        return new RunDialog(new FilmForm(m_session, view), QStringLiteral("Export a film"), window);
+      });
   add(QStringLiteral("file.export"), QStringLiteral("Export particles or surfaces…"),
       QStringLiteral("What was recorded of the run, for ParaView, Blender and others, a file for each frame."),
-      [this, window] { return new ExportDialog(m_session, window); });
+      [this, window] { return new RunDialog(new ExportForm(m_session), QStringLiteral("Export the run"), window); });
 }
 
 void ExportActions::setEnabled(bool on) {
@@ -81,14 +81,12 @@ void ExportActions::open(const std::function<QDialog*()>& make) {
 }
 
 void ExportActions::onWorking(const QString& stage, double done, double left) {
-  QString text = QStringLiteral("%1 %").arg(formatFixed(100 * done, 0));
-  if (left >= 0) text += QStringLiteral(", %1 left").arg(spanText(left));
-  if (m_session.work().isCancelled()) text = QStringLiteral("Giving up…");
+  const QString text = m_session.work().isCancelled() ? QStringLiteral("Giving up…") : progressText(done, left);
   if (std::exchange(m_tells, true)) {
     m_notices.bar().setText(kTopic, text);
   } else {
     m_notices.bar().show(kTopic, MessageLevel::Info, stage, text,
-                         {{QStringLiteral("Cancel"), [this] { m_session.work().cancel(); }}});
+                         {NoticeBar::cancelButton([this] { m_session.work().cancel(); })});
   }
 }
 

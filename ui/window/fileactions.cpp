@@ -8,6 +8,7 @@
 #include "ui/graphs/graphexport.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/session.h"
@@ -27,7 +28,6 @@
 
 #include <QtCore/QBuffer>
 #include <QtCore/QFileInfo>
-#include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
@@ -206,12 +206,15 @@ void FileActions::chooseOpen() {
   if (!path.isEmpty()) open(path);
 }
 
-/// Where the open project lies, or the one before it that is no sample, or else the user's documents.
+/// Where the open project lies, or else the folder that was chosen for projects, or that of the one before it that is
+/// no sample.
 QString FileActions::folderToOpen() const {
-  for (const QString& path : QStringList(m_session.document().path()) + DocumentFiles::recent()) {
+  const bool chosen = !preferences::folder(preferences::Folder::Projects).isEmpty();
+  for (const QString& path :
+       QStringList(m_session.document().path()) + (chosen ? QStringList() : DocumentFiles::recent())) {
     if (!path.isEmpty() && !m_session.files().isSample(path)) return QFileInfo(path).path();
   }
-  return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  return preferences::projectFolder();
 }
 
 QString FileActions::besideProject(const QString& name) const {
@@ -241,8 +244,8 @@ QString FileActions::chooseFile() {
   const Document& document = m_session.document();
   QString suggestion = document.path();
   if (suggestion.isEmpty() || m_session.files().isSample(suggestion)) {
-    suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
-                 fileNameFor(document.title()) + QStringLiteral(".json");
+    suggestion =
+        preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) + QStringLiteral(".json");
   }
   return fileToWrite(&m_actions.window(), QStringLiteral("Save the project"), suggestion, kFilter);
 }

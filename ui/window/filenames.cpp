@@ -3,12 +3,12 @@
 
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/session.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QRegularExpression>
-#include <QtCore/QStandardPaths>
 #include <QtWidgets/QFileDialog>
 #include <QtWidgets/QHeaderView>
 #include <QtWidgets/QTreeView>
@@ -64,9 +64,7 @@ QString folderToUse(QWidget* parent, const QString& title, const QString& folder
 
 QString folderBeside(Session& session) {
   const QString& own = session.document().path();
-  return own.isEmpty() || session.files().isSample(own)
-             ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
-             : QFileInfo(own).path();
+  return own.isEmpty() || session.files().isSample(own) ? preferences::projectFolder() : QFileInfo(own).path();
 }
 
 }  // namespace ps

@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "ui/curves/curvetarget.h"
 #include "ui/document/document.h"
+#include "ui/fitting/fitpanel.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
@@ -14,6 +15,7 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
+#include "ui/session/recordingfiles.h"
 #include "ui/session/resuming.h"
 #include "ui/session/runwork.h"
 #include "ui/session/selection.h"
@@ -87,7 +89,7 @@ MainWindow::MainWindow(const Options& options)
   makeMiddle();
   m_layout = new WindowLayout(*this, {options.restore, options.dark, options.themeAsked});
   m_curves = new CurveTarget(*m_session, *m_selection, this);
-  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector, *m_curves}, viewport());
+  m_layout->makeDocks({*m_session, *m_selection, *m_tools, *m_inspector, *m_curves, viewport()});
   m_notices = new Notices(*m_session, *notice(), m_actions, this);
   m_restore = new RestoreOffer(*m_session, *m_notices, options.restore, this);
   m_files = new FileActions(*m_session, m_actions, *m_notices, *m_restore,
@@ -100,9 +102,8 @@ MainWindow::MainWindow(const Options& options)
   m_palette = new CommandPalette(this);
   m_tour = new Tour(*this);
   connectParts();
-  m_vr = std::make_unique<VrMode>(VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status,
-                                                *m_actions.find(QStringLiteral("simulation.vr")),
-                                                *m_actions.find(QStringLiteral("simulation.tryVr"))});
+  m_vr = std::make_unique<VrMode>(
+      VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status, *m_curves, m_actions});
   m_layout->applyDefault();
   m_layout->restore();
   qApp->installEventFilter(this);
@@ -132,7 +133,8 @@ void MainWindow::openFile(const QString& path) { m_files->open(path); }
 void MainWindow::saveTo(const QString& path) { m_files->saveTo(path); }
 bool MainWindow::revealParameter(const Address& address, bool focus) {
   m_welcome->leave();
-  if (workspaceTab() == kTuneTab) showWorkspace(kSceneTab);  // Tune has no rows
+  // The others have no rows.
+  if (workspaceTab() != kSketchTab) showWorkspace(kSceneTab);
   return m_pages->reveal(address, focus);
 }
 
@@ -161,10 +163,12 @@ void MainWindow::makeTopBar() {
   m_top = new TopBar(undoAction, redoAction, search, headset);
   setMenuWidget(m_top);
   QTabBar* workspaces = m_top->workspaces();
-  for (const char* name : {"Scene", "Tune", "Sketch"}) workspaces->addTab(QString::fromLatin1(name));
+  for (const char* name : {"Scene", "Tune", "Sketch", "Film"}) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
-    m_layout->setWorkspace(index == kTuneTab ? Workspace::Tune : Workspace::Scene);
+    m_layout->setWorkspace(index == kTuneTab   ? Workspace::Tune
+                           : index == kFilmTab ? Workspace::Film
+                                               : Workspace::Scene);
     m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);
   });
   connect(m_tools.get(), &Toolbox::toolChanged, this, &MainWindow::onTool);
@@ -176,7 +180,7 @@ MainWindow::WorkspaceTab MainWindow::workspaceTab() const {
 
 void MainWindow::showWorkspace(WorkspaceTab tab) { m_top->workspaces()->setCurrentIndex(tab); }
 
-/// A brush is held in Sketch alone; what else is taken in hand leaves Tune as it is.
+/// A brush is held in Sketch alone; what else is taken in hand leaves Tune and Film as they are.
 void MainWindow::onTool() {
   m_welcome->leave();
   const bool draws = m_tools->tool().usesBrush();
@@ -279,6 +283,8 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
                   graphs()->fit();
                 });
   menu->addSeparator();
+  m_sketch->addGravity(menu);
+  menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("simulation.vr")));
   m_actions.add(menu, QStringLiteral("simulation.tryVr"), QStringLiteral("Try VR without a headset"), {}, {});
 }
@@ -311,6 +317,7 @@ void MainWindow::connectParts() {
     }
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
+  connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
   connect(m_inspector, &Inspector::keyRefused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
@@ -435,6 +442,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   QMainWindow::closeEvent(event);
 }
 
+bool MainWindow::cancelLongWork() {
+  if (m_session->cancelMaking() || m_bodies->cancelReading()) return true;
+  if (m_session->work().cancel() || m_session->recordings().cancelTold()) return true;
+  auto* fitting = findChild<FitPanel*>();
+  return fitting && fitting->cancel();
+}
+
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
     QMainWindow::keyPressEvent(event);
@@ -446,7 +460,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     m_welcome->leave();
   } else if (m_centre->currentWidget() != m_pane) {
     m_centre->setCurrentWidget(m_pane);
-  } else if (m_session->work().cancel()) {
+  } else if (cancelLongWork()) {
     return;
   } else if (m_layout->fullViewport()) {
     m_layout->setFullViewport(false);

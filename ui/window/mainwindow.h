@@ -77,7 +77,7 @@ class MainWindow : public QMainWindow {
   Transport* transport() const;
   CurveTarget& curves() { return *m_curves; }
   /// Tabs of the top bar, in their order.
-  enum WorkspaceTab { kSceneTab, kTuneTab, kSketchTab };
+  enum WorkspaceTab { kSceneTab, kTuneTab, kSketchTab, kFilmTab };
   void showWorkspace(WorkspaceTab tab);
   WorkspaceTab workspaceTab() const;
   CommandPalette* palette() const { return m_palette; }
@@ -120,6 +120,7 @@ class MainWindow : public QMainWindow {
   void makeHelpMenu(QMenu* menu);
   void makeSimulationMenu(QMenu* menu);
   void connectParts();
+  bool cancelLongWork();  ///< false where there is none
   void onReady();
   void showPluginProblems();
   void updateTitle();

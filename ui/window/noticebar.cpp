@@ -65,6 +65,10 @@ NoticeBar::NoticeBar(QWidget* parent)
   hide();
 }
 
+NoticeBar::Button NoticeBar::cancelButton(std::function<void()> act) {
+  return {QStringLiteral("Cancel"), std::move(act), QStringLiteral("Cancel (Esc)")};
+}
+
 void NoticeBar::show(const QString& topic, MessageLevel level, const QString& title, const QString& text,
                      std::vector<Button> buttons) {
   remove(topic);
@@ -120,6 +124,7 @@ void NoticeBar::refresh() {
   for (const Button& button : notice.buttons) {
     auto* push = new QPushButton(asButtonText(button.text));
     push->setFocusPolicy(Qt::TabFocus);
+    push->setToolTip(button.tip);
     connect(push, &QPushButton::clicked, this, [act = button.act] { act(); });
     m_buttons->addWidget(push, 0, Qt::AlignVCenter);
   }

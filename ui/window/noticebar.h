@@ -24,7 +24,10 @@ class NoticeBar : public QWidget {
   struct Button {
     QString text;
     std::function<void()> act;
+    QString tip = QString();
   };
+  /// Of long work; Esc does the same.
+  static Button cancelButton(std::function<void()> act);
   /// `topic`: a later notice of the same topic replaces this one, and close(topic) takes it away; what waits below
   /// shows.
   void show(const QString& topic, MessageLevel level, const QString& title, const QString& text,

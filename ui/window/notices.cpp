@@ -7,7 +7,6 @@
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/noticebar.h"
 
@@ -42,13 +41,13 @@ Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObje
   });
 }
 
-void Notices::showMaking(const QString& stage, double done) {
-  const QString text = QStringLiteral("%1, %2 %").arg(stage, formatFixed(100 * done, 0));
+void Notices::showMaking(const QString& stage, double done, double left) {
+  const QString text = stage + QStringLiteral(", ") + progressText(done, left);
   if (std::exchange(m_tellsMaking, true)) {
     m_bar.setText(kMaking, text);
   } else {
     m_bar.show(kMaking, MessageLevel::Info, QStringLiteral("The scene is being made."), text,
-               {{QStringLiteral("Cancel"), [this] { m_session.cancelMaking(); }}});
+               {NoticeBar::cancelButton([this] { m_session.cancelMaking(); })});
   }
 }
 

@@ -40,7 +40,7 @@ class Notices : public QObject {
   void showLate(const std::string& plugin);
   void showRemark(const FailureText& remark);
   void showBroken(const EngineEvent& event);  ///< the scene could not be built
-  void showMaking(const QString& stage, double done);
+  void showMaking(const QString& stage, double done, double left);
   void showCancelled();
   Session& m_session;
   NoticeBar& m_bar;

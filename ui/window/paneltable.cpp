@@ -16,6 +16,7 @@
 #include "ui/panels/outliner.h"
 #include "ui/session/session.h"
 #include "ui/timeline/timeline.h"
+#include "ui/window/filmform.h"
 
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
@@ -53,6 +54,12 @@ QWidget* makeMaterials(const PanelContext& context) {
   return scroll;
 }
 
+QWidget* makeFilm(const PanelContext& context) {
+  auto* film = new FilmForm(context.session, context.view);
+  film->followRun();
+  return scrolling(film);
+}
+
 }  // namespace
 
 const std::vector<PanelRow>& panelTable() {
@@ -80,20 +87,23 @@ const std::vector<PanelRow>& panelTable() {
        "tuning"},
       {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }, "tuning"},
       {"dock.points", "Points", makePoints, "tuning"},
+      {"dock.film", "Film", makeFilm, "files"},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }, "timeline"},
   };
   return kTable;
 }
 
 const std::vector<DockRow>& dockTable() {
-  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", "", true, false},
-                                           {"dock.materials", "Materials", "", true, false},
-                                           {"dock.inspector", "Inspector", "Material", true, false},
-                                           {"dock.graphs", "Graphs", "", true, true},
-                                           {"dock.transport", "Transport", "", true, true},
-                                           {"dock.responses", "Responses", "", false, true},
-                                           {"dock.curve", "Curve", "", false, true},
-                                           {"dock.points", "Points", "", false, true}};
+  using enum Workspace;
+  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", "", {Scene}},
+                                           {"dock.materials", "Materials", "", {Scene}},
+                                           {"dock.inspector", "Inspector", "Material", {Scene}},
+                                           {"dock.graphs", "Graphs", "", {Scene, Tune}},
+                                           {"dock.transport", "Transport", "", {Scene, Tune, Film}},
+                                           {"dock.responses", "Responses", "", {Tune}},
+                                           {"dock.curve", "Curve", "", {Tune}},
+                                           {"dock.points", "Points", "", {Tune}},
+                                           {"dock.film", "Film", "", {Film}}};
   return kTable;
 }
 

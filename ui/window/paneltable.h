@@ -11,6 +11,7 @@ class Inspector;
 class Selection;
 class Session;
 class Toolbox;
+class Viewport;
 
 /// What panels are made with; they follow it by themselves.
 struct PanelContext {
@@ -19,6 +20,7 @@ struct PanelContext {
   Toolbox& tools;
   Inspector& inspector;
   CurveTarget& curves;
+  Viewport* view;  ///< nullptr where there is no picture
 };
 
 /// One page of a dock. A new panel is a class in a file of its own and a row in the table.
@@ -31,14 +33,14 @@ struct PanelRow {
 const std::vector<PanelRow>& panelTable();
 
 /// Which docks a workspace of the window shows. Sketch shows those of the scene.
-enum class Workspace { Scene, Tune };
+enum class Workspace { Scene, Tune, Film };
 
 /// The docks, in the order in which they are laid out.
 struct DockRow {
   const char* name;  ///< in saved layouts
   const char* title;
-  const char* first;  ///< page that shows at first; "": the first one
-  bool scene, tune;   ///< workspaces that show it
+  const char* first;                  ///< page that shows at first; "": the first one
+  std::vector<Workspace> workspaces;  ///< that show it
 };
 const std::vector<DockRow>& dockTable();
 

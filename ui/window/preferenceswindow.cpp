@@ -19,11 +19,13 @@
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QStandardPaths>
 #include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QGridLayout>
+#include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QPushButton>
 
@@ -36,7 +38,7 @@ namespace {
 
 const QString kName = QStringLiteral("psPreferences");
 constexpr int kRefresh = 500;  // ms
-constexpr int kGap = 8, kEdge = 16, kLabelWidth = 190, kWidth = 540;
+constexpr int kGap = 8, kEdge = 16, kLabelWidth = 190, kWidth = 540, kPlaceWidth = 180;
 
 QString bytesText(double bytes) { return QString::fromStdString(memoryText(bytes)); }
 QString mebibytes(int count) {
@@ -70,13 +72,16 @@ class Preferences : public QDialog {
   void addTheme();
   void addAutosave();
   void addRecording();
+  void addFolders();
+  void addFolder(preferences::Folder which, const QString& label, const QString& tip, const QString& usual);
+  void apply(preferences::Folder which);
   void chooseFolder();
   void refresh();
 
   MainWindow& m_window;
   QGridLayout* m_grid;
   QPushButton *m_folder = nullptr, *m_empty = nullptr;
-  QLabel* m_used = nullptr;
+  QLabel *m_used = nullptr, *m_restart = nullptr;
   QTimer m_clock;
 };
 
@@ -91,6 +96,7 @@ Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window
   addTheme();
   addAutosave();
   addRecording();
+  addFolders();
   m_grid->setRowStretch(m_grid->rowCount(), 1);
   m_clock.setInterval(kRefresh);
   connect(&m_clock, &QTimer::timeout, this, &Preferences::refresh);
@@ -210,6 +216,69 @@ void Preferences::addRecording() {
     refresh();
   });
   m_grid->addWidget(m_empty, m_grid->rowCount(), 1, Qt::AlignLeft);
+}
+
+void Preferences::addFolders() {
+  using enum preferences::Folder;
+  heading(QStringLiteral("Folders"));
+  addFolder(Projects, QStringLiteral("Projects"),
+            QStringLiteral("Where files are looked for and written, unless the open project lies elsewhere."),
+            QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
+  addFolder(Presets, QStringLiteral("Presets"), QStringLiteral("Your own materials in the library."),
+            MaterialLibrary::usualFolder());
+  addFolder(Plugins, QStringLiteral("Plugins"),
+            QStringLiteral("Looked into beside the usual places, from the next start on. Its plugins go before those."),
+            {});
+  m_restart = new QLabel(QStringLiteral("Start the program again to have its plugins."));
+  m_restart->setProperty("role", "muted");
+  m_restart->hide();
+  m_grid->addWidget(m_restart, m_grid->rowCount(), 1);
+}
+
+/// `usual`: what holds while none is chosen; "": nothing does.
+void Preferences::addFolder(preferences::Folder which, const QString& label, const QString& tip, const QString& usual) {
+  auto* line = new QWidget;
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kGap);
+  auto* place = new QLabel;
+  row->addWidget(place, 1);
+  const auto button = [&](const QString& text) {
+    auto* push = new QPushButton(text);
+    push->setAutoDefault(false);
+    push->setAccessibleName(label + QStringLiteral(": ") + text);
+    row->addWidget(push);
+    return push;
+  };
+  auto* choose = button(QStringLiteral("Choose…"));
+  auto* reset = button(QStringLiteral("Reset"));
+  const auto show = [which, usual, place, reset] {
+    const QString chosen = preferences::folder(which);
+    const QString path = QDir::toNativeSeparators(chosen.isEmpty() ? usual : chosen);
+    place->setText(path.isEmpty() ? QStringLiteral("The usual ones alone")
+                                  : place->fontMetrics().elidedText(path, Qt::ElideMiddle, kPlaceWidth));
+    place->setToolTip(path);
+    reset->setEnabled(!chosen.isEmpty());
+  };
+  const auto set = [this, which, show](const QString& path) {
+    preferences::setFolder(which, path);
+    show();
+    apply(which);
+  };
+  connect(choose, &QPushButton::clicked, this, [this, which, label, usual, set] {
+    const QString chosen = preferences::folder(which);
+    const QString path =
+        folderToUse(this, QStringLiteral("Folder for %1").arg(label.toLower()), chosen.isEmpty() ? usual : chosen);
+    if (!path.isEmpty()) set(path);
+  });
+  connect(reset, &QPushButton::clicked, this, [set] { set({}); });
+  show();
+  addDialogRow(*m_grid, label, line, tip);
+}
+
+void Preferences::apply(preferences::Folder which) {
+  if (which == preferences::Folder::Presets) m_window.library().library().setFolder({});
+  if (which == preferences::Folder::Plugins) m_restart->show();
 }
 
 void Preferences::chooseFolder() {

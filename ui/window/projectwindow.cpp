@@ -2,16 +2,22 @@
 #include "ui/window/projectwindow.h"
 
 #include "ui/document/document.h"
+#include "ui/film/thumbnail.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+#include "ui/welcome/thumbnails.h"
 #include "ui/window/mainwindow.h"
+#include "ui/window/welcome.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QEvent>
+#include <QtGui/QPixmap>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPlainTextEdit>
+#include <QtWidgets/QPushButton>
 #include <QtWidgets/QVBoxLayout>
 
 namespace ps {
@@ -19,6 +25,7 @@ namespace {
 
 const QString kName = QStringLiteral("psProject");
 constexpr int kEdge = 16, kGap = 6;
+constexpr QSize kPicture{160, 90};
 constexpr api::ParameterDeclaration kDuration{
     "duration", "Duration", "", "s", api::ParameterKind::Number, api::Scale::Linear, 60, 0, 600, 0, 1e9, "", 1, 0, "",
     "",         "",         "", ""};
@@ -32,22 +39,30 @@ class ProjectProperties : public QDialog {
   void done(int result) override;
 
  private:
+  void addPicture(QVBoxLayout& column);
   void showAbout();
+  void showPicture(const std::string& thumbnail);
+  void tell(const QString& problem);
   void take();
-  Document& m_document;
   void takeDuration();
+  Document& m_document;
+  Thumbnails& m_pictures;
   QLineEdit *m_title, *m_toTry, *m_duration;
   QPlainTextEdit* m_description;
-  QLabel *m_problem, *m_file;
+  QLabel *m_picture, *m_problem, *m_file;
+  QPushButton* m_remove = nullptr;
+  std::string m_shown;  ///< of the picture; it is unpacked where it changes alone
 };
 
 ProjectProperties::ProjectProperties(MainWindow& window)
     : QDialog(&window),
       m_document(window.session().document()),
+      m_pictures(window.welcome().pictures()),
       m_title(new QLineEdit),
       m_toTry(new QLineEdit),
       m_duration(new QLineEdit),
       m_description(new QPlainTextEdit),
+      m_picture(new QLabel),
       m_problem(new QLabel),
       m_file(new QLabel) {
   setObjectName(kName);
@@ -74,6 +89,7 @@ ProjectProperties::ProjectProperties(MainWindow& window)
   m_duration->setToolTip(
       QStringLiteral("How long a run is planned to be: the time line's length, and where the run of a copy for others "
                      "ends. It goes on beyond that while it plays."));
+  addPicture(*column);
   m_problem->setProperty("role", "error");
   m_problem->setWordWrap(true);
   m_problem->hide();
@@ -85,7 +101,55 @@ ProjectProperties::ProjectProperties(MainWindow& window)
   connect(m_duration, &QLineEdit::editingFinished, this, &ProjectProperties::takeDuration);
   connect(&m_document, &Document::changed, this, &ProjectProperties::showAbout);
   showAbout();
-  resize(460, 390);
+  resize(460, 510);
+}
+
+void ProjectProperties::addPicture(QVBoxLayout& column) {
+  column.addWidget(new QLabel(QStringLiteral("Picture")));
+  auto* row = new QHBoxLayout;
+  row->setSpacing(kGap);
+  m_picture->setFixedSize(kPicture);
+  m_picture->setAlignment(Qt::AlignCenter);
+  m_picture->setAccessibleName(QStringLiteral("Picture"));
+  m_picture->setProperty("role", "muted");
+  row->addWidget(m_picture);
+  const auto button = [&](const QString& text, const QString& tip) {
+    auto* push = new QPushButton(text);
+    push->setAutoDefault(false);  // Enter ends what is typed above
+    push->setToolTip(tip);
+    row->addWidget(push, 0, Qt::AlignTop);
+    return push;
+  };
+  QPushButton* fromView = button(QStringLiteral("Take from view"),
+                                 QStringLiteral("What the view shows now: the project's picture in lists and copies."));
+  m_remove = button(QStringLiteral("Remove"), QStringLiteral("Lists then show how the project was last seen."));
+  row->addStretch(1);
+  column.addLayout(row);
+  connect(fromView, &QPushButton::clicked, this, [this] { m_pictures.takeOwn(); });
+  connect(&m_pictures, &Thumbnails::ownTaken, this, &ProjectProperties::tell);
+  connect(m_remove, &QPushButton::clicked, this, [this] {
+    ProjectAbout about = m_document.about();
+    about.thumbnail.clear();
+    m_document.setAbout(about, QStringLiteral("picture"));
+  });
+  showPicture({});
+}
+
+void ProjectProperties::showPicture(const std::string& thumbnail) {
+  m_remove->setEnabled(!thumbnail.empty());
+  if (thumbnail == m_shown && !thumbnail.empty()) return;
+  m_shown = thumbnail;
+  const QImage picture = pictureOf(thumbnail);
+  if (picture.isNull()) return m_picture->setText(QStringLiteral("None of its own"));
+  const double ratio = devicePixelRatioF();
+  QPixmap pixmap = QPixmap::fromImage(picture.scaled(kPicture * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+  pixmap.setDevicePixelRatio(ratio);
+  m_picture->setPixmap(pixmap);
+}
+
+void ProjectProperties::tell(const QString& problem) {
+  m_problem->setText(problem);
+  m_problem->setVisible(!problem.isEmpty());
 }
 
 /// What is being typed stays; what an undo brings back is shown.
@@ -98,6 +162,7 @@ void ProjectProperties::showAbout() {
   show(*m_title, about.title);
   show(*m_toTry, about.toTry);
   show(*m_duration, (formatNumber(about.duration) + QStringLiteral(" s")).toStdString());
+  showPicture(about.thumbnail);
   const QString text = QString::fromStdString(about.description);
   const bool typing = m_description->hasFocus() && m_description->document()->isModified();
   if (m_description->toPlainText() != text && !typing) m_description->setPlainText(text);
@@ -136,8 +201,7 @@ void ProjectProperties::takeDuration() {
   const QString problem = !typed.problem.isEmpty() ? typed.problem
                           : range.isEmpty()        ? QString()
                                                    : QStringLiteral("Duration %1.").arg(range);
-  m_problem->setText(problem);
-  m_problem->setVisible(!problem.isEmpty());
+  tell(problem);
   if (!problem.isEmpty()) return;
   m_duration->setModified(false);
   about.duration = typed.value;

@@ -4,16 +4,15 @@
 #include "core/io/recording.h"
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 
-#include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
@@ -80,8 +79,8 @@ void RecordingActions::chooseSave() {
   const Document& document = m_session.document();
   QString suggestion = RecordingFiles::beside(document.path());
   if (suggestion.isEmpty() || m_session.files().isSample(document.path())) {
-    suggestion = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + QLatin1Char('/') +
-                 fileNameFor(document.title()) + QLatin1String(kRecordingEnding);
+    suggestion = preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) +
+                 QLatin1String(kRecordingEnding);
   }
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save the recording"), suggestion, kFilter);
   if (!path.isEmpty()) m_session.recordings().save(path);
@@ -93,13 +92,13 @@ void RecordingActions::chooseOpen() {
   if (!path.isEmpty()) m_session.recordings().open(path);
 }
 
-void RecordingActions::onWorking(const QString& stage, double done) {
-  const QString text = QStringLiteral("%1 %").arg(formatFixed(100 * done, 0));
+void RecordingActions::onWorking(const QString& stage, double done, double left) {
+  const QString text = progressText(done, left);
   if (std::exchange(m_tells, true)) {
     m_notices.bar().setText(kWorking, text);
   } else {
     m_notices.bar().show(kWorking, MessageLevel::Info, stage, text,
-                         {{QStringLiteral("Cancel"), [this] { m_session.recordings().cancel(); }}});
+                         {NoticeBar::cancelButton([this] { m_session.recordings().cancel(); })});
   }
 }
 

@@ -22,7 +22,7 @@ class RecordingActions : public QObject {
  private:
   void chooseSave();
   void chooseOpen();
-  void onWorking(const QString& stage, double done);
+  void onWorking(const QString& stage, double done, double left);
   void onOpened(const QString& path, double from, double to, const QString& remark);
 
   Session& m_session;

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/film/thumbnail.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/preferences.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -19,7 +20,6 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
-#include <QtCore/QStandardPaths>
 #include <QtGui/QAction>
 #include <QtGui/QImage>
 #include <QtWidgets/QMainWindow>
@@ -95,8 +95,7 @@ void ShareActions::chooseCopy() {
   const Document& document = m_session.document();
   const QString& own = document.path();
   const bool hasFile = !own.isEmpty() && !m_session.files().isSample(own);
-  const QString folder =
-      hasFile ? QFileInfo(own).absolutePath() : QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  const QString folder = hasFile ? QFileInfo(own).absolutePath() : preferences::projectFolder();
   const QString name = hasFile ? QFileInfo(own).completeBaseName() : fileNameFor(document.title());
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save a copy for sharing"),
                                    folder + QLatin1Char('/') + name + QStringLiteral("-shared.json"),
@@ -112,11 +111,12 @@ void ShareActions::writeCopy(const QString& path) {
     why = QStringLiteral("This is the file that is open: choose another name for the copy.");
   m_notices.refuse(QStringLiteral("No copy is written."), why);
   if (!why.isEmpty()) return;
-  const QImage shown = m_view ? m_view->grabFramebuffer() : QImage();
+  const bool hasPicture = !document.project().thumbnail.empty();
+  const QImage shown = m_view && !hasPicture ? m_view->grabFramebuffer() : QImage();
   m_session.work().start(
       {kCopy, path, [path, shown, project = document.project(), plugins = m_session.registry()](const KeptRun&) {
          SharedCopy copy = copyForSharing(project, *plugins);
-         copy.project.thumbnail = thumbnailOf(shown);
+         if (copy.project.thumbnail.empty()) copy.project.thumbnail = thumbnailOf(shown);
          return write(std::move(copy), *plugins, path);
        }});
 }

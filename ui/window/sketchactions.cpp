@@ -17,6 +17,10 @@
 #include <utility>
 
 namespace ps {
+namespace {
+const Address kGravity{Owner::Scene, "", "gravity"};
+constexpr double kEarth = 9.81;  // m/s^2
+}  // namespace
 
 void SketchActions::makeMenu(QMenu* menu) {
   for (const ToolRow& row : toolTable()) {
@@ -80,6 +84,32 @@ void SketchActions::letGo() {
   std::vector<std::pair<Address, Value>> values;
   for (const std::string& id : heldBodies()) values.push_back({{Owner::Body, id, "held"}, false});
   m_session.document().setParameters(values, QStringLiteral("make it real"));
+}
+
+void SketchActions::addGravity(QMenu* menu) {
+  m_gravity = m_actions.add(menu, QStringLiteral("simulation.gravity"), QStringLiteral("Zero gravity"),
+                            {QKeySequence(QStringLiteral("Shift+G"))}, [this] { turnGravity(); });
+  m_gravity->setToolTip(QStringLiteral("Takes gravity away, and gives it back"));
+  m_gravity->setCheckable(true);
+  const auto follow = [this] { m_gravity->setChecked(m_session.document().value(kGravity) == Value(0.0)); };
+  connect(&m_session.document(), &Document::changed, m_gravity, follow);
+  connect(&m_session, &Session::projectShown, m_gravity, [this] { m_before = 0; });
+  connect(m_gravity, &QAction::triggered, m_gravity, follow);  // what holds, not what was clicked
+  follow();
+}
+
+/// Back comes what there was, or what the Earth has.
+void SketchActions::turnGravity() {
+  Document& document = m_session.document();
+  const Value now = document.value(kGravity);
+  const auto* gravity = std::get_if<double>(&now);
+  if (!gravity) return;
+  if (*gravity != 0) m_before = *gravity;
+  const bool off = *gravity != 0;
+  document.setParameters({{kGravity, off            ? 0.0
+                                     : m_before > 0 ? m_before
+                                                    : kEarth}},
+                         off ? QStringLiteral("zero gravity") : QStringLiteral("gravity again"));
 }
 
 /// The key that a brush asks for, where nothing else has it.

@@ -23,6 +23,7 @@ class SketchActions : public QObject {
       : m_session(session), m_tools(tools), m_actions(actions) {}
   void makeMenu(QMenu* menu);
   void addBrushes();  ///< once plugins are there
+  void addGravity(QMenu* menu);
 
   QAction* makeReal() const { return m_makeReal; }  ///< enabled while something is held
 
@@ -31,13 +32,15 @@ class SketchActions : public QObject {
   std::vector<std::string> heldBodies() const;  ///< until somebody lets go; keys do so themselves
   void letGo();
   void showHeld();
+  void turnGravity();
   QList<QKeySequence> keysOf(const std::string& brush) const;
 
   Session& m_session;
   Toolbox& m_tools;
   const Actions& m_actions;
   QMenu* m_shapes = nullptr;
-  QAction *m_hold = nullptr, *m_makeReal = nullptr;
+  QAction *m_hold = nullptr, *m_makeReal = nullptr, *m_gravity = nullptr;
+  double m_before = 0;  ///< m/s^2, the gravity before there was none; 0: it was not taken away here
 };
 
 }  // namespace ps

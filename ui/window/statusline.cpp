@@ -68,6 +68,12 @@ void StatusLine::setHeadset(const QString& state) {
   refresh();
 }
 
+void StatusLine::setWork(const QString& stage, int percent) {
+  m_stage = stage;
+  m_percent = percent;
+  refresh();
+}
+
 void StatusLine::say(const QString& sentence, MessageLevel level) {
   m_said = sentence;
   m_saidLevel = level;
@@ -121,8 +127,9 @@ void StatusLine::refresh() {
   }
   const auto making = m_session.isReady() ? m_session.engine()->making() : std::nullopt;
   state.making = making ? static_cast<int>(100 * making->done) : -1;
-  state.working = m_session.work().percent();
-  state.work = m_session.work().stage().toLower();
+  const bool own = m_session.work().isBusy();
+  state.working = own ? m_session.work().percent() : m_percent;
+  state.work = (own ? m_session.work().stage() : m_stage).toLower();
   state.silent =
       !making && state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
   state.late = m_late;

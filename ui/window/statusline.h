@@ -41,6 +41,8 @@ class StatusLine : public QWidget {
   void setState(const State& state);  ///< until something happens in the session
   const State& state() const { return m_state; }
   void setHeadset(const QString& state);  ///< "": nobody is in one
+  /// Of work beside that of the session, "Mending"; -1 per cent: there is none.
+  void setWork(const QString& stage, int percent);
   /// In the place of notes, for half a minute; "" ends that.
   void say(const QString& sentence, MessageLevel level = MessageLevel::Info);
   /// Energy drift as a share of what was exchanged since the start.
@@ -67,6 +69,8 @@ class StatusLine : public QWidget {
   Session& m_session;
   Viewport* m_view;
   QString m_fileText, m_noteAddress, m_late, m_headset, m_said;
+  QString m_stage;
+  int m_percent = -1;  ///< of setWork()
   MessageLevel m_saidLevel = MessageLevel::Info;
   QTimer m_saying;
   State m_state;

@@ -19,6 +19,7 @@ using vr::kLeft, vr::kRight;
 
 constexpr double kPushed = 0.7;    // of a stick's way, or from the middle of a pad
 constexpr double kRepeats = 0.15;  // s, while it stays there
+constexpr double kLong = 0.5;      // s
 constexpr double kTurned = 0.05;   // about rad, after which a brush is shown turned
 
 }  // namespace
@@ -35,11 +36,11 @@ VrHands::VrHands(Session& session, Toolbox& tools)
 void VrHands::act(const vr::HandsSeen& seen, const SnapshotPtr& scene) {
   for (const size_t hand : {kLeft, kRight}) {
     draw(hand, seen, scene);
-    press(hand, seen.hands[hand].input);
+    press(hand, seen.hands[hand].input, seen.seconds);
     const vr::HandsSeen::Hand &now = seen.hands[hand], &before = m_seen.hands[hand];
     m_changed = m_changed || now.holds != before.holds || (now.up - m_described[hand]).norm() > kTurned;
   }
-  choose(seen.hands[kRight].input, seen.seconds);
+  if (!seen.hands[kRight].panel) choose(seen.hands[kRight].input, seen.seconds);  // else it scrolls there
   m_seen = seen;
 }
 
@@ -53,15 +54,28 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   m_changed = m_changed || brush.begun() != begun;
 }
 
-void VrHands::press(size_t hand, const vr::HandInput& now) {
+/// First and second button. Hands with pads have one for both: for half a second it is the second.
+std::pair<bool, bool> VrHands::pressed(size_t hand, const vr::HandInput& now, double seconds) {
   const vr::HandInput& before = m_seen.hands[hand].input;
-  const bool first = now.first && !before.first, second = now.second && !before.second;
-  QUndoStack& undo = m_session.document().undoStack();
+  const bool second = now.second && !before.second;
+  if (!now.pad) return {now.first && !before.first, second};
+  std::optional<double>& since = m_firstSince[hand];
+  if (now.first && !before.first) since = seconds;
+  if (since && now.first && seconds - *since >= kLong) {
+    since.reset();
+    return {false, true};
+  }
+  return {!now.first && std::exchange(since, std::nullopt).has_value(), second};
+}
+
+void VrHands::press(size_t hand, const vr::HandInput& now, double seconds) {
+  const auto [first, second] = pressed(hand, now, seconds);
   if (hand == kLeft) {
     if (first) m_session.playPause();
-    if (second) undo.redo();
-  } else if (first || second) {
-    undo.undo();
+    if (second) Q_EMIT realWanted();
+  } else {
+    if (first) m_session.document().undoStack().undo();
+    if (second) Q_EMIT boardWanted();
   }
 }
 
@@ -122,7 +136,7 @@ void VrHands::describe(vr::HeadsetView& view) {
     vr::BrushVolume& brush = view.brushes[hand];
     std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
     brush.colour = colour(hand, view.matter.get());
-    view.strokes[hand] = m_brushes[hand].begun();
+    view.ticks[hand] = m_brushes[hand].begun();
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 namespace ps {
 
@@ -26,9 +27,14 @@ class VrHands : public QObject {
   void describe(vr::HeadsetView& view);
   bool changed() const { return m_changed; }  ///< since it was described last
 
+ Q_SIGNALS:
+  void boardWanted();
+  void realWanted();  ///< what is held shall be let go
+
  private:
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
-  void press(size_t hand, const vr::HandInput& now);
+  void press(size_t hand, const vr::HandInput& now, double seconds);
+  std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
   void choose(const vr::HandInput& now, double seconds);
   void step(int direction, double seconds);
   void nextMaterial();
@@ -37,10 +43,11 @@ class VrHands : public QObject {
   Session& m_session;
   Toolbox& m_tools;
   std::array<HandBrush, 2> m_brushes;
-  vr::HandsSeen m_seen;                ///< the last one
-  std::array<Vector3, 2> m_described;  ///< how brushes were turned then
-  double m_stepped = 0;                ///< s, when the brush got another size
-  bool m_ends = false;                 ///< what changes in the document is the end of a stroke here
+  vr::HandsSeen m_seen;                               ///< the last one
+  std::array<Vector3, 2> m_described;                 ///< how brushes were turned then
+  double m_stepped = 0;                               ///< s, when the brush got another size
+  std::array<std::optional<double>, 2> m_firstSince;  ///< s, of a hand with one button for both
+  bool m_ends = false;                                ///< what changes in the document is the end of a stroke here
   bool m_changed = false;
 };
 

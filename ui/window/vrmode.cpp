@@ -11,15 +11,18 @@
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/vr/livescene.h"
+#include "ui/window/actions.h"
 #include "ui/window/headsetcontext.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/statusline.h"
 #include "ui/window/vrhands.h"
+#include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
 #include <QtGui/QAction>
 
+#include <cmath>
 #include <utility>
 
 namespace ps {
@@ -38,13 +41,21 @@ QString asSentence(const std::string& text) {
 
 }  // namespace
 
-VrMode::VrMode(const Parts& parts) : m_parts(parts), m_hands(std::make_unique<VrHands>(parts.session, parts.tools)) {
+VrMode::VrMode(const Parts& parts)
+    : m_parts(parts),
+      m_action(*parts.actions.find(QStringLiteral("simulation.vr"))),
+      m_without(*parts.actions.find(QStringLiteral("simulation.tryVr"))),
+      m_hands(std::make_unique<VrHands>(parts.session, parts.tools)) {
   m_timer.setInterval(kLook);
   m_timer.setTimerType(Qt::PreciseTimer);
   connect(&m_timer, &QTimer::timeout, this, &VrMode::look);
-  for (QAction* action : {&m_parts.action, &m_parts.without}) action->setCheckable(true);
-  connect(&m_parts.action, &QAction::triggered, this, [this](bool on) { on ? enter() : leave(); });
-  connect(&m_parts.without, &QAction::triggered, this, [this](bool on) { on ? enterWithout() : leave(); });
+  for (QAction* action : {&m_action, &m_without}) action->setCheckable(true);
+  connect(&m_action, &QAction::triggered, this, [this](bool on) { on ? enter() : leave(); });
+  connect(&m_without, &QAction::triggered, this, [this](bool on) { on ? enterWithout() : leave(); });
+  connect(m_hands.get(), &VrHands::boardWanted, this, [this] {
+    if (m_panels) m_panels->toggleBoard();
+  });
+  connect(m_hands.get(), &VrHands::realWanted, m_parts.actions.find(QStringLiteral("sketch.real")), &QAction::trigger);
   follow();
 }
 
@@ -75,6 +86,8 @@ void VrMode::begin() {
   m_parts.notices.bar().close(kTopic);
   if (!m_parts.view) throw Error("VR needs OpenGL 4.3, which there is none of here; a graphics driver brings it.");
   m_link = std::make_shared<vr::HeadsetLink>();
+  m_panels = std::make_unique<VrPanels>(
+      VrPanels::Parts{m_parts.session, m_parts.tools, m_parts.curves, m_parts.view, m_parts.actions});
   show();
   m_timer.start();
   m_sinceHands.start();
@@ -127,9 +140,11 @@ void VrMode::look() {
   const auto ending = m_headset ? m_headset->ending() : std::nullopt;
   if (ending) return end(*ending);
   useHands();
+  if (!m_panels) return;
+  const bool painted = m_panels->paint();
   if (m_changed || m_sinceShown.hasExpired(kShowAgain)) {
     show();
-  } else if (m_hands->changed()) {
+  } else if (painted || m_hands->changed()) {
     showHands();
   }
   showState();
@@ -137,11 +152,16 @@ void VrMode::look() {
 
 void VrMode::useHands() {
   const std::vector<vr::HandsSeen> all = m_link->takeHands();
-  for (const vr::HandsSeen& hands : all) m_hands->act(hands, m_parts.view->snapshot());
+  for (const vr::HandsSeen& hands : all) {
+    m_hands->act(hands, m_parts.view->snapshot());
+    m_panels->act(hands);
+    if (!m_panels) return;  // a menu there was open until VR had ended
+  }
   if (!all.empty()) {
     m_sinceHands.start();
   } else if (m_sinceHands.hasExpired(kAsleep)) {
     m_hands->letGo();  // the headset was taken off
+    m_panels->letGo();
   }
 }
 
@@ -162,6 +182,7 @@ void VrMode::show() {
     shown->box = boxOf(shown->matter ? *shown->matter : kEmpty, shown->scene.environment);
   }
   m_hands->describe(*shown);
+  m_panels->describe(*shown);
   m_link->show(std::move(shown));
   m_changed = false;
   m_sinceShown.start();
@@ -170,6 +191,7 @@ void VrMode::show() {
 void VrMode::showHands() {
   auto shown = std::make_shared<vr::HeadsetView>(*m_link->shown());
   m_hands->describe(*shown);
+  m_panels->describe(*shown);
   m_link->show(std::move(shown));
 }
 
@@ -184,6 +206,7 @@ void VrMode::end(const vr::Ending& ending) {
     m_window = nullptr;
   }
   m_hands->letGo();
+  if (m_panels) m_panels.release()->deleteLater();  // likewise
   m_context.reset();
   m_link.reset();
   const QString said = ending.failed ? asSentence(ending.sentence)
@@ -198,12 +221,15 @@ void VrMode::end(const vr::Ending& ending) {
 }
 
 void VrMode::showState() {
-  m_parts.action.setChecked(m_headset != nullptr);
-  m_parts.without.setChecked(m_window != nullptr);
+  m_action.setChecked(m_headset != nullptr);
+  m_without.setChecked(m_window != nullptr);
+  QString in = QStringLiteral("In VR");
+  if (m_headset && m_headset->detail() < 1)
+    in += QStringLiteral(", pictures at %1 %, to be in time").arg(std::lround(100 * m_headset->detail()));
   m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")
                             : !m_headset              ? QString()
                             : m_leaving               ? QStringLiteral("Leaving VR")
-                            : m_headset->frames() > 0 ? QStringLiteral("In VR")
+                            : m_headset->frames() > 0 ? in
                                                       : QStringLiteral("Entering VR"));
 }
 

@@ -17,6 +17,8 @@ class HeadsetLink;
 struct Ending;
 }  // namespace vr
 
+class Actions;
+class CurveTarget;
 class HeadsetContext;
 class Notices;
 class Session;
@@ -24,6 +26,7 @@ class StatusLine;
 class Toolbox;
 class Viewport;
 class VrHands;
+class VrPanels;
 class VrWithout;
 
 /// The stay in a headset, or in a window in its place: an action enters and leaves it. It shows there what the view
@@ -40,7 +43,8 @@ class VrMode : public QObject {
     Toolbox& tools;
     Notices& notices;
     StatusLine& status;
-    QAction &action, &without;  ///< by a headset, and without one
+    CurveTarget& curves;
+    const Actions& actions;  ///< "simulation.vr" and "simulation.tryVr" among them
   };
   explicit VrMode(const Parts& parts);
   ~VrMode() override;
@@ -51,6 +55,7 @@ class VrMode : public QObject {
   bool active() const { return m_link != nullptr; }
   uint64_t frames() const;  ///< that the headset got in this stay, or the window
   VrWithout* window() const { return m_window; }
+  VrPanels* panels() const { return m_panels.get(); }  ///< nullptr: nobody is in VR
 
  Q_SIGNALS:
   void ended(const QString& sentence);  ///< "": as it was asked for here
@@ -66,9 +71,11 @@ class VrMode : public QObject {
   void showState();
 
   const Parts m_parts;
+  QAction &m_action, &m_without;  ///< by a headset, and without one
   std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
   std::unique_ptr<VrHands> m_hands;
+  std::unique_ptr<VrPanels> m_panels;
   std::unique_ptr<vr::Headset> m_headset;
   VrWithout* m_window = nullptr;
   bool m_leaving = false;

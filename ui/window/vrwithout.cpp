@@ -25,7 +25,10 @@ constexpr double kReach = 0.03;  // m for each notch of the wheel
 constexpr double kNotch = 120;
 constexpr const char* kHints[] = {
     "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach",
-    "Right-drag: look    W A S D E Q: walk    Arrows: size, turn    N: material    U: undo    Space: play    Esc: end"};
+    "Right-drag: look    W A S D E Q: walk    Arrows: size, turn    N: material    U: undo    P: board    F: go there  "
+    "  Space: play  "
+    "  "
+    "Esc: end"};
 
 }  // namespace
 
@@ -103,8 +106,10 @@ void VrWithout::useKeys(double passed) {
     input.hold = down(Qt::Key_G) || (used && down(Qt::Key_Shift)) ? 1 : 0;
   }
   m_room.input(vr::kLeft).first = down(Qt::Key_Space);
+  m_room.input(vr::kLeft).steerY = double(down(Qt::Key_F));
   vr::HandInput& main = m_room.input(vr::kRight);
   main.first = down(Qt::Key_U);
+  main.second = down(Qt::Key_P);
   main.steerY = double(down(Qt::Key_Up)) - double(down(Qt::Key_Down));
   main.steerX = double(down(Qt::Key_Right)) - double(down(Qt::Key_Left));
   main.steerPressed = down(Qt::Key_N);

@@ -46,6 +46,7 @@ class Welcome : public QObject {
   void showAtStart();
   void leave();
   void keepPicture() { m_thumbnails.take(); }  ///< of the open project
+  Thumbnails& pictures() { return m_thumbnails; }
   void endPictures() { m_thumbnails.end(); }
 
  private:

@@ -14,26 +14,40 @@
 #include <QtWidgets/QMainWindow>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace ps {
 namespace {
 
 constexpr const char* kTheme = "look/dark";
 constexpr const char* kGeometry = "window/geometry";
-constexpr const char* kState = "window/state";
 constexpr const char* kHint = "view/hint";
-constexpr const char* kTuneState = "window/tune";
-constexpr int kStateVersion = 3;
-constexpr int kWide = 1500;  // from here on the wide column of the layout table
+constexpr std::pair<Workspace, const char*> kStates[] = {
+    {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
+constexpr int kStateVersion = 4;
+
+/// A column of the layout table: pixels of docks in windows of at least a width.
+struct Column {
+  int from, left, right, outliner, materials, graphs, curve, curveGraphs, points;
+};
+constexpr Column kColumns[] = {{0, 204, 352, 270, 140, 182, 400, 150, 400},
+                               {1500, 236, 392, 380, 252, 206, 520, 206, 500},
+                               {2200, 300, 460, 520, 252, 288, 760, 288, 640}};
+
+const Column& columnOf(int width) {
+  return *std::find_if(std::rbegin(kColumns), std::rend(kColumns) - 1,
+                       [width](const Column& column) { return width >= column.from; });
+}
 
 }  // namespace
 
 WindowLayout::WindowLayout(QMainWindow& window, const Options& options)
     : QObject(&window), m_window(window), m_options(options) {}
 
-void WindowLayout::makeDocks(const PanelContext& context, Viewport* view) {
-  m_view = view;
+void WindowLayout::makeDocks(const PanelContext& context) {
+  m_view = context.view;
   m_window.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
   m_window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   m_window.setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
@@ -91,15 +105,23 @@ void WindowLayout::applyDefault() {
   if (!m_window.testAttribute(Qt::WA_Resized))
     m_window.resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
   m_left.clear();
-  if (m_workspace == Workspace::Tune)
-    layTune();
-  else
-    layScene();
+  lay();
+}
+
+void WindowLayout::lay() {
+  switch (m_workspace) {
+    case Workspace::Scene:
+      return layScene();
+    case Workspace::Tune:
+      return layTune();
+    case Workspace::Film:
+      return layFilm();
+  }
 }
 
 bool WindowLayout::shows(size_t dock) const {
-  const DockRow& row = dockTable()[dock];
-  return m_workspace == Workspace::Tune ? row.tune : row.scene;
+  const std::vector<Workspace>& in = dockTable()[dock].workspaces;
+  return std::find(in.begin(), in.end(), m_workspace) != in.end();
 }
 
 void WindowLayout::setWorkspace(Workspace workspace) {
@@ -112,11 +134,7 @@ void WindowLayout::setWorkspace(Workspace workspace) {
     if (!shows(i)) m_docks[i]->hide();
   }
   const auto left = m_left.find(workspace);
-  if (left != m_left.end() && m_window.restoreState(left->second, kStateVersion)) return;
-  if (workspace == Workspace::Tune)
-    layTune();
-  else
-    layScene();
+  if (left == m_left.end() || !m_window.restoreState(left->second, kStateVersion)) lay();
 }
 
 /// Docks move while they are hidden: those in sight would ask for room that they need nowhere.
@@ -161,18 +179,28 @@ void WindowLayout::layTune() {
   showDocks();
 }
 
+/// The view takes what there is, over the transport.
+void WindowLayout::layFilm() {
+  putAway();
+  m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[8]);
+  m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[4]);
+  showDocks();
+}
+
 void WindowLayout::sizeDocks() {
-  const bool wide = m_window.width() >= kWide;
+  const Column& column = columnOf(m_window.width());
   if (m_workspace == Workspace::Tune) {
-    const int list = wide ? 236 : 204, preview = 480;
+    const int list = column.left, preview = 480;
     m_window.resizeDocks({m_docks[5], m_docks[6]}, {list, m_window.width() - list - preview}, Qt::Horizontal);
-    m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {wide ? 520 : 400, wide ? 206 : 150, 40}, Qt::Vertical);
-    m_window.resizeDocks({m_docks[7]}, {wide ? 500 : 400}, Qt::Vertical);
+    m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {column.curve, column.curveGraphs, 40}, Qt::Vertical);
+    m_window.resizeDocks({m_docks[7]}, {column.points}, Qt::Vertical);
     return;
   }
-  m_window.resizeDocks({m_docks[0], m_docks[2]}, {wide ? 236 : 204, wide ? 392 : 352}, Qt::Horizontal);
-  m_window.resizeDocks({m_docks[0], m_docks[1]}, {wide ? 380 : 270, wide ? 252 : 140}, Qt::Vertical);
-  m_window.resizeDocks({m_docks[3], m_docks[4]}, {wide ? 206 : 182, 40}, Qt::Vertical);
+  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[8]}, {column.right}, Qt::Horizontal);
+  m_window.resizeDocks({m_docks[0], m_docks[2]}, {column.left, column.right}, Qt::Horizontal);
+  m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
+  m_window.resizeDocks({m_docks[3], m_docks[4]}, {column.graphs, 40}, Qt::Vertical);
 }
 
 void WindowLayout::restore() {
@@ -182,9 +210,12 @@ void WindowLayout::restore() {
   if (m_options.dark != Theme::current().dark()) Theme::apply(*qApp, m_options.dark);
   if (settings.contains(QLatin1String(kGeometry))) {
     m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
-    m_sizeAtShow = !m_window.restoreState(settings.value(QLatin1String(kState)).toByteArray(), kStateVersion);
+    const QByteArray state = settings.value(QLatin1String(kStates[0].second)).toByteArray();
+    m_sizeAtShow = !m_window.restoreState(state, kStateVersion);
   }
-  m_left[Workspace::Tune] = settings.value(QLatin1String(kTuneState)).toByteArray();
+  for (const auto& [workspace, key] : kStates) {
+    if (workspace != Workspace::Scene) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
+  }
   if (m_view) m_view->setHintShown(settings.value(QLatin1String(kHint), true).toBool());
 }
 
@@ -195,8 +226,7 @@ void WindowLayout::save() const {
   settings.setValue(QLatin1String(kGeometry), m_window.saveGeometry());
   std::map<Workspace, QByteArray> states = m_left;
   states[m_workspace] = m_full ? m_beforeFull : m_window.saveState(kStateVersion);
-  settings.setValue(QLatin1String(kState), states[Workspace::Scene]);
-  settings.setValue(QLatin1String(kTuneState), states[Workspace::Tune]);
+  for (const auto& [workspace, key] : kStates) settings.setValue(QLatin1String(key), states[workspace]);
   if (m_view) settings.setValue(QLatin1String(kHint), m_view->hintShown());
 }
 
@@ -219,7 +249,7 @@ void WindowLayout::setFullViewport(bool on) {
 }
 
 void WindowLayout::onResized(int widthBefore) {
-  if (widthBefore >= 0 && (widthBefore >= kWide) != (m_window.width() >= kWide)) sizeDocks();
+  if (widthBefore >= 0 && &columnOf(widthBefore) != &columnOf(m_window.width())) sizeDocks();
 }
 
 /// Sizes given before the window is laid out are not kept.

@@ -26,8 +26,8 @@ class WindowLayout : public QObject {
     bool themeAsked = false;  ///< `dark` holds for this time, whatever is stored, and is not stored
   };
   WindowLayout(QMainWindow& window, const Options& options);
-  /// Makes the docks and panels of the tables. `view`: nullptr where there is no picture.
-  void makeDocks(const PanelContext& context, Viewport* view);
+  /// Makes the docks and panels of the tables.
+  void makeDocks(const PanelContext& context);
   Dock* dock(const QString& name) const;  ///< DockRow::name; nullptr for another
   void showPage(const QString& title);    ///< of whichever dock has it, in sight where the workspace shows that dock
   Workspace workspace() const { return m_workspace; }
@@ -51,8 +51,10 @@ class WindowLayout : public QObject {
   bool shows(size_t dock) const;  ///< in this workspace
   void putAway();
   void showDocks();  ///< of this workspace
+  void lay();        ///< this workspace, as it is by default
   void layScene();
   void layTune();
+  void layFilm();
   void sizeDocks();  ///< as the layout table has it for this width
   QMainWindow& m_window;
   Options m_options;

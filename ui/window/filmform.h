@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/renderer.h"
-#include "ui/window/rundialog.h"
+#include "ui/window/runform.h"
 
 namespace ps {
 
 class Viewport;
 
 /// The recorded run as a film or as pictures, as the view shows it now.
-class FilmDialog : public RunDialog {
+class FilmForm : public RunForm {
   Q_OBJECT
  public:
   /// `view`: nullptr where there is none; then as the project says.
-  FilmDialog(Session& session, const Viewport* view, QWidget* window);
+  FilmForm(Session& session, const Viewport* view);
 
  protected:
   QString suggestedPlace() const override;

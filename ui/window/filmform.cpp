@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/window/filmdialog.h"
+#include "ui/window/filmform.h"
 
 #include "core/base/progress.h"
 #include "core/plugin_host/registry.h"
@@ -43,8 +43,8 @@ size_t draw(const KeptRun& run, const FrameRange& range, const std::set<std::str
 
 }  // namespace
 
-FilmDialog::FilmDialog(Session& session, const Viewport* view, QWidget* window)
-    : RunDialog(session, QStringLiteral("Export a film"), window),
+FilmForm::FilmForm(Session& session, const Viewport* view)
+    : RunForm(session),
       m_view(view),
       m_format(addChoice(QStringLiteral("Format"), QStringLiteral("A film plays as fast as the run was."))),
       m_size(addChoice(QStringLiteral("Size"), QStringLiteral("In pixels."))),
@@ -54,32 +54,31 @@ FilmDialog::FilmDialog(Session& session, const Viewport* view, QWidget* window)
   if (!m_hasFfmpeg) m_format->setCurrentIndex(1);
   for (const auto& [width, height] : kSizes)
     m_size->addItem(QStringLiteral("%1 × %2").arg(width).arg(height), QSize(width, height));
-  if (view) {
-    // Films need even sizes.
-    const QSize own = (QSizeF(view->size()) * view->devicePixelRatioF()).toSize();
-    const QSize even(own.width() / 2 * 2, own.height() / 2 * 2);
-    m_size->addItem(QStringLiteral("As the view, %1 × %2").arg(even.width()).arg(even.height()), even);
-  }
+  if (view) m_size->addItem(QStringLiteral("As the view"), QSize());
   addRange();
 }
 
-bool FilmDialog::film() const { return m_format->currentData().toBool(); }
+bool FilmForm::film() const { return m_format->currentData().toBool(); }
 
-PictureSize FilmDialog::size() const {
-  const QSize chosen = m_size->currentData().toSize();
+PictureSize FilmForm::size() const {
+  QSize chosen = m_size->currentData().toSize();
+  if (chosen.isEmpty()) {
+    const QSize view = (QSizeF(m_view->size()) * m_view->devicePixelRatioF()).toSize();
+    chosen = {view.width() / 2 * 2, view.height() / 2 * 2};  // films need even sizes
+  }
   return {.width = chosen.width(), .height = chosen.height(), .still = !film()};
 }
 
-QString FilmDialog::suggestedPlace() const {
+QString FilmForm::suggestedPlace() const {
   return besideProject(film() ? QStringLiteral(".mp4") : QStringLiteral("-pictures"));
 }
 
-QString FilmDialog::choosePlace() {
+QString FilmForm::choosePlace() {
   if (film()) return fileToWrite(this, QStringLiteral("Save the film"), place(), QStringLiteral("Films (*.mp4)"));
   return folderToUse(this, QStringLiteral("Folder for the pictures"), QFileInfo(place()).path());
 }
 
-QString FilmDialog::summary() const {
+QString FilmForm::summary() const {
   const QString pictures = countText(frames(), QStringLiteral("picture"), QStringLiteral("pictures"));
   if (!film()) {
     const bool replaces = !QDir(place()).entryList({QStringLiteral("frame-*.png")}, QDir::Files).isEmpty();
@@ -93,9 +92,9 @@ QString FilmDialog::summary() const {
          (QFileInfo::exists(place()) ? QStringLiteral(" The file there is replaced.") : QString());
 }
 
-bool FilmDialog::isPossible() const { return !film() || m_hasFfmpeg; }
+bool FilmForm::isPossible() const { return !film() || m_hasFfmpeg; }
 
-void FilmDialog::begin() {
+void FilmForm::begin() {
   const Project& project = session().document().project();
   FilmChoices choices{.out = place().toStdString(),
                       .framesPerSecond = framesPerSecond(),

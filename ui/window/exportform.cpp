@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/window/exportdialog.h"
+#include "ui/window/exportform.h"
 #include "ui/window/filenames.h"
 
 #include "core/plugin_host/registry.h"
@@ -15,26 +15,26 @@
 
 namespace ps {
 
-ExportDialog::ExportDialog(Session& session, QWidget* window)
-    : RunDialog(session, QStringLiteral("Export the run"), window),
+ExportForm::ExportForm(Session& session)
+    : RunForm(session),
       m_format(addChoice(QStringLiteral("Format"), QStringLiteral("Lengths in m, y up; SI units and kelvin."))) {
   for (const ExportFormat& row : exportFormats()) m_format->addItem(QString::fromUtf8(row.label));
   addRange();
 }
 
-const ExportFormat& ExportDialog::format() const {
+const ExportFormat& ExportForm::format() const {
   return exportFormats()[static_cast<size_t>(m_format->currentIndex())];
 }
 
-QString ExportDialog::suggestedPlace() const {
+QString ExportForm::suggestedPlace() const {
   return besideProject(QLatin1Char('-') + QString::fromLatin1(format().key));
 }
 
-QString ExportDialog::choosePlace() {
+QString ExportForm::choosePlace() {
   return folderToUse(this, QStringLiteral("Folder for the files"), QFileInfo(place()).path());
 }
 
-QString ExportDialog::summary() const {
+QString ExportForm::summary() const {
   const ExportFormat& chosen = format();
   QString text = QStringLiteral("%1, %2.").arg(countText(frames(), QStringLiteral("file"), QStringLiteral("files")),
                                                QString::fromUtf8(chosen.help));
@@ -45,7 +45,7 @@ QString ExportDialog::summary() const {
   return text;
 }
 
-void ExportDialog::begin() {
+void ExportForm::begin() {
   const Project& project = session().document().project();
   const ExportChoices choices{
       place().toStdString(), {}, temperatureColours(lookOf(project, *session().plugins(), "temperature"))};

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/export/exportformat.h"
-#include "ui/window/rundialog.h"
+#include "ui/window/runform.h"
 
 namespace ps {
 
 /// Particles or surfaces of the recorded run, as files of other programs.
-class ExportDialog : public RunDialog {
+class ExportForm : public RunForm {
   Q_OBJECT
  public:
-  ExportDialog(Session& session, QWidget* window);
+  explicit ExportForm(Session& session);
 
  protected:
   QString suggestedPlace() const override;

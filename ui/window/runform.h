@@ -6,6 +6,7 @@
 
 class QComboBox;
 class QGridLayout;
+class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -15,17 +16,25 @@ namespace ps {
 class Session;
 
 /// Asks what of the recorded run is to be written, and where: rows of its own kind, then from when to when, which
-/// frames, the place, and what will come of it in words.
-class RunDialog : public QDialog {
+/// frames, the place, and what will come of it in words. In a dialog, or as a page of a dock.
+class RunForm : public QWidget {
   Q_OBJECT
  public:
-  /// `window`: the dialog's parent.
-  RunDialog(Session& session, const QString& title, QWidget* window);
+  explicit RunForm(Session& session);
 
   /// As if somebody had chosen it.
   void setPlace(const QString& place);
+  /// For as long as nobody types a range it is all that has been recorded by then: what stays open while a run goes on
+  /// and projects come and go.
+  void followRun();
+  QHBoxLayout& buttons() const { return *m_buttons; }
+  QPushButton& exportButton() const { return *m_begin; }
+
+ Q_SIGNALS:
+  void begun();  ///< what was asked for is being done
 
  protected:
+  void resizeEvent(QResizeEvent* event) override;
   QComboBox* addChoice(const QString& label, const QString& tip);
   /// Those that all have, below one's own.
   void addRange();
@@ -49,16 +58,29 @@ class RunDialog : public QDialog {
   static QString writtenText(size_t frames, const QString& where);
 
  private:
-  QLineEdit* addTime(const QString& label, const QString& tip, double seconds);
+  QLineEdit* addTime(const QString& label, const QString& tip);
+  void addRates();
+  void showAll();  ///< as the range
+  void showPlace();
 
   Session& m_session;
   QGridLayout* m_grid;
+  QHBoxLayout* m_buttons;
   QLineEdit *m_from = nullptr, *m_to = nullptr;
   QComboBox* m_every = nullptr;
-  QPushButton *m_where = nullptr, *m_begin = nullptr;
+  QPushButton *m_where, *m_begin;
   QLabel* m_summary = nullptr;
   QString m_place;
   bool m_chosen = false;  ///< the place, by hand
+  bool m_rangeTyped = false;
+};
+
+/// A form to be answered or given up.
+class RunDialog : public QDialog {
+  Q_OBJECT
+ public:
+  /// `window`: the dialog's parent.
+  RunDialog(RunForm* form, const QString& title, QWidget* window);
 };
 
 }  // namespace ps

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface in the headset: palette and board, pointed at by beam and by tip, painted and seen.
+#include "tests/vr/vrwindow.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/graphview.h"
+#include "ui/rows/parameterrow.h"
+#include "ui/session/recordedview.h"
+#include "ui/theme/theme.h"
+#include "ui/timeline/transport.h"
+#include "ui/vr/panels.h"
+#include "ui/window/vrpanels.h"
+#include "ui/window/vrwithout.h"
+
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
+
+#include <cmath>
+#include <numbers>
+
+using namespace ps;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A left hand before the wearer, whose palm faces them.
+vr::HandPose palm() {
+  const Vector3 toEyes = (scriptHead().position - Vector3(-0.05, 1.2, -0.2)).normalized();
+  return {{-0.05, 1.2, -0.2}, Quaternion::FromTwoVectors(Vector3::UnitX(), toEyes)};
+}
+
+/// A right hand at a place that points at another.
+vr::HandPose pointing(const Vector3& from, const Vector3& to) {
+  return {from, Quaternion::FromTwoVectors(-Vector3::UnitZ(), to - from)};
+}
+
+vr::HeadsetFrame frameOf(const std::optional<vr::HandPose>& left, const std::optional<vr::HandPose>& right,
+                         double pulled = 0) {
+  vr::HeadsetFrame frame;
+  frame.head = scriptHead();
+  frame.hands[vr::kLeft].grip = frame.hands[vr::kLeft].aim = left;
+  frame.hands[vr::kRight].grip = frame.hands[vr::kRight].aim = right;
+  frame.hands[vr::kRight].draw = pulled;
+  return frame;
+}
+
+QString poseText(const vr::HandPose& pose) {
+  const auto& q = pose.orientation;
+  QStringList numbers;
+  for (const double number : {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()})
+    numbers << QString::number(number, 'g', 9);
+  return QLatin1Char('[') + numbers.join(QStringLiteral(", ")) + QLatin1Char(']');
+}
+
+QString key(int frame, const char* hand, const vr::HandPose& pose, const QString& inputs = {}) {
+  return QStringLiteral(R"(, {"frame": %1, "%2": {"active": true, "grip": %3, "aim": %3%4}})")
+      .arg(QString::number(frame), QString::fromLatin1(hand), poseText(pose), inputs);
+}
+
+QString trigger(int value) { return QStringLiteral(R"(, "/input/trigger/value": %1)").arg(value); }
+
+}  // namespace
+
+class VrPanelsTest : public VrWindowTest {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() { backToTheStart(); }
+  void cleanup() { leaveAtLast(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void thePaletteShowsWithThePalm();
+  void theBoardStandsBeforeTheWearer();
+  void beamsPressAndKeepWhatTheyPress();
+  void tipsPressWhatTheyGoThrough();
+  void aTriggerPulledElsewhereDraws();
+  void letteringAndTargetsAreLargeEnough();
+  void aBeamPlaysTheRun();
+  void aSliderOfTheBoardIsDragged();
+  void pagesAreTheWindowsOwn();
+  void menusComeAlong();
+  void gravityIsTakenAndGivenBack();
+
+ private:
+  VrPanels& panels() { return *vr().panels(); }
+  vr::HeadsetView painted() {
+    vr::HeadsetView view;
+    [&] { QTRY_VERIFY_WITH_TIMEOUT(panels().paint() || (panels().describe(view), view.panels[0].image), kLong); }();
+    QTest::qWait(150);
+    panels().paint();
+    panels().describe(view);
+    return view;
+  }
+  void enterWithout() {
+    m_window->action(QStringLiteral("simulation.tryVr"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
+  }
+  /// A right hand that points at a place of a widget of a panel.
+  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0) {
+    QWidget* on = panels().widget(panel);
+    const QPointF there = place + widget.mapTo(on, QPoint(0, 0));
+    vr::HandsSeen seen;
+    seen.seconds = m_seconds += 1;
+    seen.hands[vr::kRight].panel =
+        vr::PanelPoint{panel, there.x() / on->width(), there.y() / on->height(), 1, false, pressed};
+    seen.hands[vr::kRight].input.steerY = steer;
+    panels().act(seen);
+  }
+  QToolButton* button(size_t panel, const char* name) {
+    for (auto* one : panels().widget(panel)->findChildren<QToolButton*>())
+      if (one->accessibleName() == QString::fromLatin1(name)) return one;
+    return nullptr;
+  }
+  void click(size_t panel, QWidget& widget) {
+    const QPointF middle = QRectF(widget.rect()).center();
+    for (const bool pressed : {false, true, false}) at(panel, widget, middle, pressed);
+  }
+  ParameterRow* rowOf(const QString& name) {
+    for (auto* row : panels().widget(vr::kBoard)->findChildren<ParameterRow*>())
+      if (row->isVisible() && row->model().key == name) return row;
+    return nullptr;
+  }
+
+  double m_seconds = 0;
+};
+
+namespace {
+
+/// Panels as large as they may be, so that nobody paints.
+vr::HeadsetView emptyView() {
+  vr::HeadsetView view;
+  const auto image = std::make_shared<PanelImage>();
+  view.panels[vr::kPalette] = {image, 0.30, 0.27, 0, 0, 0};
+  view.panels[vr::kBoard] = {image, 0.50, 0.40, 0, 0, 0};
+  return view;
+}
+
+}  // namespace
+
+void VrPanelsTest::thePaletteShowsWithThePalm() {
+  vr::Panels panels;
+  const vr::HeadsetView view = emptyView();
+  panels.follow(frameOf(palm(), {}), view);
+  const auto& place = panels.place(vr::kPalette);
+  QVERIFY(place);
+  // Its lower edge is 0.12 m over the hand, and it leans back by 35 degrees, towards the eyes.
+  QVERIFY(std::abs((place->at(0, 1).y() + place->at(1, 1).y()) / 2 - palm().position.y() - 0.12) < 1e-6);
+  const Vector3 front = place->pose.orientation * Vector3::UnitZ();
+  QVERIFY(std::abs(std::asin(front.y()) / kDegree - 35) < 1e-6);
+  QVERIFY(front.dot((scriptHead().position - place->pose.position).normalized()) > 0.8);
+  vr::HandPose away = palm();
+  away.orientation = away.orientation * Quaternion(Eigen::AngleAxisd(std::numbers::pi, Vector3::UnitY()));
+  panels.follow(frameOf(away, {}), view);
+  QVERIFY(!panels.place(vr::kPalette));
+  panels.follow(frameOf({}, palm()), view);  // the left hand is asleep
+  QVERIFY(!panels.place(vr::kPalette));
+}
+
+void VrPanelsTest::theBoardStandsBeforeTheWearer() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  panels.follow(frameOf({}, {}), view);
+  const Vector3 stands = panels.place(vr::kBoard)->pose.position, way = stands - scriptHead().position;
+  QVERIFY(std::abs(way.norm() - 0.75) < 1e-9);
+  QVERIFY(std::abs(std::asin(-way.y() / way.norm()) / kDegree - 15) < 1e-6);
+  QVERIFY(std::abs(way.x()) < 1e-9 && way.z() < 0);
+  // It is not fixed to the head; it comes when it is brought.
+  vr::HeadsetFrame turned = frameOf({}, {});
+  turned.head.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+  panels.follow(turned, view);
+  QCOMPARE(panels.place(vr::kBoard)->pose.position, stands);
+  ++view.brought;
+  panels.follow(turned, view);
+  QVERIFY(panels.place(vr::kBoard)->pose.position.x() < scriptHead().position.x() - 0.7);
+}
+
+void VrPanelsTest::beamsPressAndKeepWhatTheyPress() {
+  vr::Panels panels;
+  const vr::HeadsetView view = emptyView();
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard);
+  const Vector3 hand(0.3, 1.1, 0);
+  const auto pointAt = [&](double x, double y, double pulled) {
+    panels.follow(frameOf({}, pointing(hand, board.at(x, y)), pulled), view);
+    return panels.pointed(vr::kRight);
+  };
+  auto point = pointAt(0.25, 0.75, 0);
+  QVERIFY(point && point->panel == vr::kBoard && !point->tip && !point->pressed);
+  QVERIFY(std::abs(point->x - 0.25) < 1e-6 && std::abs(point->y - 0.75) < 1e-6);
+  QVERIFY((*panels.hit(vr::kRight) - board.at(0.25, 0.75)).norm() < 1e-9);
+  QVERIFY(pointAt(0.25, 0.75, 1)->pressed);
+  point = pointAt(1.3, 0.75, 1);  // a drag may leave it
+  QVERIFY(point && point->pressed && std::abs(point->x - 1.3) < 1e-6);
+  point = pointAt(1.3, 0.75, 0);
+  QVERIFY(point && !point->pressed);
+  QVERIFY(!pointAt(1.3, 0.75, 0) && !panels.takes(vr::kRight));
+  // By a little it may miss the edge once it is there, but not come from there.
+  const double miss = 1 + 0.5 * 1.5 * kDegree * 0.8 / board.width;
+  QVERIFY(!pointAt(miss, 0.5, 0));
+  QVERIFY(pointAt(0.99, 0.5, 0) && pointAt(miss, 0.5, 0));
+  // From behind there is nothing to point at.
+  panels.follow(frameOf({}, pointing({0.1, 1.3, -2}, board.at(0.5, 0.5))), view);
+  QVERIFY(!panels.pointed(vr::kRight));
+}
+
+void VrPanelsTest::tipsPressWhatTheyGoThrough() {
+  vr::Panels panels;
+  const vr::HeadsetView view = emptyView();
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard);
+  const Vector3 front = board.pose.orientation * Vector3::UnitZ(), to = board.at(0.5, 0.5);
+  const auto tipAt = [&](double before) {
+    panels.follow(frameOf({}, pointing(to + (before + vr::kTip) * front, to)), view);
+    return panels.pointed(vr::kRight);
+  };
+  QVERIFY(!tipAt(0.1)->tip);  // as far away it is a beam
+  QVERIFY(tipAt(0.02)->tip && !tipAt(0.02)->pressed && !panels.hit(vr::kRight));
+  QVERIFY(tipAt(-0.005)->pressed);
+  QVERIFY(tipAt(0.005)->pressed);
+  QVERIFY(!tipAt(0.015)->pressed);
+}
+
+void VrPanelsTest::aTriggerPulledElsewhereDraws() {
+  vr::Panels panels;
+  const vr::HeadsetView view = emptyView();
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard);
+  const Vector3 hand(0.3, 1.1, 0);
+  panels.follow(frameOf({}, pointing(hand, {2, 1, -1}), 1), view);
+  panels.follow(frameOf({}, pointing(hand, board.at(0.5, 0.5)), 1), view);
+  QVERIFY(!panels.takes(vr::kRight));  // the stroke goes on over it
+  panels.follow(frameOf({}, pointing(hand, board.at(0.5, 0.5)), 0), view);
+  QVERIFY(panels.takes(vr::kRight));
+}
+
+/// UI.md: letters of 0.85 degrees and targets of 2.5 at the distances that panels have.
+void VrPanelsTest::letteringAndTargetsAreLargeEnough() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Body"));
+  const vr::HeadsetView view = painted();
+  const auto degrees = [](double metres, double away) { return std::atan(metres / away) / kDegree; };
+  const int small = Theme::font(TextRole::Small).pixelSize();
+  for (const auto& [panel, away] : {std::pair{vr::kPalette, 0.5}, {vr::kBoard, 0.75}}) {
+    const QWidget* widget = panels().widget(panel);
+    const double pixel = view.panels[panel].width / widget->width();
+    QVERIFY2(degrees(small * pixel, away) > 0.85, qPrintable(QString::number(degrees(small * pixel, away))));
+    const auto large = [&](const QWidget& target) { return degrees(target.height() * pixel, away) > 2.5; };
+    for (const auto* one : widget->findChildren<ParameterRow*>()) QVERIFY(!one->isVisible() || large(*one));
+    if (panel != vr::kPalette) continue;
+    for (const auto* one : widget->findChildren<QToolButton*>())
+      QVERIFY2(large(*one) && degrees(one->width() * pixel, away) > 2.5, qPrintable(one->accessibleName()));
+  }
+}
+
+/// By the scripted headset, end to end: the palette is seen, a beam goes to its first button, and the run plays.
+void VrPanelsTest::aBeamPlaysTheRun() {
+  enterWithout();
+  const vr::HeadsetView view = painted();
+  QWidget* play = button(vr::kPalette, "Play or pause");
+  QVERIFY(play);
+  const QPointF middle = play->mapTo(panels().widget(vr::kPalette), play->rect().center());
+  const QSize size = panels().widget(vr::kPalette)->size();
+  leaveAtLast();
+  vr::Panels geometry;
+  geometry.follow(frameOf(palm(), {}), view);
+  const auto palette = geometry.place(vr::kPalette);
+  QVERIFY(palette);
+  const vr::HandPose hand =
+      pointing({0.25, 1.25, 0.1}, palette->at(middle.x() / size.width(), middle.y() / size.height()));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [50])"),
+                                 key(5, "left", palm()) + key(5, "right", hand) + key(60, "right", hand, trigger(1)) +
+                                     key(75, "right", hand, trigger(0))));
+  QVERIFY(!session().playing());
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  QVERIFY(vr().frames() >= 60);
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 90, kLong);
+  QVERIFY(session().playing());
+  QVERIFY(document().undoStack().index() == 0);  // nothing was drawn
+  leave();
+  session().pause();
+  QVERIFY(run.lines("violation").empty());
+  QVERIFY(!run.lines("haptic").empty());  // the button was felt
+  const QImage seen = run.picture(50, 0);
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) seen.save(folder + "/vr-palette.png");
+  const auto edge = project(scriptEye(false), kSide, kSide, palette->at(0.5, 0.985));
+  QVERIFY(edge);
+  const QColor there = seen.pixelColor(int(edge->x()), int(edge->y())), wanted = Theme::current()[Token::Panel];
+  QVERIFY2(std::abs(there.red() - wanted.red()) < 40 && std::abs(there.blue() - wanted.blue()) < 40,
+           qPrintable(there.name() + wanted.name()));
+}
+
+/// The board by its button, then a slider of the brush's page from its middle to its end.
+void VrPanelsTest::aSliderOfTheBoardIsDragged() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  const vr::HeadsetView view = painted();
+  ParameterRow* radius = rowOf(QStringLiteral("radius"));
+  QVERIFY(radius);
+  QWidget* board = panels().widget(vr::kBoard);
+  const QRectF track = QRectF(radius->sliderRect()).translated(radius->mapTo(board, QPoint(0, 0)));
+  const QSizeF size = board->size();
+  leaveAtLast();
+  vr::Panels geometry;
+  geometry.follow(frameOf({}, {}), view);
+  const auto place = geometry.place(vr::kBoard);
+  const auto to = [&](double share) {
+    return place->at((track.left() + share * track.width()) / size.width(), track.center().y() / size.height());
+  };
+  const Vector3 hand(0.3, 1.15, 0.1);
+  const double before = m_window->tools().brush().radius;
+  const ScriptedRun run(
+      vrScript(QStringLiteral(R"(, "pictures": [140])"),
+               key(5, "right", pointing(hand, to(0.3))) +
+                   key(10, "right", pointing(hand, to(0.3)), QStringLiteral(R"(, "/input/b/click": true)")) +
+                   key(15, "right", pointing(hand, to(0.3)), QStringLiteral(R"(, "/input/b/click": false)")) +
+                   key(80, "right", pointing(hand, to(0.3)), trigger(1)) +
+                   key(120, "right", pointing(hand, to(0.95)), trigger(1)) +
+                   key(150, "right", pointing(hand, to(0.95)), trigger(0))));
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 155, 2 * kLong);
+  const double now = m_window->tools().brush().radius;
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) run.picture(140, 0).save(folder + "/vr-board.png");
+  QVERIFY2(now > 2 * before, qPrintable(QString::number(now)));
+  BrushSettings brush = m_window->tools().brush();
+  brush.radius = before;
+  m_window->tools().setBrush(brush);
+}
+
+/// A graph is zoomed, the timeline scrubbed, a body's value dragged as one step.
+void VrPanelsTest::pagesAreTheWindowsOwn() {
+  session().step();
+  session().step();
+  session().step();
+  QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, uint64_t{3}, kLong);
+  enterWithout();
+  panels().showPage(QStringLiteral("Graphs"));
+  QTest::qWait(100);
+  auto* graph = panels().widget(vr::kBoard)->findChild<GraphView*>();
+  QVERIFY(graph && graph->isVisible());
+  const auto width = [&] { return graph->range().second - graph->range().first; };
+  const double whole = width();
+  at(vr::kBoard, *graph, graph->plotRect().center(), false, 1);
+  QTRY_VERIFY(width() < 0.95 * whole);
+  panels().showPage(QStringLiteral("Transport"));
+  QTest::qWait(100);
+  auto* transport = panels().widget(vr::kBoard)->findChild<Transport*>();
+  QVERIFY(transport && transport->isVisible());
+  const QPointF early = transport->placeOf(session().newest()->stats.time / 3);
+  at(vr::kBoard, *transport, early, true);
+  at(vr::kBoard, *transport, early, false);
+  QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
+  session().recorded().showNewest();
+  m_window->selection().selectBody(document().project().bodies.front().id);
+  panels().showPage(QStringLiteral("Body"));
+  QTest::qWait(100);
+  ParameterRow* row = rowOf(QStringLiteral("body/") + QString::fromStdString(document().project().bodies.front().id) +
+                            QStringLiteral("/temperature"));
+  QVERIFY(row);
+  const int steps = document().undoStack().index();
+  const QRectF track = row->sliderRect();
+  for (const double share : {0.2, 0.4, 0.6})
+    at(vr::kBoard, *row, {track.left() + share * track.width(), track.center().y()}, true);
+  at(vr::kBoard, *row, {track.left() + 0.6 * track.width(), track.center().y()}, false);
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  document().undoStack().undo();
+}
+
+/// What opens at a press there is seen and pressed like a panel.
+void VrPanelsTest::menusComeAlong() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Transport"));
+  QTest::qWait(100);
+  auto* speed = panels().widget(vr::kBoard)->findChild<Transport*>()->speedButton();
+  QTimer::singleShot(0, this, [&] { click(vr::kBoard, *speed); });  // a menu may wait until it closes
+  QTRY_VERIFY_WITH_TIMEOUT(QApplication::activePopupWidget(), kLong);
+  const auto isSeen = [&] {
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    return view.panels[vr::kPopup].image != nullptr;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(isSeen(), kLong);
+  auto* menu = qobject_cast<QMenu*>(panels().widget(vr::kPopup));
+  QVERIFY(menu && !menu->actions().isEmpty());
+  QAction* wanted = menu->actions().front();
+  QSignalSpy chosen(wanted, &QAction::triggered);
+  const QPointF there = menu->actionGeometry(wanted).center();
+  for (const bool pressed : {false, true, false})
+    if (panels().widget(vr::kPopup)) at(vr::kPopup, *menu, there, pressed);
+  QTRY_COMPARE(chosen.count(), 1);
+  QTRY_VERIFY(!QApplication::activePopupWidget());
+}
+
+void VrPanelsTest::gravityIsTakenAndGivenBack() {
+  enterWithout();
+  const Address gravity{Owner::Scene, "", "gravity"};
+  const Value before = document().value(gravity);
+  QToolButton* one = button(vr::kPalette, "Zero gravity");
+  QVERIFY(one && !one->isChecked());
+  click(vr::kPalette, *one);
+  QCOMPARE(document().value(gravity), Value(0.0));
+  QVERIFY(one->isChecked());
+  click(vr::kPalette, *one);
+  QCOMPARE(document().value(gravity), before);
+  QVERIFY(!one->isChecked());
+  document().undoStack().undo();
+  QCOMPARE(document().value(gravity), Value(0.0));
+  QVERIFY(one->isChecked());
+}
+
+QTEST_MAIN(VrPanelsTest)
+#include "tst_vrpanels.moc"

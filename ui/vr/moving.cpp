@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/moving.h"
+
+#include "ui/vr/handmodel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace ps::vr {
+namespace {
+
+constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger's
+constexpr double kPushed = 0.7;             // of a stick's
+constexpr double kTurn = std::numbers::pi / 6;
+constexpr double kFarthest = 8, kSteep = 0.05;  // m, and how much a beam must fall on its way, of where one goes
+constexpr double kGoalWidth = 0.2, kGoalHeight = 0.01;  // m
+constexpr double kDimmed = 0.15;                        // s, after a step
+constexpr double kBeforeEyes = 0.3, kReach = 0.6;       // m, of what dims
+constexpr double kDarkest = 0.6;
+
+/// Clear in its middle.
+std::shared_ptr<const PanelImage> dimmer() {
+  static const std::shared_ptr<const PanelImage> kImage = [] {
+    constexpr int kSide = 128;
+    auto image = std::make_shared<PanelImage>();
+    image->width = image->height = kSide;
+    image->pixels.assign(4 * kSide * kSide, 0);
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const double away = std::hypot(2.0 * x / (kSide - 1) - 1, 2.0 * y / (kSide - 1) - 1);
+        const double share = std::clamp((away - 0.35) / 0.4, 0.0, 1.0);
+        image->pixels[static_cast<size_t>(4 * (y * kSide + x) + 3)] =
+            static_cast<uint8_t>(std::lround(255 * kDarkest * share * share * (3 - 2 * share)));
+      }
+    return image;
+  }();
+  return kImage;
+}
+
+}  // namespace
+
+void Moving::follow(const HeadsetFrame& frame, bool busy) {
+  m_dimmed = std::max(0.0, m_dimmed - frame.period);
+  carry(frame);
+  turn(frame);
+  go(frame, busy);
+}
+
+/// While neither draws: then a grip means the opposite of what the brush does.
+void Moving::carry(const HeadsetFrame& frame) {
+  const auto& [left, right] = frame.hands;
+  const auto pulls = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld && hand.draw < kIdle; };
+  const auto holds = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld; };
+  if (!(m_carrying ? holds(left) && holds(right) : pulls(left) && pulls(right))) {
+    m_carrying.reset();
+    return;
+  }
+  const std::array<Vector3, 2> hands{left.grip->position, right.grip->position};
+  if (!m_carrying) m_carrying = Carrying{m_stand, hands};
+  m_stand = carried(m_carrying->from, m_carrying->hands, hands);
+  m_dimmed = kDimmed;
+}
+
+/// The scene goes round the other way than its wearer.
+void Moving::turn(const HeadsetFrame& frame) {
+  const HandInput& hand = frame.hands[frame.hands[kLeft].pad ? kLeft : kRight];
+  const bool aside = std::abs(hand.steerX) > kPushed && std::abs(hand.steerX) > std::abs(hand.steerY);
+  const bool asked = aside && (!hand.pad || hand.steerPressed);
+  if (asked && !m_turns && !m_carrying) {
+    m_stand = turned(m_stand, frame.head.position, hand.steerX > 0 ? kTurn : -kTurn);
+    m_dimmed = kDimmed;
+  }
+  m_turns = asked;
+}
+
+void Moving::go(const HeadsetFrame& frame, bool busy) {
+  const HandInput& hand = frame.hands[kLeft];
+  const bool forward = hand.steerY > kPushed && hand.steerY > std::abs(hand.steerX);
+  const std::optional<Vector3> goal = std::exchange(m_goal, std::nullopt);
+  if (!hand.aim || m_carrying || busy) return;
+  if (!forward || (hand.pad && !hand.steerPressed)) {
+    if (!goal) return;
+    const Vector3 way = *goal - frame.head.position;
+    m_stand.roomPlace -= Vector3(way.x(), 0, way.z());
+    m_dimmed = kDimmed;
+    return;
+  }
+  const Vector3 beam = hand.aim->orientation * Vector3(0, 0, -1);
+  if (beam.y() > -kSteep) return;
+  const Vector3 on = hand.aim->position - hand.aim->position.y() / beam.y() * beam;
+  if (hand.aim->position.y() > 0 && (on - frame.head.position).norm() < kFarthest) m_goal = on;
+}
+
+void Moving::addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const {
+  const double scale = 1 / m_stand.scale;
+  if (m_goal) {
+    const HandPose& aim = *frame.hands[kLeft].aim;
+    addBeam(props, m_stand.toScene(aim), scale, (*m_goal - aim.position).norm(), accent);
+    addVolume(props, m_stand.toScene(*m_goal), {scale * Vector3(kGoalWidth, kGoalHeight, kGoalWidth), false, accent});
+  }
+  if (m_dimmed <= 0) return;
+  const auto corner = [&](double x, double y) {
+    return m_stand.toScene(
+        Vector3(frame.head.position + frame.head.orientation * Vector3(x * kReach, y * kReach, -kBeforeEyes)));
+  };
+  props.panels.push_back({{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, dimmer()});
+}
+
+}  // namespace ps::vr

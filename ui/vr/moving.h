@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/vr/headset.h"
+#include "ui/vr/stand.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace ps::vr {
+
+/// How the scene stands in the room, and how its wearer changes that: both grips carry it, the main stick aside turns
+/// it about them by 30 degrees, which eyes bear better than a turn, and the other one forward takes them to where that
+/// hand points on the floor as soon as it is let go. While it moves the edge of what is seen is dimmed.
+class Moving {
+ public:
+  const Stand& stand() const { return m_stand; }
+  void place(const Stand& stand) { m_stand = stand; }
+  /// `busy`: the left hand has another use for its stick.
+  void follow(const HeadsetFrame& frame, bool busy = false);
+  bool carries() const { return m_carrying.has_value(); }
+  /// m on the floor, where the wearer will be.
+  const std::optional<Vector3>& goal() const { return m_goal; }
+  bool dims() const { return m_dimmed > 0; }
+  /// The way to the goal, and what dims. Comes last: that lies before all else.
+  void addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const;
+
+ private:
+  void carry(const HeadsetFrame& frame);
+  void turn(const HeadsetFrame& frame);
+  void go(const HeadsetFrame& frame, bool busy);
+
+  Stand m_stand;
+  /// By both hands, from when they took hold of the scene.
+  struct Carrying {
+    Stand from;
+    std::array<Vector3, 2> hands;  ///< m, in the room
+  };
+  std::optional<Carrying> m_carrying;
+  bool m_turns = false;  ///< asked for already
+  std::optional<Vector3> m_goal;
+  double m_dimmed = 0;  ///< s, for which it stays so
+};
+
+}  // namespace ps::vr

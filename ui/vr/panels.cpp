@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace ps::vr {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kOverHand = 0.12, kTilt = 35 * kDegree;  // of the palette: m from the palm, and from upright
+constexpr double kFacing = 0.55, kStillFacing = 0.4;      // cosine between the palm and the way to the eyes
+constexpr double kAway = 0.75, kBelow = 15 * kDegree;     // of the board: m from the eyes, and from their level
+constexpr double kBeforePanel = 0.006;                    // m, of a popup
+constexpr double kEdge = 0.026;  // tangent of 1.5 degrees, by which a beam may leave what it is on
+constexpr double kAnywhere = 3;  // likewise, while it presses; of a tip, m
+constexpr double kNear = 0.03, kThrough = 0.002, kBack = 0.01;  // m of a tip from a panel
+constexpr double kPull = 0.5, kLetGo = 0.3;                     // of a trigger's way
+
+/// Upright but for a tilt, its front towards a place.
+Quaternion facing(const Vector3& from, const Vector3& to, double tilt) {
+  const double heading = std::atan2(to.x() - from.x(), to.z() - from.z());
+  return Quaternion(Eigen::AngleAxisd(heading, Vector3::UnitY()) * Eigen::AngleAxisd(-tilt, Vector3::UnitX()));
+}
+
+}  // namespace
+
+Vector3 Panels::Place::at(double x, double y) const {
+  return pose.position + pose.orientation * Vector3((x - 0.5) * width, (0.5 - y) * height, 0);
+}
+
+Vector3 Panels::Place::own(const Vector3& room) const { return pose.orientation.conjugate() * (room - pose.position); }
+
+bool Panels::Place::holds(const Vector3& own, double edge) const {
+  return std::abs(own.x()) < width / 2 + edge && std::abs(own.y()) < height / 2 + edge;
+}
+
+void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view) {
+  m_head = frame.head.position;
+  placePalette(frame, view.panels[kPalette]);
+  placeBoard(frame, view);
+  placePopup(view);
+  for (const size_t hand : {kLeft, kRight}) point(hand, frame.hands[hand]);
+}
+
+void Panels::placePalette(const HeadsetFrame& frame, const PanelView& palette) {
+  const std::optional<HandPose>& palm = frame.hands[kLeft].grip;
+  const bool was = m_places[kPalette].has_value();
+  m_places[kPalette].reset();
+  if (!palm || !palette.image) return;
+  // OpenXR: of a left hand, x leads away from the palm.
+  const Vector3 toEyes = (m_head - palm->position).normalized();
+  if ((palm->orientation * Vector3::UnitX()).dot(toEyes) < (was ? kStillFacing : kFacing)) return;
+  const Vector3 middle = palm->position + Vector3(0, kOverHand + palette.height / 2 * std::cos(kTilt), 0);
+  m_places[kPalette] = Place{{middle, facing(middle, m_head, kTilt)}, palette.width, palette.height};
+}
+
+/// It stays where it was brought.
+void Panels::placeBoard(const HeadsetFrame& frame, const HeadsetView& view) {
+  const PanelView& board = view.panels[kBoard];
+  m_places[kBoard].reset();
+  if (!board.image) return;
+  if (!m_board || m_brought != view.brought) {
+    m_brought = view.brought;
+    const Vector3 looks = frame.head.orientation * Vector3(0, 0, -1);
+    const double heading = std::atan2(-looks.x(), -looks.z()), level = kAway * std::cos(kBelow);
+    HandPose pose;
+    pose.position = m_head + Vector3(-level * std::sin(heading), -kAway * std::sin(kBelow), -level * std::cos(heading));
+    pose.orientation = facing(pose.position, m_head, kBelow);
+    m_board = pose;
+  }
+  m_places[kBoard] = Place{*m_board, board.width, board.height};
+}
+
+void Panels::placePopup(const HeadsetView& view) {
+  const PanelView& popup = view.panels[kPopup];
+  m_places[kPopup].reset();
+  if (!popup.image || !m_places[popup.on]) return;
+  Place place = *m_places[popup.on];
+  place.pose.position += place.pose.orientation * Vector3(popup.right, -popup.down, kBeforePanel);
+  place.width = popup.width;
+  place.height = popup.height;
+  m_places[kPopup] = place;
+}
+
+void Panels::point(size_t hand, const HandInput& input) {
+  std::optional<PanelPoint>& now = m_pointed[hand];
+  const std::optional<PanelPoint> before = std::exchange(now, std::nullopt);
+  const bool pulled = input.aim && input.draw > (m_presses[hand] || m_draws[hand] ? kLetGo : kPull);
+  if (!pulled) m_draws[hand] = m_presses[hand] = false;
+  if (!input.aim || m_draws[hand]) return;
+  if (before && before->pressed && m_places[before->panel]) {
+    now = before->tip ? tipOn(before->panel, *input.aim, kAnywhere) : beamOn(before->panel, *input.aim, kAnywhere);
+    if (now) now->pressed = now->tip ? now->depth < kBack : pulled;
+    return;
+  }
+  now = pointAnew(hand, *input.aim, before);
+  if (now && now->tip) {
+    now->pressed = before && before->tip && now->depth < kThrough && before->depth >= kThrough;
+  } else if (now) {
+    now->pressed = pulled && !m_presses[hand];
+    m_presses[hand] = pulled;
+  } else {
+    m_draws[hand] = pulled && !m_presses[hand];
+  }
+}
+
+/// The last panel lies over the others.
+std::optional<PanelPoint> Panels::pointAnew(size_t hand, const HandPose& aim,
+                                            const std::optional<PanelPoint>& before) const {
+  for (size_t panel = kPanels; panel-- > 0;) {
+    if (!m_places[panel] || (panel == kPalette && hand == kLeft)) continue;  // a hand does not point at its own
+    const bool was = before && before->panel == panel;
+    if (auto tip = tipOn(panel, aim, was ? kBack : 0)) return tip;
+    if (auto beam = beamOn(panel, aim, was ? kEdge : 0)) return beam;
+  }
+  return std::nullopt;
+}
+
+/// `edge`: m by which it may be beside the panel.
+std::optional<PanelPoint> Panels::tipOn(size_t panel, const HandPose& aim, double edge) const {
+  const Place& place = *m_places[panel];
+  const Vector3 tip = place.own(aim.position + aim.orientation * Vector3(0, 0, -kTip));
+  if (!(tip.z() < kNear && tip.z() > -(edge > kNear ? edge : kNear)) || !place.holds(tip, edge)) return std::nullopt;
+  return PanelPoint{panel, tip.x() / place.width + 0.5, 0.5 - tip.y() / place.height, tip.z(), true, false};
+}
+
+/// `edge`: by which it may miss the panel, tangent of an angle.
+std::optional<PanelPoint> Panels::beamOn(size_t panel, const HandPose& aim, double edge) const {
+  const Place& place = *m_places[panel];
+  const Vector3 from = place.own(aim.position);
+  const Vector3 way = place.pose.orientation.conjugate() * (aim.orientation * Vector3(0, 0, -1));
+  if (!(from.z() > 0 && way.z() < 0)) return std::nullopt;
+  const double length = -from.z() / way.z();
+  const Vector3 at = from + length * way;
+  if (!place.holds(at, edge * length)) return std::nullopt;
+  return PanelPoint{panel, at.x() / place.width + 0.5, 0.5 - at.y() / place.height, length, false, false};
+}
+
+std::optional<Vector3> Panels::hit(size_t hand) const {
+  const std::optional<PanelPoint>& pointed = m_pointed.at(hand);
+  if (!pointed || pointed->tip || !m_places[pointed->panel]) return std::nullopt;
+  return m_places[pointed->panel]->at(pointed->x, pointed->y);
+}
+
+/// The farthest first.
+void Panels::addTo(Props& props, const Stand& stand, const HeadsetView& view) const {
+  std::vector<std::pair<double, Panel>> seen;
+  for (size_t panel = 0; panel < kPanels; ++panel) {
+    if (!m_places[panel]) continue;
+    const Place& place = *m_places[panel];
+    const auto corner = [&](double x, double y) { return stand.toScene(place.at(x, y)); };
+    seen.push_back({(place.pose.position - m_head).norm(),
+                    {{corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)}, view.panels[panel].image}});
+  }
+  std::stable_sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (auto& [away, panel] : seen) props.panels.push_back(std::move(panel));
+}
+
+}  // namespace ps::vr

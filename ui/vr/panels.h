@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/render/renderer.h"
+#include "ui/vr/headset.h"
+#include "ui/vr/headsetlink.h"
+#include "ui/vr/stand.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace ps::vr {
+
+/// Where the interface's panels are in the room, and what hands point at on them. The palette floats over the left hand
+/// while its palm faces the wearer; the board stands where it was asked for, turned to them; a popup lies on the one
+/// that it came from. A hand points by a beam, or, close by, with the tip of its wand, which presses what it goes
+/// through. What it began to press it keeps until it lets go.
+class Panels {
+ public:
+  /// In the room; +z is the side that one looks at.
+  struct Place {
+    HandPose pose;
+    double width = 0, height = 0;          ///< m
+    Vector3 at(double x, double y) const;  ///< 0..1 right and down from its upper left corner
+    Vector3 own(const Vector3& room) const;
+    bool holds(const Vector3& own, double edge) const;  ///< m, beside it
+  };
+
+  void follow(const HeadsetFrame& frame, const HeadsetView& view);
+  /// Of a panel; nothing while it is not seen.
+  const std::optional<Place>& place(size_t panel) const { return m_places.at(panel); }
+  const std::optional<PanelPoint>& pointed(size_t hand) const { return m_pointed.at(hand); }
+  /// Its trigger is none of the brush's business.
+  bool takes(size_t hand) const { return m_pointed.at(hand) || m_presses.at(hand); }
+  /// m, in the room, where the hand's beam ends.
+  std::optional<Vector3> hit(size_t hand) const;
+  void addTo(Props& props, const Stand& stand, const HeadsetView& view) const;
+
+ private:
+  void placePalette(const HeadsetFrame& frame, const PanelView& palette);
+  void placeBoard(const HeadsetFrame& frame, const HeadsetView& view);
+  void placePopup(const HeadsetView& view);
+  void point(size_t hand, const HandInput& input);
+  std::optional<PanelPoint> pointAnew(size_t hand, const HandPose& aim, const std::optional<PanelPoint>& before) const;
+  std::optional<PanelPoint> tipOn(size_t panel, const HandPose& aim, double edge) const;
+  std::optional<PanelPoint> beamOn(size_t panel, const HandPose& aim, double edge) const;
+
+  std::array<std::optional<Place>, kPanels> m_places;
+  std::array<std::optional<PanelPoint>, 2> m_pointed;
+  std::array<bool, 2> m_draws{}, m_presses{};  ///< its trigger was pulled elsewhere, or on a panel
+  Vector3 m_head{0, 0, 0};                     ///< m
+  uint64_t m_brought = 0;
+  std::optional<HandPose> m_board;  ///< since it was brought
+};
+
+}  // namespace ps::vr

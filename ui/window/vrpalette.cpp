@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/vrpalette.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/simulation/particlefield.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
+#include "ui/theme/theme.h"
+#include "ui/theme/units.h"
+#include "ui/tools/toolbox.h"
+#include "ui/window/actions.h"
+
+#include <QtGui/QAction>
+#include <QtGui/QPainter>
+#include <QtWidgets/QGridLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr int kColumns = 6, kButton = 34, kEdge = 12, kGap = 6, kIcon = 20;
+constexpr double kDegrees = 10;  // K, that a button adds to a temperature
+
+/// The one `by` places on in a ring, or the first.
+template <class Item>
+const Item* next(const std::vector<Item>& all, const Item& now, int by) {
+  if (all.empty()) return nullptr;
+  const auto found = std::find(all.begin(), all.end(), now);
+  if (found == all.end()) return &all.front();
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
+  return &all[static_cast<size_t>((found - all.begin() + by + count) % count)];
+}
+
+QToolButton* button(const QString& name, const QString& iconName) {
+  auto* one = new QToolButton;
+  one->setIcon(icon(iconName));
+  one->setIconSize({kIcon, kIcon});
+  one->setToolTip(name);
+  one->setAccessibleName(name);
+  one->setMinimumHeight(kButton);
+  one->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  return one;
+}
+
+}  // namespace
+
+VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, const std::vector<const char*>& pages)
+    : m_session(session), m_tools(tools), m_actions(actions) {
+  setObjectName(QStringLiteral("psVrPalette"));
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(kEdge, kEdge, kEdge, kEdge);
+  grid->setSpacing(kGap);
+  for (int column = 0; column < kColumns; ++column) grid->setColumnStretch(column, 1);
+  addActions(*grid, {{"simulation.play", "play"},
+                     {"simulation.step", "step"},
+                     {"simulation.reset", "reset-to-start"},
+                     {"edit.undo", "undo"},
+                     {"edit.redo", "redo"},
+                     {"sketch.real", "check"}});
+  addChoice(
+      *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { stepMaterial(by); });
+  addChoice(
+      *grid, QStringLiteral("Brush"), [this] { return pluginLabel(m_session.plugins(), m_tools.brush().shape); },
+      [this](int by) { stepBrush(by); });
+  addChoice(
+      *grid, QStringLiteral("Size"), [this] { return lengthText(m_tools.brush().radius); },
+      [this](int by) { m_tools.stepBrush(by); });
+  addChoice(
+      *grid, QStringLiteral("Temperature"), [this] { return temperatureText(m_tools.brush().temperature, 0); },
+      [this](int by) { stepTemperature(by); });
+  addChoice(
+      *grid, QStringLiteral("Colour"), [this] { return colour(); }, [this](int by) { stepColour(by); });
+  addActions(*grid, {{"simulation.gravity", "gravity"},
+                     {"sketch.hold", "pin"},
+                     {"sketch.brush", "brush"},
+                     {"sketch.erase", "erase"},
+                     {"sketch.mirror", "plane"},
+                     {"view.section", "cut"}});
+  addPages(*grid, pages);
+  follow();
+}
+
+/// Names of actions, and their icons.
+void VrPalette::addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row) {
+  const int line = grid.rowCount();
+  int column = 0;
+  for (const auto& [name, iconName] : row) {
+    QAction* action = m_actions.find(QString::fromLatin1(name));
+    QToolButton* one = button(cleanText(*action), QString::fromLatin1(iconName));
+    connect(one, &QToolButton::clicked, action, &QAction::trigger);
+    const auto showState = [one, action] {
+      one->setEnabled(action->isEnabled());
+      one->setCheckable(action->isCheckable());
+      one->setChecked(action->isChecked());
+    };
+    connect(action, &QAction::changed, one, showState);
+    // What is checked is what holds, not what was clicked.
+    connect(one, &QToolButton::clicked, one, showState);
+    showState();
+    grid.addWidget(one, line, column++);
+  }
+}
+
+void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
+                          const std::function<void(int)>& step) {
+  const int line = grid.rowCount();
+  auto* title = new QLabel(name);
+  title->setTextFormat(Qt::PlainText);
+  auto* value = new QLabel;
+  value->setTextFormat(Qt::PlainText);
+  value->setAlignment(Qt::AlignCenter);
+  value->setAccessibleName(name);
+  grid.addWidget(title, line, 0, 1, 2);
+  int column = 2;
+  for (const int by : {-1, 1}) {
+    QToolButton* one =
+        button(QStringLiteral("%1: %2").arg(name, by < 0 ? QStringLiteral("back") : QStringLiteral("on")),
+               by < 0 ? QStringLiteral("chevron-left") : QStringLiteral("chevron-right"));
+    connect(one, &QToolButton::clicked, this, [this, step, by] {
+      step(by);
+      follow();
+    });
+    grid.addWidget(one, line, column);
+    column = kColumns - 1;
+  }
+  grid.addWidget(value, line, 3, 1, 2);
+  m_choices.push_back({value, std::move(text)});
+}
+
+void VrPalette::addPages(QGridLayout& grid, const std::vector<const char*>& pages) {
+  int line = grid.rowCount(), column = 0;
+  for (const char* page : pages) {
+    const QString title = QString::fromLatin1(page);
+    auto* one = new QToolButton;
+    one->setText(title);
+    one->setAccessibleName(title);
+    one->setMinimumHeight(kButton);
+    one->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    connect(one, &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
+    grid.addWidget(one, line, column, 1, 2);
+    column += 2;
+    if (column == kColumns) ++line, column = 0;
+  }
+}
+
+void VrPalette::follow() {
+  for (const Choice& choice : m_choices) {
+    const QString text = choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width());
+    if (choice.value->text() != text) choice.value->setText(text);
+  }
+}
+
+QString VrPalette::material() const {
+  const Project& project = m_session.document().project();
+  const std::string& now = m_tools.brush().material;
+  if (project.materials.empty()) return QStringLiteral("none");
+  return ownerLabel(project, {Owner::Material, now.empty() ? project.materials.front().id : now, ""});
+}
+
+void VrPalette::stepMaterial(int by) {
+  std::vector<std::string> ids;
+  for (const SceneMaterial& one : m_session.document().project().materials) ids.push_back(one.id);
+  if (const std::string* id = next(ids, m_tools.brush().material, by)) m_tools.selection().setMaterial(*id);
+}
+
+void VrPalette::stepBrush(int by) {
+  if (!m_session.plugins()) return;
+  const std::vector<std::string> ids = m_session.plugins()->ids(PluginKind::Brush);
+  if (const std::string* id = next(ids, m_tools.brush().shape, by)) m_tools.takeBrush(*id);
+}
+
+void VrPalette::stepTemperature(int by) {
+  BrushSettings brush = m_tools.brush();
+  setValueOf(brush, "temperature", std::max(0.0, brush.temperature + kDegrees * by));
+  m_tools.setBrush(brush);
+}
+
+QString VrPalette::colour() const {
+  const std::string& now = m_session.document().project().view.colour;
+  const FieldPtr field = m_session.fields().find(now);
+  return field ? QString::fromStdString(field->label) : QStringLiteral("Matter");
+}
+
+void VrPalette::stepColour(int by) {
+  std::vector<std::string> names{kMatterColour};
+  for (const FieldPtr& field : m_session.fields().all()) names.push_back(field->name);
+  if (const std::string* name = next(names, m_session.document().project().view.colour, by))
+    m_session.document().setColour(*name);
+}
+
+void VrPalette::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Theme& theme = Theme::current();
+  paintBox(painter, rect(), theme[Token::Panel], theme[Token::Line2], 7);
+}
+
+}  // namespace ps

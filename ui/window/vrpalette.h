@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <QtWidgets/QWidget>
+
+#include <functional>
+#include <vector>
+
+class QGridLayout;
+class QLabel;
+class QToolButton;
+
+namespace ps {
+
+class Actions;
+class Session;
+class Toolbox;
+
+/// What a hand in the headset holds in the other: the run, what is drawn with which brush, gravity, and the pages that
+/// the board can show.
+class VrPalette : public QWidget {
+  Q_OBJECT
+ public:
+  /// All must outlive it. `pages`: titles that can be asked for.
+  VrPalette(Session& session, Toolbox& tools, const Actions& actions, const std::vector<const char*>& pages);
+  void follow();  ///< shows what holds by now
+
+ Q_SIGNALS:
+  void pageWanted(const QString& title);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  /// A value between two buttons that take the one before and the one after.
+  struct Choice {
+    QLabel* value;
+    std::function<QString()> text;
+  };
+  void addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row);
+  void addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
+                 const std::function<void(int)>& step);
+  void addPages(QGridLayout& grid, const std::vector<const char*>& pages);
+  void stepMaterial(int by);
+  void stepBrush(int by);
+  void stepTemperature(int by);
+  void stepColour(int by);
+  QString material() const;
+  QString colour() const;
+
+  Session& m_session;
+  Toolbox& m_tools;
+  const Actions& m_actions;
+  std::vector<Choice> m_choices;
+};
+
+}  // namespace ps

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/vrpanels.h"
+
+#include "ui/curves/curvetarget.h"
+#include "ui/panels/inspector.h"
+#include "ui/session/session.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/theme.h"
+#include "ui/tools/toolbox.h"
+#include "ui/window/paneltable.h"
+#include "ui/window/vrpalette.h"
+
+#include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
+#include <QtGui/QWheelEvent>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace ps {
+namespace {
+
+/// Pages that the board can show, as their docks call them.
+constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve", "Transport"};
+/// m of the room for each logical pixel: rows of 26 are 34 mm on the board, where the eyes are 0.75 m away, and letters
+/// of 12 are 16 mm; the palette is held at half that.
+constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.75e-3;
+constexpr QSize kBoardSize{385, 308}, kPaletteSize{400, 360};
+constexpr double kSharpness = 2.5;               // pixels painted for each logical one
+constexpr int kOpacity = 237;                    // 93 % of 255
+constexpr int kPaint = 100, kPaintTouched = 30;  // ms between pictures
+constexpr int kOpens = 500;                      // ms after a press within which a menu is taken for one that it opened
+constexpr int kTwice = 400;                      // ms within which a second press makes it a double click
+constexpr double kTwiceReach = 8;                // px
+constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
+constexpr int kNotch = 120;
+constexpr int kHeader = 28;
+
+/// Shown to nobody, so that it is laid out and follows what it shows.
+void showUnseen(QWidget& widget, const QSize& size) {
+  widget.setAttribute(Qt::WA_DontShowOnScreen);
+  widget.setAttribute(Qt::WA_QuitOnClose, false);
+  widget.setWindowFlag(Qt::Tool);
+  widget.setFixedSize(size);
+  widget.show();
+}
+
+std::shared_ptr<const PanelImage> pictureOf(QWidget& widget, const std::shared_ptr<const PanelImage>& before) {
+  const QSize size = (QSizeF(widget.size()) * kSharpness).toSize();
+  QImage image(size, QImage::Format_RGBA8888_Premultiplied);
+  image.setDevicePixelRatio(kSharpness);
+  image.fill(Qt::transparent);
+  widget.render(&image, {}, {}, QWidget::DrawChildren | QWidget::DrawWindowBackground);
+  QPainter painter(&image);
+  painter.setCompositionMode(QPainter::CompositionMode_DestinationIn);
+  painter.fillRect(widget.rect(), QColor(0, 0, 0, kOpacity));
+  painter.end();
+  const auto bytes = static_cast<size_t>(image.sizeInBytes());
+  const bool same = before && before->width == size.width() && before->height == size.height() &&
+                    std::memcmp(before->pixels.data(), image.constBits(), bytes) == 0;
+  if (same) return before;
+  auto made = std::make_shared<PanelImage>();
+  made->width = size.width();
+  made->height = size.height();
+  made->pixels.assign(image.constBits(), image.constBits() + bytes);
+  return made;
+}
+
+}  // namespace
+
+VrPanels::VrPanels(const Parts& parts)
+    : m_parts(parts),
+      m_inspector(std::make_unique<Inspector>(parts.session, parts.tools.selection())),
+      m_palette(std::make_unique<VrPalette>(parts.session, parts.tools, parts.actions,
+                                            std::vector<const char*>(std::begin(kPages), std::end(kPages)))),
+      m_board(std::make_unique<QWidget>()) {
+  m_board->setObjectName(QStringLiteral("psVrBoard"));
+  auto* column = new QVBoxLayout(m_board.get());
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  auto* header = new QHBoxLayout;
+  header->setContentsMargins(12, 0, 2, 0);
+  m_title = new QLabel;
+  m_title->setFixedHeight(kHeader);
+  auto* close = new QToolButton;
+  close->setIcon(icon(QStringLiteral("close")));
+  close->setAccessibleName(QStringLiteral("Put the board away"));
+  connect(close, &QToolButton::clicked, this, [this] { m_boardShown = false; });
+  header->addWidget(m_title, 1);
+  header->addWidget(close);
+  m_pages = new QStackedWidget;
+  column->addLayout(header);
+  column->addWidget(m_pages, 1);
+  connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
+  showUnseen(*m_palette, kPaletteSize);
+  showUnseen(*m_board, kBoardSize);
+  m_sincePaint.start();
+}
+
+VrPanels::~VrPanels() { letGo(); }
+
+QWidget* VrPanels::makePage(const QString& title) {
+  QWidget*& page = m_made[title];
+  if (page) return page;
+  const PanelContext context{m_parts.session, m_parts.tools.selection(), m_parts.tools, *m_inspector, m_parts.curves,
+                             m_parts.view};
+  for (const PanelRow& row : panelTable()) {
+    if (title == QLatin1String(row.title)) page = row.make(context);
+  }
+  if (page) m_pages->addWidget(page);
+  return page;
+}
+
+/// Where it stands already it stays.
+void VrPanels::showPage(const QString& title) {
+  QWidget* page = makePage(title);
+  if (!page) return;
+  m_pages->setCurrentWidget(page);
+  m_title->setText(title);
+  if (!std::exchange(m_boardShown, true)) ++m_brought;
+  m_touched = true;
+}
+
+void VrPanels::toggleBoard() {
+  m_touched = true;
+  if (m_boardShown) {
+    m_boardShown = false;
+  } else {
+    showPage(m_pages->count() > 0 ? m_title->text() : QString::fromLatin1(kPages[0]));
+  }
+}
+
+QWidget* VrPanels::widget(size_t panel) const {
+  if (panel == vr::kPalette) return m_palette.get();
+  if (panel == vr::kBoard) return m_boardShown ? m_board.get() : nullptr;
+  return m_popup && m_popup->isVisible() ? m_popup.data() : nullptr;
+}
+
+/// Menus that the mouse opens in the window are not for the headset.
+void VrPanels::findPopup() {
+  QWidget* popup = QApplication::activePopupWidget();
+  const bool came = popup && !std::exchange(m_hadPopup, popup != nullptr);
+  if (came) m_popup = m_sincePress.isValid() && !m_sincePress.hasExpired(kOpens) ? popup : nullptr;
+  m_hadPopup = popup != nullptr;
+}
+
+bool VrPanels::paint() {
+  if (!m_sincePaint.hasExpired(m_touched ? kPaintTouched : kPaint)) return false;
+  m_sincePaint.start();
+  m_touched = false;
+  m_palette->follow();
+  findPopup();
+  bool changed = false;
+  for (size_t panel = 0; panel < vr::kPanels; ++panel) {
+    vr::PanelView& view = m_painted[panel];
+    QWidget* shown = widget(panel);
+    const auto before = std::exchange(view.image, shown ? pictureOf(*shown, view.image) : nullptr);
+    changed = changed || before != view.image;
+    if (!shown) continue;
+    const double pixel = panel == vr::kPalette ? kPalettePixel : kBoardPixel;
+    view.width = pixel * shown->width();
+    view.height = pixel * shown->height();
+    if (panel != vr::kPopup) continue;
+    QWidget* from = m_boardShown ? m_board.get() : m_palette.get();
+    view.on = m_boardShown ? vr::kBoard : vr::kPalette;
+    const QPoint way = shown->mapToGlobal(shown->rect().center()) - from->mapToGlobal(from->rect().center());
+    view.right = pixel * way.x();
+    view.down = pixel * way.y();
+  }
+  return changed;
+}
+
+void VrPanels::describe(vr::HeadsetView& view) const {
+  view.panels = m_painted;
+  view.brought = m_brought;
+  const QColor accent = Theme::current()[Token::Accent];
+  view.accent = {accent.redF(), accent.greenF(), accent.blueF()};
+  for (size_t hand = 0; hand < m_pointers.size(); ++hand) view.ticks[hand] += m_pointers[hand].ticks;
+}
+
+void VrPanels::act(const vr::HandsSeen& seen) {
+  for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
+    const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
+    follow(m_pointers[hand], point);
+    if (point && std::abs(seen.hands[hand].input.steerY) > kPushed)
+      scroll(m_pointers[hand], seen.hands[hand].input.steerY, seen.seconds);
+  }
+}
+
+void VrPanels::letGo() {
+  for (Pointer& pointer : m_pointers) follow(pointer, std::nullopt);
+}
+
+void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point) {
+  QWidget* on = point ? widget(point->panel) : nullptr;
+  if (!on) {
+    if (pointer.pressed) release(pointer);
+    if (pointer.on) enter(pointer, nullptr);
+    pointer.on = nullptr;
+    return;
+  }
+  const QPointF at(point->x * on->width(), point->y * on->height());
+  const bool moved = on != pointer.on || (at - pointer.at).manhattanLength() > 0.01;
+  pointer.on = on;
+  pointer.at = at;
+  QWidget* child = on->childAt(at.toPoint());
+  enter(pointer, pointer.grabs ? pointer.grabs.data() : child ? child : on);
+  if (moved && pointer.under) send(pointer, *pointer.under, QEvent::MouseMove, Qt::NoButton);
+  if (point->pressed == pointer.pressed) return;
+  point->pressed ? press(pointer) : release(pointer);
+}
+
+/// What can be used is felt as one comes upon it.
+void VrPanels::enter(Pointer& pointer, QWidget* under) {
+  if (pointer.under == under) return;
+  m_touched = true;
+  if (pointer.under) {
+    pointer.under->setAttribute(Qt::WA_UnderMouse, false);
+    QEvent leave(QEvent::Leave);
+    QApplication::sendEvent(pointer.under, &leave);
+  }
+  pointer.under = under;
+  if (!under) return;
+  under->setAttribute(Qt::WA_UnderMouse, true);
+  const QPointF local = under->mapFrom(pointer.on, pointer.at.toPoint());
+  QEnterEvent event(local, pointer.at, pointer.on->mapToGlobal(pointer.at));
+  QApplication::sendEvent(under, &event);
+  if (under->isEnabled() && (under->focusPolicy() != Qt::NoFocus || under->inherits("QAbstractButton")))
+    ++pointer.ticks;
+}
+
+void VrPanels::press(Pointer& pointer) {
+  const bool twice = pointer.sincePress.isValid() && !pointer.sincePress.hasExpired(kTwice) &&
+                     (pointer.at - pointer.pressedAt).manhattanLength() < kTwiceReach;
+  pointer.pressed = m_touched = true;
+  m_sincePress.start();
+  pointer.grabs = pointer.under;
+  pointer.pressedAt = pointer.at;
+  twice ? pointer.sincePress.invalidate() : pointer.sincePress.start();
+  if (pointer.grabs)
+    send(pointer, *pointer.grabs, twice ? QEvent::MouseButtonDblClick : QEvent::MouseButtonPress, Qt::LeftButton);
+}
+
+void VrPanels::release(Pointer& pointer) {
+  pointer.pressed = false;
+  m_touched = true;
+  m_sincePress.start();
+  const QPointer<QWidget> held = std::exchange(pointer.grabs, nullptr);
+  if (held) send(pointer, *held, QEvent::MouseButtonRelease, Qt::LeftButton);
+}
+
+/// As a wheel: a notch forward where the stick is pushed forward.
+void VrPanels::scroll(Pointer& pointer, double way, double seconds) {
+  if (!pointer.under || (seconds < pointer.scrolled + kScroll && seconds >= pointer.scrolled)) return;
+  pointer.scrolled = seconds;
+  m_touched = true;
+  const QPointF local = pointer.under->mapFrom(pointer.on, pointer.at.toPoint());
+  QWheelEvent wheel(local, pointer.on->mapToGlobal(pointer.at), {}, {0, way > 0 ? kNotch : -kNotch}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(pointer.under, &wheel);
+}
+
+void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) const {
+  if (!pointer.on) return;
+  const QPointF origin = target.mapTo(pointer.on, QPoint(0, 0));
+  const Qt::MouseButtons held = pointer.pressed ? Qt::LeftButton : Qt::NoButton;
+  QMouseEvent event(static_cast<QEvent::Type>(type), pointer.at - origin, pointer.at,
+                    pointer.on->mapToGlobal(pointer.at), button, held, Qt::NoModifier);
+  QApplication::sendEvent(&target, &event);
+}
+
+}  // namespace ps

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/vr/headsetlink.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QObject>
+#include <QtCore/QPointF>
+#include <QtCore/QPointer>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+
+class QEvent;
+class QLabel;
+class QStackedWidget;
+class QWidget;
+
+namespace ps {
+
+class Actions;
+class CurveTarget;
+class Inspector;
+class Session;
+class Toolbox;
+class Viewport;
+class VrPalette;
+struct PanelContext;
+
+/// The interface in the headset: the palette, and the window's own pages on a board, painted where no screen shows
+/// them. Hands that point at them act as a mouse does; a menu that opens there comes along.
+class VrPanels : public QObject {
+  Q_OBJECT
+ public:
+  struct Parts {
+    Session& session;
+    Toolbox& tools;
+    CurveTarget& curves;
+    Viewport* view;
+    const Actions& actions;
+  };
+  explicit VrPanels(const Parts& parts);
+  ~VrPanels() override;
+
+  void act(const vr::HandsSeen& seen);
+  void letGo();
+  /// Sets the board before the wearer, or puts it away where it stands there.
+  void toggleBoard();
+  void showPage(const QString& title);
+  /// Whether the wearer would see something else by now. Paints that.
+  bool paint();
+  void describe(vr::HeadsetView& view) const;
+  QWidget* widget(size_t panel) const;  ///< nullptr: it is not there
+
+ private:
+  /// A hand as a mouse.
+  struct Pointer {
+    QPointer<QWidget> on, under, grabs;  ///< a panel, what is there of it, and what is pressed
+    QPointF at;                          ///< of the panel
+    bool pressed = false;
+    double scrolled = 0;  ///< s, when it scrolled last
+    QElapsedTimer sincePress;
+    QPointF pressedAt;
+    uint64_t ticks = 0;
+  };
+  void follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point);
+  void enter(Pointer& pointer, QWidget* under);
+  void press(Pointer& pointer);
+  void release(Pointer& pointer);
+  void scroll(Pointer& pointer, double way, double seconds);
+  void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) const;
+  QWidget* makePage(const QString& title);
+  void findPopup();
+
+  const Parts m_parts;
+  std::unique_ptr<Inspector> m_inspector;  ///< of the board alone
+  std::unique_ptr<VrPalette> m_palette;
+  std::unique_ptr<QWidget> m_board;
+  QLabel* m_title = nullptr;
+  QStackedWidget* m_pages = nullptr;
+  std::map<QString, QWidget*> m_made;
+  bool m_boardShown = false;
+  uint64_t m_brought = 0;
+  std::array<Pointer, 2> m_pointers;
+  std::array<vr::PanelView, vr::kPanels> m_painted;
+  QElapsedTimer m_sincePaint;
+  bool m_touched = true;  ///< something was pressed or pointed at since it was painted
+  QElapsedTimer m_sincePress;
+  QPointer<QWidget> m_popup;  ///< that came of a press here
+  bool m_hadPopup = false;
+};
+
+}  // namespace ps
