@@ -13,10 +13,10 @@
 #include "ui/library/materialcard.h"
 #include "ui/library/mixdialog.h"
 #include "ui/library/mixpreview.h"
-#include "ui/library/swatches.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
+#include "ui/session/swatches.h"
 #include "ui/session/worker.h"
 #include "ui/theme/units.h"
 #include "ui/window/libraryactions.h"
@@ -95,7 +95,7 @@ class TestLibrary : public SampleWindowTest {
     const int side = qRound(kSwatch * page()->devicePixelRatioF());
     const QString path = swatchPath(swatchOf(library().entries().front()), side);
     QTRY_VERIFY_WITH_TIMEOUT(QFileInfo::exists(path), kLong);
-    QSignalSpy arrived(page()->findChild<Swatches*>(), &Swatches::arrived);
+    QSignalSpy arrived(&session().swatches(), &Swatches::arrived);
     while (arrived.wait(1000)) continue;
     pictureOf("library_swatches");
   }

@@ -5,10 +5,10 @@
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
 #include "ui/library/materialcard.h"
-#include "ui/library/swatches.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
@@ -117,9 +117,8 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_export(new QPushButton(QStringLiteral("Export…"))),
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
-      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
-      m_swatches(new Swatches(this)) {
-  m_swatches->tidy();
+      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))) {
+  session.swatches().tidy();
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);
@@ -154,7 +153,7 @@ QWidget* LibraryPage::makeLeft() {
   choices->addLayout(m_chips);
   choices->addStretch(1);
   column->addLayout(choices);
-  m_cards->setItemDelegate(new MaterialCard(m_library, *m_swatches, m_cards));
+  m_cards->setItemDelegate(new MaterialCard(m_library, m_session.swatches(), m_cards));
   m_cards->setViewMode(QListView::IconMode);
   m_cards->setResizeMode(QListView::Adjust);
   m_cards->setMovement(QListView::Static);
@@ -167,7 +166,7 @@ QWidget* LibraryPage::makeLeft() {
   m_hint->setProperty("role", "muted");
   m_hint->setWordWrap(true);
   column->addWidget(m_hint);
-  connect(m_swatches, &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
+  connect(&m_session.swatches(), &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
@@ -193,7 +192,7 @@ QWidget* LibraryPage::makeRight() {
   auto* shown = new QHBoxLayout;
   shown->setSpacing(8);
   for (SwatchView*& picture : m_pictures) {
-    picture = new SwatchView(*m_swatches);
+    picture = new SwatchView(m_session.swatches());
     shown->addWidget(picture, 0, Qt::AlignTop);
   }
   shown->addWidget(m_about, 1);

@@ -19,7 +19,6 @@ namespace ps {
 
 class Selection;
 class SwatchView;
-class Swatches;
 
 /// All materials that can be had: cards to search in, with a swatch and the phases over temperature at a glance, and
 /// picture and properties of one, or of two side by side (Ctrl+click). From here they come into the scene; the scene's
@@ -69,7 +68,6 @@ class LibraryPage : public QWidget {
   QLabel *m_title, *m_about, *m_of, *m_hint;
   QPushButton *m_add, *m_export, *m_remove, *m_save, *m_mixture;
   QString m_tag;
-  Swatches* m_swatches;
   std::array<SwatchView*, 2> m_pictures{};  ///< of the chosen ones
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/library/materialcard.h"
 
-#include "ui/library/swatches.h"
-#include "ui/rows/panelheader.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/legend.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
@@ -25,18 +24,6 @@ double placeOf(double kelvin) {
 }
 
 }  // namespace
-
-void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches) {
-  const QImage picture =
-      swatches.of(swatch, static_cast<int>(std::lround(square.width() * painter.device()->devicePixelRatio())));
-  if (picture.isNull()) {
-    const double edge = square.width() / 11;  // as far as pictures have
-    const auto [red, green, blue, clearness] = swatch.look;
-    return paintBall(painter, square.adjusted(edge, edge, -edge, -edge), QColor::fromRgbF(red, green, blue));
-  }
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);  // of scales that are no whole number
-  painter.drawImage(snapped(painter, square), picture);
-}
 
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands) {
   const Theme& theme = Theme::current();
@@ -73,6 +60,8 @@ QString transitionsText(const LibraryEntry& entry) {
   return entry.bands.front().phase == api::Phase::Liquid ? QStringLiteral("never freezes")
                                                          : QStringLiteral("never melts");
 }
+
+Swatch swatchOf(const LibraryEntry& entry) { return swatchOf(entry.values, entry.bands); }
 
 MaterialCard::MaterialCard(const MaterialLibrary& library, Swatches& swatches, QObject* parent)
     : QStyledItemDelegate(parent), m_library(library), m_swatches(swatches) {}

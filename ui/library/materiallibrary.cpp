@@ -22,13 +22,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 namespace ps {
 namespace {
 
-constexpr double kPressure = 101325;                        // Pa
 constexpr double kMetalConducts = 15, kMetalWeighs = 2000;  // W/(m·K), kg/m³: more than stone, less than steel
 constexpr const char* kStays = "; what was read before stays";
 constexpr int kRest = 200;  // ms
@@ -79,25 +77,6 @@ QString aboutOf(const PluginRegistry& plugins, const SceneMaterial& material) {
 }
 
 }  // namespace
-
-std::vector<PhaseBand> bandsOf(const Material& material) {
-  const PhaseDiagram diagram = phaseDiagramOf(material);
-  const double end = std::numeric_limits<double>::infinity();
-  const bool melts = diagram.meltingPoint0 > 0;
-  if (diagram.sublimes(kPressure)) {
-    const double at = diagram.sublimationPoint(kPressure);
-    return {{0, at, api::Phase::Solid}, {at, end, api::Phase::Gas}};
-  }
-  const double melting = melts ? diagram.meltingPoint(kPressure) : 0, boiling = diagram.boilingPoint(kPressure);
-  std::vector<PhaseBand> bands;
-  if (melts) bands.push_back({0, melting, api::Phase::Solid});
-  // What never melts is what it is made as; who states how thick a liquid it is means one.
-  const bool flows = melts || material.properties.contains("viscosity");
-  if (!melts && !std::isfinite(boiling)) return {{0, end, flows ? api::Phase::Liquid : api::Phase::Solid}};
-  bands.push_back({melting, boiling, api::Phase::Liquid});
-  if (std::isfinite(boiling)) bands.push_back({boiling, end, api::Phase::Gas});
-  return bands;
-}
 
 namespace {
 QString folderMeant(const QString& asked) {

@@ -3,6 +3,7 @@
 // it, and any project's materials can be imported.
 #pragma once
 #include "core/matter/material.h"
+#include "core/matter/phasebands.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 
@@ -22,17 +23,6 @@
 namespace ps {
 
 class Session;
-
-inline constexpr double kRoom = 293.15;  ///< K, at which materials are listed and compared
-
-/// Where matter is solid, liquid or gas under the air's usual pressure; K.
-struct PhaseBand {
-  double from = 0, to = 0;
-  api::Phase phase = api::Phase::Solid;
-};
-
-/// Of what never melts the one phase that it is made as.
-std::vector<PhaseBand> bandsOf(const Material& material);
 
 /// A material that can be brought into a scene.
 struct LibraryEntry {

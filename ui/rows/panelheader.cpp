@@ -5,7 +5,6 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
-#include <QtGui/QRadialGradient>
 
 #include <algorithm>
 
@@ -55,19 +54,6 @@ void PanelHeader::paintEvent(QPaintEvent*) {
             theme[Token::Text2]);
   paintText(painter, QRectF(area.left(), m_subtitle.isEmpty() ? 30 : 47, area.width(), 16), align, m_detail,
             Theme::font(TextRole::Small), theme[Token::Muted]);
-}
-
-void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
-  QRadialGradient light(rect.center() - QPointF(0.18 * rect.width(), 0.22 * rect.height()), 0.72 * rect.width());
-  light.setColorAt(0, colour.lighter(125));
-  light.setColorAt(0.45, colour);
-  light.setColorAt(1, colour.darker(210));
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(light);
-  painter.drawEllipse(rect);
-  painter.restore();
 }
 
 }  // namespace ps

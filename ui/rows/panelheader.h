@@ -24,7 +24,4 @@ class PanelHeader : public QWidget {
   QColor m_swatch;
 };
 
-/// Paints a ball lit from above left, as a material looks.
-void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour);
-
 }  // namespace ps
