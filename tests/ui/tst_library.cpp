@@ -37,7 +37,8 @@ using namespace ps;
 
 namespace {
 
-constexpr int kSwatch = 44;  // px, on a card
+constexpr int kSwatch = 44;                        // px, on a card
+constexpr double kTile = 34, kHeader = 440.0 / 9;  // px, in the dock of materials, in the head of the inspector
 const Address kStiffness{Owner::Material, "water", "youngs_modulus"};
 constexpr const char* kSoap = R"({"format": "phasesketch-material", "version": 1, "id": "soap", "label": "Soap",
   "licence": "CC0-1.0", "properties": {"density_solid": 1050, "melting_temperature": 330, "youngs_modulus": 1e6}})";
@@ -98,6 +99,21 @@ class TestLibrary : public SampleWindowTest {
     QSignalSpy arrived(&session().swatches(), &Swatches::arrived);
     while (arrived.wait(1000)) continue;
     pictureOf("library_swatches");
+  }
+
+  /// So do the dock and the inspector, with the values that the scene has given it.
+  void docksShowTheMatter() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Materials"));
+    m_window->layoutOfDocks().showPage(QStringLiteral("Material"));
+    selection().pickMaterial("water");
+    const auto isDrawn = [&](double side) {
+      const Swatch water = swatchOf(document().project(), session().plugins(), "water");
+      return QFileInfo::exists(swatchPath(water, qRound(side * page()->devicePixelRatioF())));
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isDrawn(kTile) && isDrawn(kHeader), kLong);
+    QCOMPARE(document().setParameter({Owner::Material, "water", "color_red"}, 0.13), QString());
+    QTRY_VERIFY_WITH_TIMEOUT(isDrawn(kTile) && isDrawn(kHeader), kLong);
+    document().undoStack().undo();
   }
 
   void searchAndTagsChoose() {

@@ -7,6 +7,7 @@
 #include <QtGui/QPainter>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 
@@ -28,8 +29,8 @@ void PanelHeader::setTexts(const QString& name, const QString& subtitle, const Q
   update();
 }
 
-void PanelHeader::setSwatch(const QColor& colour) {
-  m_swatch = colour;
+void PanelHeader::setSwatch(SwatchPainter painter) {
+  m_swatch = std::move(painter);
   update();
 }
 
@@ -41,9 +42,9 @@ void PanelHeader::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   QPainter painter(this);
   double left = 12;
-  if (m_swatch.isValid()) {
-    const double side = std::min(40.0, height() - 10.0);
-    paintBall(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side), m_swatch);
+  if (m_swatch) {
+    const double side = std::min(40.0, height() - 10.0), edge = side / 9;  // a swatch leaves its edge free
+    m_swatch(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side).adjusted(-edge, -edge, edge, edge));
     left = 12 + side + 12;
   }
   const QRectF area(left, 10, width() - left - 10, height());
