@@ -8,16 +8,15 @@
 
 namespace ps {
 
-std::vector<PhaseBand> bandsOf(const Material& material) {
-  constexpr double kPressure = 101325;  // Pa
+std::vector<PhaseBand> bandsOf(const Material& material, double pressure) {
   const PhaseDiagram diagram = phaseDiagramOf(material);
   const double end = std::numeric_limits<double>::infinity();
   const bool melts = diagram.meltingPoint0 > 0;
-  if (diagram.sublimes(kPressure)) {
-    const double at = diagram.sublimationPoint(kPressure);
+  if (diagram.sublimes(pressure)) {
+    const double at = diagram.sublimationPoint(pressure);
     return {{0, at, api::Phase::Solid}, {at, end, api::Phase::Gas}};
   }
-  const double melting = melts ? diagram.meltingPoint(kPressure) : 0, boiling = diagram.boilingPoint(kPressure);
+  const double melting = melts ? diagram.meltingPoint(pressure) : 0, boiling = diagram.boilingPoint(pressure);
   std::vector<PhaseBand> bands;
   if (melts) bands.push_back({0, melting, api::Phase::Solid});
   // What never melts is what it is made as; who states how thick a liquid it is means one.

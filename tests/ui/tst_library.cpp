@@ -13,11 +13,13 @@
 #include "ui/library/materialcard.h"
 #include "ui/library/mixdialog.h"
 #include "ui/library/mixpreview.h"
+#include "ui/library/phaseview.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/swatches.h"
 #include "ui/session/worker.h"
+#include "ui/theme/legend.h"
 #include "ui/theme/units.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
@@ -114,6 +116,38 @@ class TestLibrary : public SampleWindowTest {
     QCOMPARE(document().setParameter({Owner::Material, "water", "color_red"}, 0.13), QString());
     QTRY_VERIFY_WITH_TIMEOUT(isDrawn(kTile) && isDrawn(kHeader), kLong);
     document().undoStack().undo();
+  }
+
+  /// Each phase has its region, and what is seen is said as well.
+  void phasesOverPressure() {
+    auto* view = page()->findChild<PhaseView*>();
+    page()->choose(QStringLiteral("Water"));
+    QVERIFY(view && view->isVisible());
+    const QString water = view->accessibleDescription();
+    QVERIFY2(water.startsWith(
+                 QStringLiteral("Water at 1 atm melts at 0 °C, boils at 100 °C; triple point at 0.0 °C and 612 Pa")) &&
+                 water.endsWith(QStringLiteral("; critical point at 373.9 °C")),
+             qPrintable(water));
+    const auto pixels = [view](api::Phase phase) {
+      const QImage image = view->grab().toImage();
+      const QColor colour = colourMap(QStringLiteral("phase")).stops[static_cast<size_t>(phase)].second;
+      int count = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) == colour;
+      }
+      return count;
+    };
+    constexpr int kMany = 500;
+    for (const api::Phase phase : {api::Phase::Solid, api::Phase::Liquid, api::Phase::Gas})
+      QVERIFY2(pixels(phase) > kMany, qPrintable(QString::number(pixels(phase))));
+    const QString honey = entryOf("honey")->label;
+    page()->choose(honey, true);
+    const QStringList both = view->accessibleDescription().split(QLatin1Char('\n'));
+    QCOMPARE(both.size(), 2);
+    QVERIFY(both.contains(water) && both.contains(honey + QStringLiteral(" at 1 atm never freezes")));
+    page()->choose(honey);
+    QVERIFY(pixels(api::Phase::Liquid) > kMany);
+    QCOMPARE(pixels(api::Phase::Solid) + pixels(api::Phase::Gas), 0);
   }
 
   void searchAndTagsChoose() {

@@ -5,6 +5,7 @@
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
 #include "ui/library/materialcard.h"
+#include "ui/library/phaseview.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -117,7 +118,8 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_export(new QPushButton(QStringLiteral("Export…"))),
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
-      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))) {
+      m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
+      m_phases(new PhaseView) {
   session.swatches().tidy();
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
@@ -197,6 +199,7 @@ QWidget* LibraryPage::makeRight() {
   }
   shown->addWidget(m_about, 1);
   column->addLayout(shown);
+  column->addWidget(m_phases);
   m_table->setRootIsDecorated(false);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
@@ -335,6 +338,7 @@ void LibraryPage::showChosen() {
   m_title->setText(head.mid(1).join(QStringLiteral(" and ")));
   m_about->setText(some.size() == 1 ? some.front()->about : QString());
   for (size_t k = 0; k < m_pictures.size(); ++k) m_pictures[k]->showMatter(k < some.size() ? some[k] : nullptr);
+  m_phases->showMaterials(some);
   for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
   m_remove->setVisible(some.size() == 1 && !some.front()->file.isEmpty());
   const api::ParameterList catalogue = propertyCatalogue();

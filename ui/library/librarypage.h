@@ -17,6 +17,7 @@ class QTreeWidget;
 
 namespace ps {
 
+class PhaseView;
 class Selection;
 class SwatchView;
 
@@ -68,6 +69,7 @@ class LibraryPage : public QWidget {
   QLabel *m_title, *m_about, *m_of, *m_hint;
   QPushButton *m_add, *m_export, *m_remove, *m_save, *m_mixture;
   QString m_tag;
+  PhaseView* m_phases;
   std::array<SwatchView*, 2> m_pictures{};  ///< of the chosen ones
 };
 

@@ -25,6 +25,12 @@ double placeOf(double kelvin) {
 
 }  // namespace
 
+QColor inkOn(const QColor& ground) {
+  const Theme& theme = Theme::current();
+  return theme[contrast(theme[Token::Field], ground) > contrast(theme[Token::Text], ground) ? Token::Field
+                                                                                            : Token::Text];
+}
+
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands) {
   const Theme& theme = Theme::current();
   const ColourMap map = colourMap(QStringLiteral("phase"));
@@ -34,11 +40,8 @@ void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBan
     const QRectF part(left, bar.top(), right - left, bar.height());
     const QColor colour = map.stops[static_cast<size_t>(band.phase)].second;
     painter.fillRect(part, colour);
-    const QColor ink = contrast(theme[Token::Field], colour) > contrast(theme[Token::Text], colour)
-                           ? theme[Token::Field]
-                           : theme[Token::Text];
     if (part.width() > 14)
-      paintText(painter, part, Qt::AlignCenter, phaseLetter(band.phase), Theme::font(TextRole::Small), ink);
+      paintText(painter, part, Qt::AlignCenter, phaseLetter(band.phase), Theme::font(TextRole::Small), inkOn(colour));
   }
   // Where rooms are.
   paintVerticalLine(painter, bar.left() + bar.width() * placeOf(kRoom), bar.top() - 3, bar.bottom() + 3,

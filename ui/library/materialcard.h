@@ -28,6 +28,9 @@ class MaterialCard : public QStyledItemDelegate {
 
 Swatch swatchOf(const LibraryEntry& entry);
 
+/// The one of the theme's inks that is read better on a ground.
+QColor inkOn(const QColor& ground);
+
 /// A bar of phases over temperature, of the one scale for all, with a line where rooms are.
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands);
 
