@@ -13,11 +13,13 @@
 #include "ui/library/materialcard.h"
 #include "ui/library/mixdialog.h"
 #include "ui/library/mixpreview.h"
-#include "ui/library/swatches.h"
+#include "ui/library/phaseview.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
+#include "ui/session/swatches.h"
 #include "ui/session/worker.h"
+#include "ui/theme/legend.h"
 #include "ui/theme/units.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
@@ -37,7 +39,8 @@ using namespace ps;
 
 namespace {
 
-constexpr int kSwatch = 44;  // px, on a card
+constexpr int kSwatch = 44;                        // px, on a card
+constexpr double kTile = 34, kHeader = 440.0 / 9;  // px, in the dock of materials, in the head of the inspector
 const Address kStiffness{Owner::Material, "water", "youngs_modulus"};
 constexpr const char* kSoap = R"({"format": "phasesketch-material", "version": 1, "id": "soap", "label": "Soap",
   "licence": "CC0-1.0", "properties": {"density_solid": 1050, "melting_temperature": 330, "youngs_modulus": 1e6}})";
@@ -95,9 +98,56 @@ class TestLibrary : public SampleWindowTest {
     const int side = qRound(kSwatch * page()->devicePixelRatioF());
     const QString path = swatchPath(swatchOf(library().entries().front()), side);
     QTRY_VERIFY_WITH_TIMEOUT(QFileInfo::exists(path), kLong);
-    QSignalSpy arrived(page()->findChild<Swatches*>(), &Swatches::arrived);
+    QSignalSpy arrived(&session().swatches(), &Swatches::arrived);
     while (arrived.wait(1000)) continue;
     pictureOf("library_swatches");
+  }
+
+  /// So do the dock and the inspector, with the values that the scene has given it.
+  void docksShowTheMatter() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Materials"));
+    m_window->layoutOfDocks().showPage(QStringLiteral("Material"));
+    selection().pickMaterial("water");
+    const auto isDrawn = [&](double side) {
+      const Swatch water = swatchOf(document().project(), session().plugins(), "water");
+      return QFileInfo::exists(swatchPath(water, qRound(side * page()->devicePixelRatioF())));
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isDrawn(kTile) && isDrawn(kHeader), kLong);
+    QCOMPARE(document().setParameter({Owner::Material, "water", "color_red"}, 0.13), QString());
+    QTRY_VERIFY_WITH_TIMEOUT(isDrawn(kTile) && isDrawn(kHeader), kLong);
+    document().undoStack().undo();
+  }
+
+  /// Each phase has its region, and what is seen is said as well.
+  void phasesOverPressure() {
+    auto* view = page()->findChild<PhaseView*>();
+    page()->choose(QStringLiteral("Water"));
+    QVERIFY(view && view->isVisible());
+    const QString water = view->accessibleDescription();
+    QVERIFY2(water.startsWith(
+                 QStringLiteral("Water at 1 atm melts at 0 °C, boils at 100 °C; triple point at 0.0 °C and 612 Pa")) &&
+                 water.endsWith(QStringLiteral("; critical point at 373.9 °C")),
+             qPrintable(water));
+    const auto pixels = [view](api::Phase phase) {
+      const QImage image = view->grab().toImage();
+      const QColor colour = colourMap(QStringLiteral("phase")).stops[static_cast<size_t>(phase)].second;
+      int count = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) == colour;
+      }
+      return count;
+    };
+    constexpr int kMany = 500;
+    for (const api::Phase phase : {api::Phase::Solid, api::Phase::Liquid, api::Phase::Gas})
+      QVERIFY2(pixels(phase) > kMany, qPrintable(QString::number(pixels(phase))));
+    const QString honey = entryOf("honey")->label;
+    page()->choose(honey, true);
+    const QStringList both = view->accessibleDescription().split(QLatin1Char('\n'));
+    QCOMPARE(both.size(), 2);
+    QVERIFY(both.contains(water) && both.contains(honey + QStringLiteral(" at 1 atm never freezes")));
+    page()->choose(honey);
+    QVERIFY(pixels(api::Phase::Liquid) > kMany);
+    QCOMPARE(pixels(api::Phase::Solid) + pixels(api::Phase::Gas), 0);
   }
 
   void searchAndTagsChoose() {
@@ -106,6 +156,17 @@ class TestLibrary : public SampleWindowTest {
     search(QString());
     page()->setTag(QStringLiteral("Metals"));
     QVERIFY(page()->shown().contains(entryOf("iron")->label) && !page()->shown().contains(QStringLiteral("Water")));
+  }
+
+  /// Words of files, of plugins as well.
+  void tagsOfFilesChoose() {
+    QVERIFY(entryOf("water")->tags.contains(QStringLiteral("Kitchen")));
+    QVERIFY(button(QStringLiteral("Food")));
+    page()->setTag(QStringLiteral("Food"));
+    QVERIFY(page()->shown().contains(entryOf("honey")->label) && !page()->shown().contains(entryOf("iron")->label));
+    page()->setTag({});
+    search(QStringLiteral("geology"));
+    QCOMPARE(page()->shown(), QStringList{entryOf("lava")->label});
   }
 
   void twoAreComparedSideBySide() {
@@ -379,6 +440,35 @@ class TestLibrary : public SampleWindowTest {
     QSignalSpy changed(&library(), &MaterialLibrary::changed);
     QTRY_VERIFY_WITH_TIMEOUT(!changed.isEmpty(), kLong);
     QVERIFY(said.isEmpty());
+  }
+
+  /// At first those of what it is of; they are written to its file, where nothing else changes.
+  void aPresetHasTagsOfItsOwn() {
+    page()->choose(QStringLiteral("Soft ice"));
+    QLineEdit* words = field(QStringLiteral("Tags"));
+    QVERIFY(words && words->isVisibleTo(page()));
+    QCOMPARE(words->text(), QStringLiteral("cold, kitchen"));
+    const auto type = [words](const char* text) {
+      words->setFocus();
+      words->selectAll();
+      QTest::keyClicks(words, QString::fromLatin1(text));
+      QTest::keyClick(words, Qt::Key_Return);
+    };
+    type("Glacier,  kitchen,");
+    QTRY_VERIFY_WITH_TIMEOUT(entry(QStringLiteral("Soft ice"))->tags.contains(QStringLiteral("Glacier")), kLong);
+    QCOMPARE(entry(QStringLiteral("Soft ice"))->material.tags, (std::vector<std::string>{"Glacier", "kitchen"}));
+    QCOMPARE(valueOf(entry(QStringLiteral("Soft ice"))->values, "youngs_modulus", 263), 3e6);
+    QCOMPARE(words->text(), QStringLiteral("Glacier, kitchen"));
+    search(QStringLiteral("glacier"));
+    QCOMPARE(page()->shown(), QStringList{QStringLiteral("Soft ice")});
+    QSignalSpy said(&library(), &MaterialLibrary::said);
+    type("ice, Ice");
+    QCOMPARE(said.size(), 1);
+    QVERIFY(said[0][0].toBool());
+    QCOMPARE(said[0][1].toString(), QStringLiteral("The tag “Ice” stands here twice."));
+    QVERIFY(entry(QStringLiteral("Soft ice"))->tags.contains(QStringLiteral("Glacier")));
+    page()->choose(QStringLiteral("Water"));
+    QVERIFY(!words->isVisibleTo(page()));
   }
 
   void oneFileIsPassedOn() {

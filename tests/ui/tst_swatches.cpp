@@ -2,9 +2,9 @@
 // Swatches of materials: drawn from their matter, kept, and given up where there is no OpenGL.
 #include "ui/film/sceneshot.h"
 #include "ui/library/materialcard.h"
-#include "ui/library/swatches.h"
-#include "ui/rows/panelheader.h"
 #include "ui/session/cachefolder.h"
+#include "ui/session/swatches.h"
+#include "ui/theme/paint.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QDir>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/matter/heatingcurve.h"
 #include "core/matter/material.h"
+#include "core/matter/phasebands.h"
 #include "core/matter/phasediagram.h"
+#include "core/matter/phaselines.h"
 #include "enthalpymodel.h"
 
 #include <QSet>
@@ -178,6 +180,39 @@ class TestMatter : public QObject {
     QVERIFY(!glass.sublimes(1));
     PhaseDiagram wax{331, 640, 250e3};
     QCOMPARE(wax.boilingPoint(1e3), 640.0);  // no molar mass: pressure does not matter
+  }
+
+  /// As they are drawn: three lines from the triple point, of which the boiling one ends at the critical point.
+  void linesOfADiagramMeet() {
+    const ps::PhaseLines lines = ps::phaseLines(water(), 10, 1e8);
+    QVERIFY(lines.triple && lines.critical);
+    for (const ps::PhasePoint& end : {lines.melting.front(), lines.boiling.front(), lines.sublimation.back()}) {
+      QCOMPARE(end.pressure, 611.657);
+      QVERIFY(std::abs(end.temperature - 273.16) < 0.02);  // the melting line is straight, from 273.15 K at 101325 Pa
+    }
+    QCOMPARE(lines.sublimation.front().pressure, 10.0);
+    QCOMPARE(lines.melting.back().pressure, 1e8);
+    QCOMPARE(lines.boiling.back().pressure, lines.critical->pressure);
+    QVERIFY(std::abs(lines.boiling.back().temperature - 647.096) < 1e-3);
+    QVERIFY(std::abs(water().boilingPoint(0.999 * lines.critical->pressure) - 647.096) < 0.2);
+    QVERIFY(ps::phaseLines(water(), 1000, 1e5).sublimation.empty());
+    PhaseDiagram glass;
+    glass.meltingPoint0 = 1400;
+    const ps::PhaseLines glassy = ps::phaseLines(glass, 10, 1e8);
+    QVERIFY(!glassy.triple && !glassy.critical && glassy.boiling.empty() && !glassy.melting.empty());
+  }
+
+  void bandsFollowPressure() {
+    using enum ps::api::Phase;
+    const auto phases = [](double pressure) {
+      std::vector<ps::api::Phase> found;
+      for (const ps::PhaseBand& band : ps::bandsOf(waterMaterial(), pressure)) found.push_back(band.phase);
+      return found;
+    };
+    QCOMPARE(phases(101325), (std::vector{Solid, Liquid, Gas}));
+    QCOMPARE(phases(100), (std::vector{Solid, Gas}));
+    QCOMPARE(ps::bandsOf(waterMaterial(), 100).front().to, water().sublimationPoint(100));
+    QCOMPARE(ps::bandsOf(waterMaterial(), 1e6)[1].to, water().boilingPoint(1e6));
   }
 
   void phasesAreClassified_data() {

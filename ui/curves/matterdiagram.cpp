@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/matter/material.h"
+#include "core/matter/phaselines.h"
 #include "core/simulation/compile.h"
 #include "ui/document/document.h"
 #include "ui/graphs/timeplot.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -22,7 +24,6 @@ namespace {
 constexpr double kLeft = 56, kTop = 24, kRight = 20, kBottom = 22;
 constexpr double kAround = 60;     // K beyond the last change of phase
 constexpr double kDecades = 2;     // of pressure around the scene's and the triple point's
-constexpr int kSteps = 80;         // of a line
 constexpr double kUnboiled = 300;  // K above what is known, where nothing boils
 
 double celsius(double kelvin) { return toDisplay(temperatureDeclaration(), kelvin); }
@@ -201,26 +202,26 @@ void MatterDiagram::paintHeating(QPainter& painter) const {
 
 void MatterDiagram::paintPhases(QPainter& painter) const {
   const Theme& theme = Theme::current();
-  const PhaseDiagram& d = m_diagram;
-  const double triple = d.triplePressure > 0 ? std::log10(d.triplePressure) : m_y.first;
-  const auto line = [&](double from, double to, const QString& name, auto kelvinAt) {
+  const PhaseLines lines = phaseLines(m_diagram, std::pow(10.0, m_y.first), std::pow(10.0, m_y.last));
+  const auto placeOf = [this](const PhasePoint& point) {
+    return at(celsius(point.temperature), std::log10(point.pressure));
+  };
+  for (const auto& [line, name] :
+       {std::pair(&lines.melting, QStringLiteral("melting")), std::pair(&lines.boiling, QStringLiteral("boiling")),
+        std::pair(&lines.sublimation, QStringLiteral("sublimation"))}) {
+    if (line->size() < 2) continue;
     QPolygonF points;
-    for (int i = 0; i <= kSteps && to > from; ++i) {
-      const double height = from + (to - from) * i / kSteps, kelvin = kelvinAt(std::pow(10.0, height));
-      if (std::isfinite(kelvin) && kelvin > 0) points << at(celsius(kelvin), height);
-    }
-    if (points.size() < 2) return;
+    for (const PhasePoint& point : *line) points << placeOf(point);
     painter.setPen(QPen(theme[Token::Curve], 2));
     painter.setBrush(Qt::NoBrush);
     painter.drawPolyline(points);
     paintText(painter, QRectF(points[points.size() / 2] + QPointF(8, 2), QSizeF(90, 16)),
               Qt::AlignLeft | Qt::AlignVCenter, name, Theme::font(TextRole::Small), theme[Token::Curve]);
-  };
-  if (d.meltingPoint0 > 0)
-    line(std::max(triple, m_y.first), m_y.last, QStringLiteral("melting"), [&](double p) { return d.meltingPoint(p); });
-  line(std::max(triple, m_y.first), m_y.last, QStringLiteral("boiling"), [&](double p) { return d.boilingPoint(p); });
-  if (d.triplePressure > 0)
-    line(m_y.first, triple, QStringLiteral("sublimation"), [&](double p) { return d.sublimationPoint(p); });
+  }
+  painter.setBrush(theme[Token::Curve]);
+  for (const auto& point : {lines.triple, lines.critical}) {
+    if (point) painter.drawEllipse(placeOf(*point), 2, 2);
+  }
   const double here = std::log10(std::max(m_pressure, 1.0)), y = at(m_x.first, here).y();
   painter.setPen(QPen(theme[Token::Muted], 1, Qt::DashLine));
   painter.drawLine(QPointF(plot().left(), y), QPointF(plot().right(), y));

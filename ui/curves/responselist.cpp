@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/rows/panelheader.h"
 #include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
@@ -191,6 +192,7 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
   connect(&target, &CurveTarget::targetChanged, this, &ResponseList::rebuild);
   connect(&target, &CurveTarget::comparedChanged, this, &ResponseList::showCompared);
   connect(&target, &CurveTarget::responseChanged, this, &ResponseList::refresh);
+  connect(&session.swatches(), &Swatches::arrived, m_header, qOverload<>(&QWidget::update));
   connect(&session, &Session::totalsDue, this, [this] {
     if (isVisible()) refresh();
   });
@@ -299,7 +301,8 @@ void ResponseList::refresh() {
   m_header->setTexts(m_target.materialLabel(),
                      QStringLiteral("%1 particles").arg(formatFixed(static_cast<double>(now.count))),
                      QStringLiteral("At %1").arg(formatValue(temperatureDeclaration(), kelvin)));
-  m_header->setSwatch(colourOf(project, m_target.document().plugins(), m_target.material()));
+  m_header->setSwatch(
+      m_session.swatches().painterOf(swatchOf(project, m_target.document().plugins(), m_target.material())));
   for (int i = 0; i < m_list->count(); ++i) {
     QListWidgetItem* item = m_list->item(i);
     const QString key = item->data(kKey).toString();

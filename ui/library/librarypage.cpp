@@ -4,11 +4,13 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
+#include "ui/library/flow.h"
 #include "ui/library/materialcard.h"
-#include "ui/library/swatches.h"
+#include "ui/library/phaseview.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
@@ -16,6 +18,7 @@
 
 #include <QtCore/QEvent>
 #include <QtCore/QMimeData>
+#include <QtCore/QSignalBlocker>
 #include <QtGui/QDrag>
 #include <QtGui/QPainter>
 #include <QtWidgets/QButtonGroup>
@@ -107,6 +110,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_selection(selection),
       m_search(new QLineEdit),
       m_name(new QLineEdit),
+      m_words(new QLineEdit),
       m_cards(new CardList(library, [this](QMimeData* carried) { carry(carried); })),
       m_table(new QTreeWidget),
       m_title(new QLabel),
@@ -118,8 +122,8 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_remove(new QPushButton(QStringLiteral("Remove preset"))),
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
       m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
-      m_swatches(new Swatches(this)) {
-  m_swatches->tidy();
+      m_phases(new PhaseView) {
+  session.swatches().tidy();
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);
@@ -148,13 +152,9 @@ QWidget* LibraryPage::makeLeft() {
   m_search->setFixedWidth(190);
   head->addWidget(m_search);
   column->addLayout(head);
-  auto* choices = new QHBoxLayout;
-  m_chips = new QHBoxLayout;
-  m_chips->setSpacing(6);
-  choices->addLayout(m_chips);
-  choices->addStretch(1);
-  column->addLayout(choices);
-  m_cards->setItemDelegate(new MaterialCard(m_library, *m_swatches, m_cards));
+  m_chips = new Flow(6);
+  column->addLayout(m_chips);
+  m_cards->setItemDelegate(new MaterialCard(m_library, m_session.swatches(), m_cards));
   m_cards->setViewMode(QListView::IconMode);
   m_cards->setResizeMode(QListView::Adjust);
   m_cards->setMovement(QListView::Static);
@@ -167,7 +167,7 @@ QWidget* LibraryPage::makeLeft() {
   m_hint->setProperty("role", "muted");
   m_hint->setWordWrap(true);
   column->addWidget(m_hint);
-  connect(m_swatches, &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
+  connect(&m_session.swatches(), &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
@@ -193,11 +193,16 @@ QWidget* LibraryPage::makeRight() {
   auto* shown = new QHBoxLayout;
   shown->setSpacing(8);
   for (SwatchView*& picture : m_pictures) {
-    picture = new SwatchView(*m_swatches);
+    picture = new SwatchView(m_session.swatches());
     shown->addWidget(picture, 0, Qt::AlignTop);
   }
   shown->addWidget(m_about, 1);
   column->addLayout(shown);
+  column->addWidget(m_phases);
+  m_words->setPlaceholderText(QStringLiteral("Tags, with commas between them"));
+  m_words->setAccessibleName(QStringLiteral("Tags"));
+  m_words->setToolTip(QStringLiteral("Words by which this preset is found, with commas between them: food, kitchen"));
+  column->addWidget(m_words);
   m_table->setRootIsDecorated(false);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
@@ -228,6 +233,11 @@ QWidget* LibraryPage::makeRight() {
   connect(m_remove, &QPushButton::clicked, this, [this] {
     if (const auto some = chosen(); !some.empty()) m_library.removePreset(*some.front());
   });
+  connect(m_words, &QLineEdit::editingFinished, this, [this] {
+    if (const auto some = chosen(); some.size() == 1 && m_words->isModified())
+      m_library.setTags(*some.front(), m_words->text());
+    m_words->setModified(false);
+  });
   connect(mix, &QPushButton::clicked, this, [this] {
     const QStringList labels = compared();
     Q_EMIT mixWanted(labels.value(0), labels.value(1));
@@ -250,6 +260,7 @@ void LibraryPage::refresh() {
       QStringLiteral("The bar shows solid, liquid and gas from %1 to %2 under the air's usual pressure; its "
                      "line is at %3. Ctrl+click compares two. Drag a card onto a body, which becomes of it.")
           .arg(temperatureText(kColdest, 0), temperatureText(kHottest, 0), temperatureText(kRoom, 0)));
+  const QSignalBlocker quiet(m_cards);  // what is chosen shows below, once
   m_cards->clear();
   for (size_t i = 0; i < m_library.entries().size(); ++i) {
     const LibraryEntry& entry = m_library.entries()[i];
@@ -336,8 +347,10 @@ void LibraryPage::showChosen() {
   m_title->setText(head.mid(1).join(QStringLiteral(" and ")));
   m_about->setText(some.size() == 1 ? some.front()->about : QString());
   for (size_t k = 0; k < m_pictures.size(); ++k) m_pictures[k]->showMatter(k < some.size() ? some[k] : nullptr);
+  m_phases->showMaterials(some);
   for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
   m_remove->setVisible(some.size() == 1 && !some.front()->file.isEmpty());
+  showTags();
   const api::ParameterList catalogue = propertyCatalogue();
   for (size_t at = 0; at < catalogue.count; ++at) {
     const api::ParameterDeclaration& declaration = catalogue[at];
@@ -364,6 +377,21 @@ void LibraryPage::showChosen() {
     m_table->resizeColumnToContents(k);
     m_table->setColumnWidth(k, std::min(m_table->columnWidth(k), kWidestColumn));
   }
+}
+
+/// Of one preset, whose file they are written to; what somebody is typing stays.
+void LibraryPage::showTags() {
+  const std::vector<const LibraryEntry*> some = chosen();
+  const bool one = some.size() == 1 && !some.front()->file.isEmpty();
+  const QString of = one ? m_cards->selectedItems().front()->data(kKeyRole).toString() : QString();
+  const bool stays = m_words->isModified() && of == m_wordsOf;
+  m_wordsOf = of;
+  m_words->setVisible(one);
+  if (stays) return;
+  QStringList words;
+  for (const std::string& tag : one ? some.front()->material.tags : std::vector<std::string>{})
+    words << QString::fromStdString(tag);
+  m_words->setText(words.join(QStringLiteral(", ")));
 }
 
 /// The scene's material that would become a preset.

@@ -7,7 +7,6 @@
 #include <array>
 
 class QButtonGroup;
-class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -17,9 +16,10 @@ class QTreeWidget;
 
 namespace ps {
 
+class Flow;
+class PhaseView;
 class Selection;
 class SwatchView;
-class Swatches;
 
 /// All materials that can be had: cards to search in, with a swatch and the phases over temperature at a glance, and
 /// picture and properties of one, or of two side by side (Ctrl+click). From here they come into the scene; the scene's
@@ -54,6 +54,7 @@ class LibraryPage : public QWidget {
   QWidget* makeRight();
   void filter();
   void showChosen();
+  void showTags();
   void showScene();
   void addToScene();
   void carry(QMimeData* carried);
@@ -61,15 +62,16 @@ class LibraryPage : public QWidget {
   MaterialLibrary& m_library;
   Session& m_session;
   Selection& m_selection;
-  QLineEdit *m_search, *m_name;
-  QHBoxLayout* m_chips = nullptr;
+  QLineEdit *m_search, *m_name, *m_words;
+  QString m_wordsOf;  ///< whose tags the line has, by the key of its card
+  Flow* m_chips = nullptr;
   QButtonGroup* m_tags = nullptr;
   QListWidget* m_cards;
   QTreeWidget* m_table;
   QLabel *m_title, *m_about, *m_of, *m_hint;
   QPushButton *m_add, *m_export, *m_remove, *m_save, *m_mixture;
   QString m_tag;
-  Swatches* m_swatches;
+  PhaseView* m_phases;
   std::array<SwatchView*, 2> m_pictures{};  ///< of the chosen ones
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/library/materialcard.h"
 
-#include "ui/library/swatches.h"
-#include "ui/rows/panelheader.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/legend.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
@@ -26,16 +25,10 @@ double placeOf(double kelvin) {
 
 }  // namespace
 
-void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches) {
-  const QImage picture =
-      swatches.of(swatch, static_cast<int>(std::lround(square.width() * painter.device()->devicePixelRatio())));
-  if (picture.isNull()) {
-    const double edge = square.width() / 11;  // as far as pictures have
-    const auto [red, green, blue, clearness] = swatch.look;
-    return paintBall(painter, square.adjusted(edge, edge, -edge, -edge), QColor::fromRgbF(red, green, blue));
-  }
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);  // of scales that are no whole number
-  painter.drawImage(snapped(painter, square), picture);
+QColor inkOn(const QColor& ground) {
+  const Theme& theme = Theme::current();
+  return theme[contrast(theme[Token::Field], ground) > contrast(theme[Token::Text], ground) ? Token::Field
+                                                                                            : Token::Text];
 }
 
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands) {
@@ -47,11 +40,8 @@ void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBan
     const QRectF part(left, bar.top(), right - left, bar.height());
     const QColor colour = map.stops[static_cast<size_t>(band.phase)].second;
     painter.fillRect(part, colour);
-    const QColor ink = contrast(theme[Token::Field], colour) > contrast(theme[Token::Text], colour)
-                           ? theme[Token::Field]
-                           : theme[Token::Text];
     if (part.width() > 14)
-      paintText(painter, part, Qt::AlignCenter, phaseLetter(band.phase), Theme::font(TextRole::Small), ink);
+      paintText(painter, part, Qt::AlignCenter, phaseLetter(band.phase), Theme::font(TextRole::Small), inkOn(colour));
   }
   // Where rooms are.
   paintVerticalLine(painter, bar.left() + bar.width() * placeOf(kRoom), bar.top() - 3, bar.bottom() + 3,
@@ -73,6 +63,8 @@ QString transitionsText(const LibraryEntry& entry) {
   return entry.bands.front().phase == api::Phase::Liquid ? QStringLiteral("never freezes")
                                                          : QStringLiteral("never melts");
 }
+
+Swatch swatchOf(const LibraryEntry& entry) { return swatchOf(entry.values, entry.bands); }
 
 MaterialCard::MaterialCard(const MaterialLibrary& library, Swatches& swatches, QObject* parent)
     : QStyledItemDelegate(parent), m_library(library), m_swatches(swatches) {}

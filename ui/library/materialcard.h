@@ -26,8 +26,10 @@ class MaterialCard : public QStyledItemDelegate {
   Swatches& m_swatches;
 };
 
-/// The picture of a sample in a square, or, as long as there is none, a ball of its colour.
-void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches);
+Swatch swatchOf(const LibraryEntry& entry);
+
+/// The one of the theme's inks that is read better on a ground.
+QColor inkOn(const QColor& ground);
 
 /// A bar of phases over temperature, of the one scale for all, with a line where rooms are.
 void paintBands(QPainter& painter, const QRectF& bar, const std::vector<PhaseBand>& bands);

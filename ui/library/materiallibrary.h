@@ -3,6 +3,7 @@
 // it, and any project's materials can be imported.
 #pragma once
 #include "core/matter/material.h"
+#include "core/matter/phasebands.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 
@@ -14,6 +15,7 @@
 #include <QtCore/QTimer>
 #include <QtGui/QColor>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -23,24 +25,13 @@ namespace ps {
 
 class Session;
 
-inline constexpr double kRoom = 293.15;  ///< K, at which materials are listed and compared
-
-/// Where matter is solid, liquid or gas under the air's usual pressure; K.
-struct PhaseBand {
-  double from = 0, to = 0;
-  api::Phase phase = api::Phase::Solid;
-};
-
-/// Of what never melts the one phase that it is made as.
-std::vector<PhaseBand> bandsOf(const Material& material);
-
 /// A material that can be brought into a scene.
 struct LibraryEntry {
   SceneMaterial material;  ///< as it comes
   Material values;         ///< all its properties
   QString label, about;
   QString file;      ///< of a preset; "": installed
-  QStringList tags;  ///< words to choose by
+  QStringList tags;  ///< words to choose by: what it is by its values, and those of its file
   QColor colour;
   std::vector<PhaseBand> bands;  ///< coldest first
 };
@@ -67,6 +58,8 @@ class MaterialLibrary : public QObject {
   void importFrom(const QString& path);
   void exportTo(const LibraryEntry& entry, const QString& path);
   void removePreset(const LibraryEntry& entry);
+  /// `words`: with commas between them. Nothing else of the preset's file changes.
+  void setTags(const LibraryEntry& preset, const QString& words);
   /// Labels of installed materials whose files have other values by now than the scene's run is made of.
   QStringList waiting() const;
   /// Those come to act: the scene goes back to its start.
@@ -92,7 +85,9 @@ class MaterialLibrary : public QObject {
   QString placeOf(const QString& label, bool replaces, const QStringList& taken) const;
   bool isAlone(const LibraryEntry& entry) const;  ///< in its file
   void keep(SceneMaterial material, const QString& label, const QString& path);
-  void write(const SceneMaterial& material, const QString& path, const QString& done);
+  /// `text` is made by the worker; what it throws is said.
+  void write(const QString& path, const QString& done, std::function<std::string()> text);
+  std::vector<std::string> tagsOfKept(const QString& label, const SceneMaterial& material) const;
   Session& m_session;
   QString m_folder;
   QFileSystemWatcher m_watcher;

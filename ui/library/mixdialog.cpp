@@ -9,7 +9,6 @@
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
 #include "ui/library/mixpreview.h"
-#include "ui/library/swatches.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -69,8 +68,7 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
       m_first(new QComboBox),
       m_second(new QComboBox),
       m_note(new QLabel),
-      m_swatches(new Swatches(this)),
-      m_preview(new MixPreview(*m_swatches)),
+      m_preview(new MixPreview(session.swatches())),
       m_table(new QTreeWidget) {
   setAttribute(Qt::WA_DeleteOnClose);
   m_grid->setContentsMargins(kEdge, kEdge, kEdge, kEdge);

@@ -18,7 +18,6 @@ class QTreeWidget;
 namespace ps {
 
 class MixPreview;
-class Swatches;
 class ParameterRow;
 class Selection;
 
@@ -69,7 +68,6 @@ class MixDialog : public QDialog {
   ParameterRow* m_share = nullptr;
   QLineEdit* m_name = nullptr;
   QLabel* m_note;
-  Swatches* m_swatches;
   MixPreview* m_preview;
   QTreeWidget* m_table;
   std::vector<QPushButton*> m_makes;  ///< what makes it, where there is one

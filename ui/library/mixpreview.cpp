@@ -2,7 +2,7 @@
 #include "ui/library/mixpreview.h"
 
 #include "ui/library/materialcard.h"
-#include "ui/library/swatches.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"

@@ -2,8 +2,8 @@
 #pragma once
 #include "core/matter/heatingcurve.h"
 #include "core/matter/material.h"
+#include "ui/film/swatch.h"
 #include "ui/library/materiallibrary.h"
-#include "ui/library/swatch.h"
 
 #include <QtWidgets/QWidget>
 

@@ -11,6 +11,7 @@
 #include "ui/panels/rowmodels.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/units.h"
@@ -52,6 +53,7 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     m_notes.setNothingWaits(m_session.appliesAtOnce());
     m_notes.hear(event);
   });
+  connect(&session.swatches(), &Swatches::arrived, this, &Inspector::showMaterialHeader);
   connect(&selection, &Selection::changed, this, [this, &selection] {
     if (selection.kind() == OutlineKind::Probe)
       setProbe(selection.id());
@@ -256,7 +258,7 @@ void Inspector::showMaterialHeader() {
                         missing
                             ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
                             : bodies.join(QStringLiteral(", ")),
-                        materialDetail(), colourOf(project, plugins, material->id));
+                        materialDetail(), m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
 }
 
 QString Inspector::materialDetail() const {
@@ -389,6 +391,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     if (address.owner == Owner::Shape || address.owner == Owner::Solver) countSoon();
     note(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
+    if (address.owner == Owner::Material && address.id == m_materialId) showMaterialHeader();
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_probeId.clear();
     m_others.clear();

@@ -5,8 +5,9 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
-#include "ui/rows/panelheader.h"
 #include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
@@ -28,7 +29,8 @@
 namespace ps {
 namespace {
 
-constexpr int kLeastTile = 64, kTileHeight = 68, kMargin = 8, kBall = 28, kLine = 14, kHint = 20, kHeading = 22;
+constexpr int kLeastTile = 64, kTileHeight = 68, kMargin = 8, kSwatch = 34, kBall = 28, kLine = 14, kHint = 20,
+              kHeading = 22;
 
 int columnsIn(int width) { return std::max(1, (width - kMargin) / kLeastTile); }
 
@@ -67,8 +69,8 @@ void installAccessibility() {
 
 }  // namespace
 
-MaterialsPanel::MaterialsPanel(Document& document, Selection& selection, QWidget* parent)
-    : QWidget(parent), m_document(document), m_selection(selection) {
+MaterialsPanel::MaterialsPanel(Session& session, Selection& selection, QWidget* parent)
+    : QWidget(parent), m_document(session.document()), m_swatches(session.swatches()), m_selection(selection) {
   installAccessibility();
   setMouseTracking(true);
   setFocusPolicy(Qt::TabFocus);
@@ -77,7 +79,8 @@ MaterialsPanel::MaterialsPanel(Document& document, Selection& selection, QWidget
   policy.setHeightForWidth(true);  // the area that scrolls it asks
   setSizePolicy(policy);
   connect(&selection, &Selection::materialChanged, this, &MaterialsPanel::showCurrent);
-  connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
+  connect(&m_swatches, &Swatches::arrived, this, qOverload<>(&QWidget::update));
+  connect(&m_document, &Document::changed, this, [this](const ChangeEvent& event) {
     const auto* parameter = std::get_if<ParameterChanged>(&event);
     if (std::holds_alternative<MaterialsChanged>(event)) {
       const std::vector<std::string> before = ownIds();
@@ -122,17 +125,14 @@ void MaterialsPanel::rebuild() {
   for (const SceneMaterial& material : project.materials) {
     if (!material.mixture) bases.insert(material.base);
     m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
-                       colourOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
+                       swatchOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
   }
   m_own = m_tiles.size();
   for (const std::string& base : plugins ? plugins->ids(PluginKind::Material) : std::vector<std::string>{}) {
     const Material* material = plugins ? plugins->material(base) : nullptr;
     if (!material || bases.count(base)) continue;
-    Project with;  // a scene of it alone says how it looks
-    with.materials.push_back({base, {}, base, {}, {}, {}, {}, {}});
     const std::string& label = material->label;
-    m_tiles.push_back(
-        {base, QString::fromStdString(label.empty() ? base : label), colourOf(with, plugins, base), false, true});
+    m_tiles.push_back({base, QString::fromStdString(label.empty() ? base : label), swatchOf(*material), false, true});
   }
   updateGeometry();
   update();
@@ -195,13 +195,15 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
     paintBox(painter, rect, theme[current ? Token::Selection : Token::Header],
              current || here ? theme[Token::Accent] : QColor(), 5);
   }
-  const QRectF ball(rect.center().x() - kBall / 2.0, rect.top() + 5, kBall, kBall);
+  const QRectF square(rect.center().x() - kSwatch / 2.0, rect.top() + 2, kSwatch, kSwatch);
+  constexpr double kEdge = (kSwatch - kBall) / 2.0;  // that a swatch leaves free
+  const QRectF ball = square.adjusted(kEdge, kEdge, -kEdge, -kEdge);
   if (tile.missing) {
     painter.setPen(QPen(theme[Token::Muted], 1));
     painter.setBrush(QBrush(theme[Token::Muted], Qt::BDiagPattern));
     painter.drawEllipse(ball);
   } else {
-    paintBall(painter, ball, tile.colour);
+    paintSwatch(painter, square, tile.swatch, m_swatches);
   }
   const Token colour = current ? Token::Text : tile.installed ? Token::Muted : Token::Text2;
   const QStringList lines = linesOf(tile.label, rect.width() - 2);
@@ -212,12 +214,14 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   }
 }
 
-void MaterialsPanel::paintEvent(QPaintEvent*) {
+void MaterialsPanel::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
-  for (size_t i = 0; i < m_tiles.size(); ++i) paintTile(painter, i);
+  for (size_t i = 0; i < m_tiles.size(); ++i) {
+    if (tileRect(i).intersects(event->rect())) paintTile(painter, i);  // who is out of sight asks for no picture
+  }
   const QRectF heading = headingRect(width());
   const auto line = [&](const QRectF& place, const QString& text) {
     paintText(painter, place, Qt::AlignLeft | Qt::AlignVCenter, text, Theme::font(TextRole::Small),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/film/swatch.h"
 #include "ui/session/carriedmaterial.h"
 
-#include <QtGui/QColor>
 #include <QtWidgets/QWidget>
 
 #include <string>
@@ -14,14 +14,16 @@ namespace ps {
 
 class Document;
 class Selection;
+class Session;
+class Swatches;
 
-/// Materials of the scene as a grid of painted balls; a click makes one the brush's matter and shows its values. Below
+/// Materials of the scene as a grid of swatches; a click makes one the brush's matter and shows its values. Below
 /// them those that are installed besides; a click brings one into the scene. All are dragged to where a material is
 /// wanted.
 class MaterialsPanel : public QWidget {
   Q_OBJECT
  public:
-  MaterialsPanel(Document& document, Selection& selection, QWidget* parent = nullptr);
+  MaterialsPanel(Session& session, Selection& selection, QWidget* parent = nullptr);
   void rebuild();
   QString currentLabel() const;  ///< "" when there is none
   /// Brings an installed material into the scene and makes it the current one.
@@ -55,7 +57,7 @@ class MaterialsPanel : public QWidget {
   struct Tile {
     std::string id;  ///< of one that can be added: its base
     QString label;
-    QColor colour;
+    Swatch swatch;
     bool missing = false;
     bool installed = false;  ///< can be added
   };
@@ -70,6 +72,7 @@ class MaterialsPanel : public QWidget {
   void moveTo(int index);
 
   Document& m_document;
+  Swatches& m_swatches;
   Selection& m_selection;
   std::vector<Tile> m_tiles;
   size_t m_own = 0;                 ///< tiles of the scene; the rest can be added

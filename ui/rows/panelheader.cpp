@@ -5,9 +5,9 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
-#include <QtGui/QRadialGradient>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 
@@ -29,8 +29,8 @@ void PanelHeader::setTexts(const QString& name, const QString& subtitle, const Q
   update();
 }
 
-void PanelHeader::setSwatch(const QColor& colour) {
-  m_swatch = colour;
+void PanelHeader::setSwatch(SwatchPainter painter) {
+  m_swatch = std::move(painter);
   update();
 }
 
@@ -42,9 +42,9 @@ void PanelHeader::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   QPainter painter(this);
   double left = 12;
-  if (m_swatch.isValid()) {
-    const double side = std::min(40.0, height() - 10.0);
-    paintBall(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side), m_swatch);
+  if (m_swatch) {
+    const double side = std::min(40.0, height() - 10.0), edge = side / 9;  // a swatch leaves its edge free
+    m_swatch(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side).adjusted(-edge, -edge, edge, edge));
     left = 12 + side + 12;
   }
   const QRectF area(left, 10, width() - left - 10, height());
@@ -55,19 +55,6 @@ void PanelHeader::paintEvent(QPaintEvent*) {
             theme[Token::Text2]);
   paintText(painter, QRectF(area.left(), m_subtitle.isEmpty() ? 30 : 47, area.width(), 16), align, m_detail,
             Theme::font(TextRole::Small), theme[Token::Muted]);
-}
-
-void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
-  QRadialGradient light(rect.center() - QPointF(0.18 * rect.width(), 0.22 * rect.height()), 0.72 * rect.width());
-  light.setColorAt(0, colour.lighter(125));
-  light.setColorAt(0.45, colour);
-  light.setColorAt(1, colour.darker(210));
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(light);
-  painter.drawEllipse(rect);
-  painter.restore();
 }
 
 }  // namespace ps

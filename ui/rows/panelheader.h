@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <QtCore/QString>
-#include <QtGui/QColor>
 #include <QtWidgets/QWidget>
+
+#include <functional>
+
+class QPainter;
+class QRectF;
 
 namespace ps {
 
-/// Block on top of an inspector: a ball of the material's colour, name, what it is, where its data come from.
+/// Draws how a material looks into a square.
+using SwatchPainter = std::function<void(QPainter&, const QRectF&)>;
+
+/// Block on top of an inspector: a swatch of the material, name, what it is, where its data come from.
 class PanelHeader : public QWidget {
   Q_OBJECT
  public:
   explicit PanelHeader(QWidget* parent = nullptr);
   void setTexts(const QString& name, const QString& subtitle, const QString& detail);
   void setDetail(const QString& detail) { setTexts(m_name, m_subtitle, detail); }
-  void setSwatch(const QColor& colour);  ///< invalid: none
+  void setSwatch(SwatchPainter painter);  ///< nullptr: none
   QSize sizeHint() const override;
 
  protected:
@@ -21,10 +28,7 @@ class PanelHeader : public QWidget {
 
  private:
   QString m_name, m_subtitle, m_detail;
-  QColor m_swatch;
+  SwatchPainter m_swatch;
 };
-
-/// Paints a ball lit from above left, as a material looks.
-void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour);
 
 }  // namespace ps

@@ -4,7 +4,6 @@
 #include "core/parameters/wording.h"
 #include "ui/rows/filterfield.h"
 #include "ui/rows/groupheading.h"
-#include "ui/rows/panelheader.h"
 #include "ui/rows/parameterrow_p.h"
 #include "ui/rows/steadyrows.h"
 #include "ui/theme/theme.h"
@@ -25,6 +24,7 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -160,9 +160,9 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
 ParameterPanel::~ParameterPanel() = default;
 
 void ParameterPanel::setHeader(const QString& name, const QString& subtitle, const QString& detail,
-                               const QColor& swatch) {
+                               SwatchPainter swatch) {
   d->header->setTexts(name, subtitle, detail);
-  d->header->setSwatch(swatch);
+  d->header->setSwatch(std::move(swatch));
   d->header->setVisible(!name.isEmpty());
 }
 

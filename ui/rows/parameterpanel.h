@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/rows/panelheader.h"
 #include "ui/rows/parameterrow.h"
 
-#include <QtGui/QColor>
 #include <QtWidgets/QWidget>
 
 #include <limits>
@@ -25,8 +25,8 @@ class ParameterPanel : public QWidget {
   explicit ParameterPanel(QWidget* parent = nullptr);
   ~ParameterPanel() override;
 
-  /// Block at the top: name, line below it, small line below that. An invalid swatch draws none.
-  void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, const QColor& swatch = {});
+  /// Block at the top: name, line below it, small line below that. A nullptr swatch draws none.
+  void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, SwatchPainter swatch = {});
   void setHeaderDetail(const QString& detail);
   /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
   /// in which groups first appear. Keeps scroll position, folded groups and the filter. Gestures still open end first;

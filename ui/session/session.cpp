@@ -16,6 +16,7 @@
 #include "ui/session/recordingfiles.h"
 #include "ui/session/runwork.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/swatches.h"
 #include "ui/session/transitions.h"
 #include "ui/session/wording.h"
 #include "ui/session/worker.h"
@@ -38,6 +39,7 @@ Session::Session(const Options& options, QObject* parent)
       m_transitions(std::make_unique<Transitions>(*m_document)),
       m_recorded(std::make_unique<RecordedView>(*this)),
       m_fields(std::make_unique<const ParticleFields>()),
+      m_swatches(std::make_unique<Swatches>()),
       m_worker(std::make_unique<Worker>()) {
   m_log->takeLog();
   m_values.setInterval(kValuesInterval);

@@ -26,6 +26,7 @@ class RunWork;
 class SceneLink;
 class Transitions;
 class StateBuffer;
+class Swatches;
 class Worker;
 struct EngineEvent;
 
@@ -52,6 +53,7 @@ class Session : public QObject {
   PluginRegistry* plugins() { return m_plugins.get(); }
   /// The same, for work in the background that may outlive the session.
   const std::shared_ptr<PluginRegistry>& registry() const { return m_plugins; }
+  Swatches& swatches() { return *m_swatches; }                ///< pictures of materials, for whatever shows them
   const ParticleFields& fields() const { return *m_fields; }  ///< of particles; until ready() ours alone
   EngineThread* engine() { return m_engine.get(); }
   SceneLink* link() { return m_link.get(); }
@@ -147,7 +149,8 @@ class Session : public QObject {
   std::unique_ptr<SceneLink> m_link;
   std::unique_ptr<RecordingFiles> m_recordings;  // ends before the engine, whose record it reads
   std::unique_ptr<RunWork> m_work;               // likewise
-  std::unique_ptr<Worker> m_worker;              // ends first: its jobs point at the others
+  std::unique_ptr<Swatches> m_swatches;
+  std::unique_ptr<Worker> m_worker;  // ends first: its jobs point at the others
 };
 
 }  // namespace ps

@@ -5,6 +5,7 @@
 
 #include <QtGui/QFontMetricsF>
 #include <QtGui/QPainter>
+#include <QtGui/QRadialGradient>
 
 #include <algorithm>
 #include <cmath>
@@ -125,6 +126,19 @@ void paintDiamond(QPainter& painter, const QPointF& centre, double half, const Q
   const QPointF corners[] = {centre + QPointF(0, -half), centre + QPointF(half, 0), centre + QPointF(0, half),
                              centre + QPointF(-half, 0)};
   painter.drawPolygon(corners, 4);
+  painter.restore();
+}
+
+void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour) {
+  QRadialGradient light(rect.center() - QPointF(0.18 * rect.width(), 0.22 * rect.height()), 0.72 * rect.width());
+  light.setColorAt(0, colour.lighter(125));
+  light.setColorAt(0.45, colour);
+  light.setColorAt(1, colour.darker(210));
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(light);
+  painter.drawEllipse(rect);
   painter.restore();
 }
 

@@ -33,5 +33,7 @@ void paintSymbol(QPainter& painter, const QRectF& rect, const QString& symbol, c
 void paintSwitch(QPainter& painter, const QRectF& rect, bool on, bool enabled);
 /// A key over time; `half` its width, logical pixels.
 void paintDiamond(QPainter& painter, const QPointF& centre, double half, const QColor& colour, bool filled);
+/// A ball lit from above left, as a material looks.
+void paintBall(QPainter& painter, const QRectF& rect, const QColor& colour);
 
 }  // namespace ps

@@ -46,7 +46,7 @@ QWidget* makePoints(const PanelContext& context) {
 }
 
 QWidget* makeMaterials(const PanelContext& context) {
-  auto* materials = new MaterialsPanel(context.session.document(), context.selection);
+  auto* materials = new MaterialsPanel(context.session, context.selection);
   QScrollArea* scroll = scrolling(materials);
   QObject::connect(materials, &MaterialsPanel::revealed, scroll, [scroll](const QRect& tile) {
     scroll->ensureVisible(tile.center().x(), tile.center().y(), 0, tile.height() / 2);

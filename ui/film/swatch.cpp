@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/library/swatch.h"
+#include "ui/film/swatch.h"
 
+#include "core/matter/material.h"
 #include "ui/film/sceneshot.h"
-#include "ui/library/materiallibrary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,8 @@ SnapshotPtr sampleOf(const Swatch& swatch) {
   return sample;
 }
 
+}  // namespace
+
 Swatch swatchOf(const Material& material, const std::vector<PhaseBand>& bands) {
   Swatch swatch;
   constexpr const char* kKeys[] = {"color_red", "color_green", "color_blue", "clearness"};
@@ -70,10 +72,6 @@ Swatch swatchOf(const Material& material, const std::vector<PhaseBand>& bands) {
   }
   return swatch;
 }
-
-}  // namespace
-
-Swatch swatchOf(const LibraryEntry& entry) { return swatchOf(entry.values, entry.bands); }
 
 Swatch swatchOf(const Material& material) { return swatchOf(material, bandsOf(material)); }
 

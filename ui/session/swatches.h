@@ -3,7 +3,7 @@
 // that cards in sight do not wait for those that were scrolled past. The context lasts as long as there is something to
 // draw. At close the picture that has begun is waited for, the others are given up.
 #pragma once
-#include "ui/library/swatch.h"
+#include "ui/film/swatch.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QObject>
@@ -11,11 +11,19 @@
 #include <QtGui/QImage>
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
+
+class QPainter;
+class QRectF;
 
 namespace ps {
+
+class PluginRegistry;
+struct Project;
 
 /// Where the picture of a sample is kept, `side` pixels wide and high, in the user's cache.
 QString swatchPath(const Swatch& swatch, int side);
@@ -29,6 +37,8 @@ class Swatches : public QObject {
   void tidy();  ///< pictures of before that nobody asks for any more go: see tidyCache()
   /// `side` in device pixels. Null while it is not there: it is read or drawn, and arrived() follows.
   QImage of(const Swatch& swatch, int side);
+  /// Paints a sample by paintSwatch(), as long as this lasts.
+  std::function<void(QPainter&, const QRectF&)> painterOf(const Swatch& swatch);
   /// False from when it turned out that there is no OpenGL: no more pictures come, which is no error.
   bool canDraw() const { return m_canDraw; }
 
@@ -50,5 +60,12 @@ class Swatches : public QObject {
   bool m_drawing = false;       ///< the thread looks into `m_wanted` once more
   Worker m_worker;              // ends first
 };
+
+/// The picture of a sample in a square, or, as long as there is none, a ball of its colour.
+void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches);
+
+/// Of a material of the scene, with the values that it has there. One whose plugin is missing looks as the catalogue
+/// says.
+Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 
 }  // namespace ps

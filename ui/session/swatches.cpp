@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/library/swatches.h"
+#include "ui/session/swatches.h"
 
 #include "core/base/error.h"
 #include "core/io/outputfile.h"
+#include "core/matter/material.h"
+#include "core/scene/project.h"
+#include "core/simulation/declared.h"
 #include "ui/film/sceneshot.h"
 #include "ui/session/cachefolder.h"
+#include "ui/theme/paint.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QCoreApplication>
@@ -12,15 +16,18 @@
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
+#include <QtGui/QPainter>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 namespace ps {
 namespace {
 
-constexpr int kRecipe = 1;  // rises when the same sample is to look otherwise
+constexpr int kRecipe = 1;      // rises when the same sample is to look otherwise
+constexpr float kShades = 100;  // of a colour: one that is dragged asks for few pictures
 
 /// What is not kept is drawn again: no loss.
 void keep(const QImage& picture, const QString& path) {
@@ -116,6 +123,36 @@ void Swatches::drawAll() {
       Q_EMIT arrived();
     });
   }
+}
+
+std::function<void(QPainter&, const QRectF&)> Swatches::painterOf(const Swatch& swatch) {
+  return [this, swatch](QPainter& painter, const QRectF& square) { paintSwatch(painter, square, swatch, *this); };
+}
+
+void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches) {
+  const QImage picture =
+      swatches.of(swatch, static_cast<int>(std::lround(square.width() * painter.device()->devicePixelRatio())));
+  if (picture.isNull()) {
+    const double edge = square.width() / 11;  // as far as pictures have
+    const auto [red, green, blue, clearness] = swatch.look;
+    return paintBall(painter, square.adjusted(edge, edge, -edge, -edge), QColor::fromRgbF(red, green, blue));
+  }
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);  // of scales that are no whole number
+  painter.drawImage(snapped(painter, square), picture);
+}
+
+Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
+  Material values;
+  const auto take = [&](const ParameterSet& set) {
+    for (const auto& [key, value] : set.values) values.properties[key] = responseOf(value);
+  };
+  take(materialDefaults(project, plugins, material));
+  for (const SceneMaterial& each : project.materials) {
+    if (each.id == material) take(each.properties);
+  }
+  Swatch swatch = swatchOf(values);
+  for (float& part : swatch.look) part = std::round(part * kShades) / kShades;
+  return swatch;
 }
 
 }  // namespace ps

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <phasesketch/types.h>
+#include "core/matter/phasebands.h"
 
 #include <array>
+#include <vector>
 
 namespace ps {
 
-struct LibraryEntry;
 struct Material;
 struct SceneShot;
 
@@ -17,7 +17,8 @@ struct Swatch {
   bool operator==(const Swatch&) const = default;
 };
 
-Swatch swatchOf(const LibraryEntry& entry);
+/// `bands`: the material's, where they are known already.
+Swatch swatchOf(const Material& material, const std::vector<PhaseBand>& bands);
 Swatch swatchOf(const Material& material);
 /// A lump of it, a drop or a cloud. Its particles are put where they are: for a picture as small as this no plugin has
 /// to run, and what scene is open does not matter.
