@@ -471,8 +471,13 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(document().body("ice")->visible && !document().body("ice")->locked);
     QCOMPARE(document().undoStack().count(), 4);
     m_window->selection().select(OutlineKind::Wall, "floor");
-    m_window->action(QStringLiteral("edit.visible"))->trigger();  // a wall has no eye
-    QCOMPARE(document().undoStack().count(), 4);
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(!document().wall("floor")->visible && document().wall("floor")->locked);
+    QCOMPARE(document().undoStack().count(), 6);
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QVERIFY(document().wall("floor")->visible && !document().wall("floor")->locked);
   }
 
   void toolAndMaterialAreTold() {

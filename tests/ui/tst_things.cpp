@@ -18,6 +18,7 @@
 #include <QtGui/QAction>
 #include <QtGui/QClipboard>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QTreeView>
 
 #include <cmath>
@@ -247,6 +248,40 @@ class TestThings : public SampleWindowTest {
     QCOMPARE(m_window->selection().items().size(), size_t{2});
     document().undoStack().undo();
     QCOMPARE(project().environment.walls.size(), walls);
+  }
+
+  /// As a body is, also with other things: a step each, kept by the file; what is locked stays, and its copy is free.
+  void wallsAreRenamedHiddenAndLocked() {
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    tree()->setFocus();
+    trigger("edit.rename");
+    auto* field = tree()->findChild<QLineEdit*>();
+    QVERIFY(field);
+    field->setText(QStringLiteral("Stove"));
+    QTest::keyClick(field, Qt::Key_Return);
+    QTRY_COMPARE(document().wall("floor")->name, std::string("Stove"));
+    const std::string probe = project().probes[0].id;
+    m_window->selection().selectAll({{OutlineKind::Probe, probe}, {OutlineKind::Wall, "floor"}});
+    const int steps = document().undoStack().index();
+    trigger("edit.visible");
+    trigger("edit.locked");
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("locking 2 things"));
+    const auto marked = [](const auto& thing) { return !thing.visible && thing.locked; };
+    QVERIFY(marked(*document().wall("floor")) && marked(*document().probe(probe)));
+    const QModelIndex row = rowOf(OutlineKind::Wall, "floor");
+    QVERIFY(!row.data(outline::kVisible).toBool() && row.data(outline::kLocked).toBool());
+    QVERIFY(row.data(Qt::ToolTipRole).toString().contains(QStringLiteral("acts all the same")));
+    const LoadedProject again = parseProject(writeProject(project()), "again", *session().plugins());
+    QVERIFY(marked(again.project.environment.walls[0]) && marked(again.project.probes[0]));
+    trigger("edit.delete");
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    trigger("edit.copy");
+    trigger("edit.paste");
+    QVERIFY(!project().environment.walls.back().locked && !project().probes.back().locked);
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+    QVERIFY(document().wall("floor")->visible && !document().wall("floor")->locked);
+    QVERIFY(document().probe(probe)->visible && !document().probe(probe)->locked);
   }
 
   void groupsAreMadeRenamedHiddenAndSaved() {

@@ -207,31 +207,6 @@ void Document::renameBody(const std::string& id, const QString& name) {
   editBody(id, QStringLiteral("rename of %1").arg(nameOf(*old)), [&](Body& b) { b.name = wanted; });
 }
 
-void Document::editBodies(const std::vector<std::string>& ids, const QString& text,
-                          const std::function<bool(Body&)>& change) {
-  std::vector<SceneEdit> edits;
-  for (const std::string& id : ids) {
-    const Body* before = body(id);
-    if (!before) continue;
-    BodyEdit edit{id, *before, *before, 0};
-    if (change(*edit.after)) edits.emplace_back(std::move(edit));
-  }
-  if (edits.empty()) return;
-  const QString what =
-      edits.size() == 1 ? nameOf(*body(bodyOf(edits[0]))) : QStringLiteral("%1 bodies").arg(edits.size());
-  m_undo.push(new BodiesCommand(*this, std::move(edits), text.arg(what)));
-}
-
-void Document::setBodiesVisible(const std::vector<std::string>& ids, bool visible) {
-  editBodies(ids, visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1"),
-             [&](Body& b) { return std::exchange(b.visible, visible) != visible; });
-}
-
-void Document::setBodiesLocked(const std::vector<std::string>& ids, bool locked) {
-  editBodies(ids, locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1"),
-             [&](Body& b) { return std::exchange(b.locked, locked) != locked; });
-}
-
 std::string Document::freeBodyId(const std::string& stem) {
   for (int n = 1;; ++n) {
     std::string id = n == 1 ? stem : stem + "-" + std::to_string(n);

@@ -59,6 +59,7 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
   double line = kReach, depth = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < environment.walls.size(); ++k) {
     const SceneWall& wall = environment.walls[k];
+    if (!wall.visible || wall.locked) continue;
     const render::Face face = render::leftOf(environment, k, pointer.section);
     const Lines lines = faceOf(wall).isCurved() ? leftOf(wallLines(environment, k), pointer.section) : edgesOf(face);
     const double near = distanceOf(pointer, lines);

@@ -12,6 +12,11 @@
 #include <algorithm>
 
 namespace ps {
+namespace {
+
+bool canPick(const auto& port) { return port.visible && !port.locked; }
+
+}  // namespace
 
 void SelectTool::hover(const Pointer& pointer) {
   m_handles.hover(pointer);
@@ -85,10 +90,10 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
     }
   }
   for (const Emitter& emitter : project.emitters) {
-    if (within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
+    if (canPick(emitter) && within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
   }
   for (const Sink& sink : project.sinks) {
-    if (within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
+    if (canPick(sink) && within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
   }
   return items;
 }
@@ -122,7 +127,7 @@ void SelectTool::click(const Pointer& pointer) {
   selection.mark(scene.revision, scene.id[*hit]);
 }
 
-/// Of walls that are selected or pointed at, and of pins.
+/// Of walls that are selected or pointed at, of pins, and of regions of probes that are selected.
 std::vector<Wire> SelectTool::wires() const {
   const Project& project = box().document().project();
   const Selection& selection = box().selection();
@@ -134,10 +139,14 @@ std::vector<Wire> SelectTool::wires() const {
   for (size_t k = 0; k < scene.walls.size(); ++k) {
     const SelectedItem item{OutlineKind::Wall, scene.walls[k].id};
     const bool selected = selection.has(item.kind, item.id);
-    if (selected || m_hovered == item) add(item, wallLines(scene, k, selected), false);
+    if (scene.walls[k].visible && (selected || m_hovered == item)) add(item, wallLines(scene, k, selected), false);
   }
   for (const SelectedItem& pin : shownPins(project, selection.items()))
     add(pin, boxLines(*findPin(project, pin.id)), true);
+  for (const Probe& probe : project.probes) {
+    const SelectedItem item{OutlineKind::Probe, probe.id};
+    if (probe.visible && probe.region && selection.has(item.kind, item.id)) add(item, boxLines(*probe.region), true);
+  }
   return list;
 }
 
