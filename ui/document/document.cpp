@@ -140,6 +140,8 @@ QString Document::setParameter(const Address& address, const Value& value) {
 
 /// Judged together: of two that must keep an order, the first may pass where the other was.
 QString Document::setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text) {
+  if (std::any_of(values.begin(), values.end(), [](const auto& one) { return one.first.owner == Owner::Probe; }))
+    return setProbeParameters(values, text);
   Project together = m_project;
   for (const auto& [address, value] : values) {
     ParameterSet* set = findSet(together, address);

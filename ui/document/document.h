@@ -71,8 +71,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// Several parameters as one undo step, judged together; within a gesture those of the same addresses are one.
-  /// Returns "" or why one is refused; nothing is then set.
+  /// Several parameters as one undo step, judged together (of probes those alone); within a gesture those of the same
+  /// addresses are one. Returns "" or why one is refused; nothing is then set.
   QString setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
   /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.
@@ -237,6 +237,9 @@ class Document : public QObject {
  private:
   void notify(const ChangeEvent& event);
   QString setProbeParameter(const Address& address, const Value& value);
+  QString setProbeParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
+  /// The probe with another value there; nothing where it is the same, or where `problem` says why it is refused.
+  std::optional<Probe> probeWith(const Address& address, const Value& value, QString& problem) const;
   void pushProbe(ProbeEdit edit, const QString& title);
   void setGraphs(std::vector<Graph> graphs, const QString& title);
   void setMarkers(std::vector<Marker> markers, const QString& title);
