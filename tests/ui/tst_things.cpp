@@ -411,6 +411,20 @@ class TestThings : public SampleWindowTest {
     QVERIFY(!hidden(OutlineKind::Body, "ice"));
   }
 
+  void withoutMatterTheOutlinerSaysWhatToDo() {
+    const auto says = [&] {
+      const auto labels = m_window->findChild<Outliner*>()->findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+        return label->isVisible() && label->text() == QStringLiteral("Add a body or press B to sketch");
+      });
+    };
+    QVERIFY(!says());
+    QCOMPARE(document().removeBody("ice"), QString());
+    QVERIFY(says());
+    document().undoStack().undo();
+    QVERIFY(!says());
+  }
+
   void thingsAreAlignedSpreadAndDropped() {
     const std::vector<std::string> ids = threeBalls();
     for (size_t k = 0; k < 3; ++k) {

@@ -302,6 +302,9 @@ class TestWindow : public QObject {
     QVERIFY(transport.durationText().contains(QStringLiteral("end")));
     transport.setPlaying(true);
     QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00"));
+    transport.setPlaying(false);
+    transport.setSnapshot(std::make_shared<Snapshot>());  // nothing was run
+    QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00  Press Space to run"));
   }
 
   /// A pinned row of another material than the panel's has its name.
@@ -349,6 +352,21 @@ class TestWindow : public QObject {
     QVERIFY(palette->isVisible());
     palette->field()->setText(query);
     QCOMPARE(palette->currentTitle(), title);
+    palette->hide();
+  }
+
+  void thePaletteSaysThatNothingIsFound() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("x<y"));
+    QCOMPARE(palette->shownCount(), 0);
+    const auto labels = palette->findChildren<QLabel*>();
+    const auto nothing =
+        std::find_if(labels.begin(), labels.end(), [](const QLabel* label) { return label->isVisible(); });
+    QVERIFY(nothing != labels.end());
+    QVERIFY2((*nothing)->text().startsWith(QStringLiteral("Nothing called “x&lt;y”.")), qPrintable((*nothing)->text()));
+    Q_EMIT(*nothing)->linkActivated(QStringLiteral("clear"));
+    QVERIFY(palette->field()->text().isEmpty() && palette->shownCount() > 0 && !(*nothing)->isVisible());
     palette->hide();
   }
 

@@ -87,7 +87,7 @@ class Outliner : public QWidget {
   OutlinerModel* m_model;
   QTreeView* m_view;
   FilterField* m_filter;
-  QLabel* m_nothing;  ///< what the search does not find
+  QLabel* m_nothing;  ///< what the search does not find, or what to do where there is no matter
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
   bool m_building = false;

@@ -194,9 +194,12 @@ void Outliner::filter() {
     return any;
   };
   const bool any = show({}, wanted.isEmpty());
-  m_nothing->setVisible(!any);
+  const Project& project = m_document.project();
+  const bool bare = project.bodies.empty() && project.emitters.empty() && wanted.isEmpty();
+  m_nothing->setVisible(!any || bare);
   m_nothing->setText(
-      QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
+      bare ? QStringLiteral("Add a body or press B to sketch")
+           : QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
 }
 
 /// To another place in its list, into a group or out of it.

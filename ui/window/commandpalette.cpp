@@ -7,6 +7,7 @@
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QStyledItemDelegate>
@@ -70,7 +71,8 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
   return order;
 }
 
-CommandPalette::CommandPalette(QWidget* parent) : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget) {
+CommandPalette::CommandPalette(QWidget* parent)
+    : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget), m_nothing(new QLabel) {
   setObjectName(QStringLiteral("psPalette"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
@@ -83,9 +85,15 @@ CommandPalette::CommandPalette(QWidget* parent) : QWidget(parent), m_field(new Q
   m_list->setAccessibleName(QStringLiteral("Found"));
   column->addWidget(m_field);
   column->addWidget(m_list);
+  m_nothing->setTextFormat(Qt::RichText);
+  m_nothing->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  m_nothing->setContentsMargins(10, 6, 10, 6);
+  m_nothing->setWordWrap(true);
+  column->addWidget(m_nothing, 1);
   m_field->installEventFilter(this);
   connect(m_field, &QLineEdit::textChanged, this, &CommandPalette::refresh);
   connect(m_list, &QListWidget::itemClicked, this, &CommandPalette::runCurrent);
+  connect(m_nothing, &QLabel::linkActivated, m_field, &QLineEdit::clear);
   hide();
 }
 
@@ -116,12 +124,12 @@ void CommandPalette::refresh() {
     item->setData(kKeys, m_entries[i].keys);
     item->setData(kIndex, static_cast<int>(i));
   }
-  if (m_list->count() > 0) {
-    m_list->setCurrentRow(0);
-  } else {
-    auto* none = new QListWidgetItem(QStringLiteral("Nothing called “%1”").arg(m_field->text()), m_list);
-    none->setFlags(Qt::NoItemFlags);
-  }
+  const bool any = m_list->count() > 0;
+  if (any) m_list->setCurrentRow(0);
+  m_list->setVisible(any);
+  m_nothing->setVisible(!any);
+  m_nothing->setText(QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>")
+                         .arg(m_field->text().trimmed().toHtmlEscaped()));
 }
 
 void CommandPalette::runCurrent() {
@@ -162,7 +170,7 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
                    : key == Qt::Key_PageUp   ? -kMostRows
                                              : 0;
   if (step == 0) return QWidget::eventFilter(watched, event);
-  m_list->setCurrentRow(std::clamp(m_list->currentRow() + step, 0, m_list->count() - 1));
+  m_list->setCurrentRow(std::clamp(m_list->currentRow() + step, 0, std::max(0, m_list->count() - 1)));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+class QLabel;
 class QLineEdit;
 class QListWidget;
 
@@ -46,6 +47,7 @@ class CommandPalette : public QWidget {
   std::vector<PaletteEntry> m_entries;
   QLineEdit* m_field;
   QListWidget* m_list;
+  QLabel* m_nothing;  ///< in the place of the list where nothing is found
   QPointer<QWidget> m_before;
 };
 
