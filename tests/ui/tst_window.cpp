@@ -343,6 +343,14 @@ class TestWindow : public QObject {
                             << "Frame all";
     QTest::newRow("by key") << "thermal time scale"
                             << "Time lapse of heat";
+    QTest::newRow("thing") << "ice block"
+                           << "Ice block";
+    QTest::newRow("row of the brush") << "steady hand"
+                                      << "Steady hand";
+    QTest::newRow("preference") << "copy it"
+                                << "Copy it";
+    QTest::newRow("property of the project") << "to try"
+                                             << "To try";
   }
   void thePaletteFindsParametersAndActions() {
     QFETCH(QString, query);
@@ -353,6 +361,33 @@ class TestWindow : public QObject {
     palette->field()->setText(query);
     QCOMPARE(palette->currentTitle(), title);
     palette->hide();
+  }
+
+  void thePaletteSelectsAThing() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("cold lid"));
+    QTest::keyClick(palette->field(), Qt::Key_Return);
+    QVERIFY(!palette->isVisible());
+    QVERIFY(m_window->selection().items() == (std::vector<SelectedItem>{{OutlineKind::Wall, "lid"}}));
+    m_window->selection().clear();
+    m_window->viewport()->show(StandardView::Scene);
+  }
+
+  /// It is found, behind what can be done.
+  void whatCannotBeDoneSaysWhy() {
+    const auto entries = m_window->paletteEntries();
+    const auto real = std::find_if(entries.begin(), entries.end(), [](const PaletteEntry& entry) {
+      return entry.title == QStringLiteral("Make it real");
+    });
+    QVERIFY(real != entries.end());
+    const bool possible = m_window->action(QStringLiteral("sketch.real"))->isEnabled();
+    QCOMPARE(real->whyNot, possible ? QString() : QStringLiteral("Nothing is held"));
+    std::vector<PaletteEntry> some(2);
+    some[0].title = QStringLiteral("Undo");
+    some[0].whyNot = QStringLiteral("Nothing to undo");
+    some[1].title = QStringLiteral("What undo does");
+    QVERIFY(paletteMatches(some, QStringLiteral("undo")) == (std::vector<size_t>{1, 0}));
   }
 
   void thePaletteSaysThatNothingIsFound() {

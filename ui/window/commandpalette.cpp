@@ -18,7 +18,7 @@
 namespace ps {
 namespace {
 
-constexpr int kWhere = Qt::UserRole + 1, kKeys = Qt::UserRole + 2, kIndex = Qt::UserRole + 3;
+constexpr int kWhere = Qt::UserRole + 1, kKeys = Qt::UserRole + 2, kIndex = Qt::UserRole + 3, kIdle = Qt::UserRole + 4;
 constexpr int kWidth = 560, kRow = 28, kMostRows = 12;
 
 class EntryDelegate : public QStyledItemDelegate {
@@ -36,12 +36,14 @@ class EntryDelegate : public QStyledItemDelegate {
     const QFont font = Theme::font(TextRole::Normal), small = Theme::font(TextRole::Small);
     const double right = keys.isEmpty() ? 0 : textWidth(keys, small) + 12;
     const double w = std::min(textWidth(title, font) + 2, row.width() * 0.6);
+    const bool idle = index.data(kIdle).toBool();
     paintText(*painter, QRectF(row.left(), row.top(), w, row.height()), Qt::AlignVCenter | Qt::AlignLeft, title, font,
-              theme[Token::Text]);
+              theme[idle ? Token::Disabled : Token::Text]);
     paintText(*painter, QRectF(row.left() + w + 10, row.top(), row.width() - w - 10 - right, row.height()),
               Qt::AlignVCenter | Qt::AlignLeft, index.data(kWhere).toString(), small,
               theme[selected ? Token::Text2 : Token::Muted]);
-    paintText(*painter, row, Qt::AlignVCenter | Qt::AlignRight, keys, small, theme[Token::Text2]);
+    paintText(*painter, row, Qt::AlignVCenter | Qt::AlignRight, keys, small,
+              theme[idle ? Token::Disabled : Token::Text2]);
     painter->restore();
   }
 };
@@ -58,10 +60,14 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
                                      [&](const QString& word) { return all.contains(word, Qt::CaseInsensitive); });
     if (!matches) continue;
     const QString joined = words.join(QLatin1Char(' '));
-    const int rank = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive) ? 0
-                     : entry.replaces                                                       ? 3
-                     : entry.title.contains(words.front(), Qt::CaseInsensitive)             ? 1
-                                                                                            : 2;
+    const bool is = entry.title.compare(joined, Qt::CaseInsensitive) == 0;
+    const bool begins = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive);
+    const int rank = !entry.whyNot.isEmpty()                                    ? 5
+                     : is                                                       ? 0
+                     : begins                                                   ? 1
+                     : entry.replaces                                           ? 4
+                     : entry.title.contains(words.front(), Qt::CaseInsensitive) ? 2
+                                                                                : 3;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -120,8 +126,11 @@ void CommandPalette::refresh() {
   m_list->clear();
   for (const size_t i : paletteMatches(m_entries, m_field->text())) {
     auto* item = new QListWidgetItem(m_entries[i].title, m_list);
-    item->setData(kWhere, m_entries[i].where);
+    const QString& whyNot = m_entries[i].whyNot;
+    item->setData(kWhere, whyNot.isEmpty() ? m_entries[i].where : whyNot);
     item->setData(kKeys, m_entries[i].keys);
+    item->setData(kIdle, !whyNot.isEmpty());
+    item->setToolTip(whyNot);
     item->setData(kIndex, static_cast<int>(i));
   }
   const bool any = m_list->count() > 0;
@@ -134,7 +143,7 @@ void CommandPalette::refresh() {
 
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = m_list->currentItem();
-  if (!item || !item->data(kIndex).isValid()) return;
+  if (!item || item->data(kIdle).toBool()) return;
   const auto run = m_entries[static_cast<size_t>(item->data(kIndex).toInt())].run;
   hide();
   if (m_before) m_before->setFocus(Qt::OtherFocusReason);

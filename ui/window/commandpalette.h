@@ -21,13 +21,16 @@ struct PaletteEntry {
   QString words;  ///< further words to find it by
   std::function<void()> run;
   bool replaces = false;  ///< puts another scene in the place of this one
+  QString whyNot{};       ///< why it cannot be run now; "": it can
 };
 
-/// Entries that match every word of `query`, best first: titles that begin with it, then titles, then other words.
-/// What replaces the scene comes last unless its title begins with the query.
+/// Entries that match every word of `query`, best first: titles that are it, titles that begin with it, then titles,
+/// then other words.
+/// What replaces the scene comes last unless its title begins with the query, and what cannot be run comes behind all.
 std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, const QString& query);
 
-/// The search field over the window: type, arrows choose, Enter runs or jumps, Esc closes.
+/// The search field over the window: type, arrows choose, Enter runs or jumps, Esc closes. What cannot be run is grey
+/// and says why.
 class CommandPalette : public QWidget {
   Q_OBJECT
  public:

@@ -4,6 +4,7 @@
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/mainwindow.h"
 
 #include <QtCore/QDir>
@@ -158,12 +159,20 @@ void ProjectProperties::done(int result) {
 
 }  // namespace
 
-void openProjectProperties(MainWindow& window) {
+void openProjectProperties(MainWindow& window, const QString& row) {
   auto* dialog = window.findChild<QDialog*>(kName);
   if (!dialog) dialog = new ProjectProperties(window);
   dialog->show();
   dialog->raise();
   dialog->activateWindow();
+  focusDialogRow(*dialog, row);
+}
+
+std::vector<DialogRow> projectRows() {
+  return {{QStringLiteral("Title"), QStringLiteral("name of the project")},
+          {QStringLiteral("Description"), QStringLiteral("what the scene shows")},
+          {QStringLiteral("To try"), QStringLiteral("what to change first")},
+          {QStringLiteral("Duration"), QStringLiteral("length of the run, end")}};
 }
 
 }  // namespace ps
