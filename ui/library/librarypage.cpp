@@ -199,6 +199,7 @@ QWidget* LibraryPage::makeRight() {
   shown->addWidget(m_about, 1);
   column->addLayout(shown);
   m_table->setRootIsDecorated(false);
+  m_table->setAllColumnsShowFocus(true);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
   column->addWidget(m_table, 1);
