@@ -18,7 +18,9 @@ const FieldTable<SceneWall>& wallFields() {
                    .required(),
                field("normal", &SceneWall::normal, Direction{},
                      "direction into the scene, of a cylinder along its axis, of a sphere any; any length but zero")
-                   .required()},
+                   .required(),
+               field("visible", &SceneWall::visible, Toggle{}, "drawn; it acts all the same"),
+               field("locked", &SceneWall::locked, Toggle{}, "protected from edits by hand")},
       .parameters = &SceneWall::parameters,
       .declarations = &wallParameters,
       .unknown = &SceneWall::unknown};
@@ -55,7 +57,9 @@ const FieldTable<Emitter>& emitterFields() {
                field("name", &Emitter::name, Text{}, "name shown to people"),
                field("material", &Emitter::material, MaterialId{}, "").required(),
                field("point", &Emitter::point, Vector{"m"}, "centre of the mouth").required(),
-               field("direction", &Emitter::direction, Direction{}, "of the jet, any length but zero").required()},
+               field("direction", &Emitter::direction, Direction{}, "of the jet, any length but zero").required(),
+               field("visible", &Emitter::visible, Toggle{}, "drawn; it acts all the same"),
+               field("locked", &Emitter::locked, Toggle{}, "protected from edits by hand")},
       .parameters = &Emitter::parameters,
       .declarations = &emitterParameters,
       .unknown = &Emitter::unknown};
@@ -67,7 +71,9 @@ const FieldTable<Sink>& sinkFields() {
       .help = "a box that takes away what enters it",
       .rows = {field("id", &Sink::id, Id{}, "").required(), field("name", &Sink::name, Text{}, "name shown to people"),
                field("minimum", &Sink::minimum, Vector{"m"}, "corner of the box").required(),
-               field("maximum", &Sink::maximum, Vector{"m"}, "the corner opposite").required()},
+               field("maximum", &Sink::maximum, Vector{"m"}, "the corner opposite").required(),
+               field("visible", &Sink::visible, Toggle{}, "drawn; it acts all the same"),
+               field("locked", &Sink::locked, Toggle{}, "protected from edits by hand")},
       .parameters = &Sink::parameters,
       .declarations = &sinkParameters,
       .unknown = &Sink::unknown};
@@ -150,7 +156,9 @@ const FieldTable<Probe>& probeFields() {
                field("region", &Probe::region, Optional{Object{region}}, ""),
                field("region_when", &Probe::regionWhen, Choice{{Probe::kAtStart, Probe::kNow}},
                      "start: sees what stood in the region then, wherever it is; now: what is in it, frame by frame"),
-               field("wave", &Probe::wave, Optional{Object{wave}}, "")},
+               field("wave", &Probe::wave, Optional{Object{wave}}, ""),
+               field("visible", &Probe::visible, Toggle{}, "its region is drawn while it is selected"),
+               field("locked", &Probe::locked, Toggle{}, "protected from edits by hand")},
       .unknown = &Probe::unknown};
   return table;
 }

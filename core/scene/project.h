@@ -176,6 +176,7 @@ struct Emitter {
   Vector3 point{0, 0.5, 0};     ///< m, centre of the mouth
   Vector3 direction{0, -1, 0};  ///< of the jet; any length but zero
   ParameterSet parameters;      ///< see emitterParameters(): speed, diameter, temperature, start, stop, most
+  bool visible = true, locked = false;
   Unknown unknown;
 };
 
@@ -184,6 +185,7 @@ struct Sink {
   std::string id, name;
   Vector3 minimum{-0.1, -0.1, -0.1}, maximum{0.1, 0.1, 0.1};  ///< m
   ParameterSet parameters;                                    ///< see sinkParameters(): open
+  bool visible = true, locked = false;
   Unknown unknown;
 };
 
@@ -193,6 +195,7 @@ struct SceneWall {
   Vector3 point{0, 0, 0};   ///< m, on the wall; on the axis of a cylinder, the centre of a sphere
   Vector3 normal{0, 1, 0};  ///< into the scene, along a cylinder; any length but zero; idle for a sphere
   ParameterSet parameters;  ///< see wallParameters(): shape, radius, heat, temperature, friction, ...
+  bool visible = true, locked = false;
   Unknown unknown;
 };
 /// Whether its parameter `temperature` acts: its surface or the fluid behind it has one.
@@ -236,6 +239,7 @@ struct Probe {
   std::optional<Region> region;       ///< only what stands in it
   std::string regionWhen = kAtStart;  ///< "start": what stood in it then, wherever it is; "now": what is in it
   std::optional<Wave> wave;           ///< measures the amplitude of this wave in the quantity, not the quantity itself
+  bool visible = true, locked = false;
   Unknown unknown{};
   bool operator==(const Probe&) const = default;
 };

@@ -6,9 +6,11 @@
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
+#include "ui/panels/pluginpage.h"
 #include "ui/render/framing.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
@@ -16,7 +18,9 @@
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/shortcutswindow.h"
+#include "ui/window/windowlayout.h"
 
+#include <QtCore/QScopeGuard>
 #include <QtCore/QTimer>
 #include <QtGui/QAccessible>
 #include <QtGui/QAction>
@@ -39,6 +43,16 @@ using namespace ps;
 namespace {
 
 const Address kSpacing{Owner::Solver, "", "particle_spacing"};
+
+/// Pixels of two pictures that differ; all of them where their sizes do.
+int differing(const QImage& a, const QImage& b) {
+  if (a.size() != b.size()) return a.width() * a.height();
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -200,6 +214,42 @@ class TestInteraction : public SampleWindowTest {
         at = at->nextInFocusChain();
       } while (!(at->focusPolicy() & Qt::TabFocus) || !at->isVisible());
       QCOMPARE(at, button);
+    }
+  }
+
+  void everyStopHasARing_data() {
+    QTest::addColumn<QString>("page");
+    for (const char* page : {"Outliner", "Materials", "Body", "Material", "Scene", "Solver", "Brush", "Graphs",
+                             "Messages", "Transport", "Plugins"})
+      QTest::newRow(page) << QString::fromLatin1(page);
+  }
+  /// Tab goes on from each stop of a page and of its dock's header, Shift+Tab back; what has the focus is seen to.
+  void everyStopHasARing() {
+    QFETCH(QString, page);
+    constexpr int kRing = 30;  // pixels at least; a caret is less
+    QApplication::setActiveWindow(m_window.get());
+    m_window->selection().selectBody("ice");
+    session().log().add(MessageLevel::Info, QStringLiteral("Test"), QStringLiteral("Something to read"));
+    const auto after = qScopeGuard([this] {
+      Q_EMIT m_window->pluginPage()->closeRequested();
+      view()->setFocus();
+    });
+    const QWidget* area = areaOf(page);
+    QVERIFY(area && area->isVisible());
+    const std::vector<QWidget*> stops = stopsIn(*area);
+    QVERIFY(!stops.empty());
+    for (QWidget* stop : stops) {
+      const QByteArray name = stop->metaObject()->className() + QByteArray(" ") + stop->accessibleName().toUtf8();
+      stop->setFocus(Qt::TabFocusReason);
+      QTRY_VERIFY2(stop->hasFocus(), name.constData());
+      const QImage focused = stop->grab().toImage();
+      QTest::keyClick(stop, Qt::Key_Tab);
+      QWidget* next = QApplication::focusWidget();
+      QVERIFY2(next && next != stop, name.constData());
+      QVERIFY2(differing(focused, stop->grab().toImage()) >= kRing, name.constData());
+      if (!area->isAncestorOf(next)) continue;
+      QTest::keyClick(next, Qt::Key_Backtab, Qt::ShiftModifier);
+      QVERIFY2(stop->hasFocus(), name.constData());
     }
   }
 
@@ -471,8 +521,13 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(document().body("ice")->visible && !document().body("ice")->locked);
     QCOMPARE(document().undoStack().count(), 4);
     m_window->selection().select(OutlineKind::Wall, "floor");
-    m_window->action(QStringLiteral("edit.visible"))->trigger();  // a wall has no eye
-    QCOMPARE(document().undoStack().count(), 4);
+    m_window->action(QStringLiteral("edit.visible"))->trigger();
+    m_window->action(QStringLiteral("edit.locked"))->trigger();
+    QVERIFY(!document().wall("floor")->visible && document().wall("floor")->locked);
+    QCOMPARE(document().undoStack().count(), 6);
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QVERIFY(document().wall("floor")->visible && !document().wall("floor")->locked);
   }
 
   void toolAndMaterialAreTold() {
@@ -560,6 +615,29 @@ class TestInteraction : public SampleWindowTest {
   }
 
  private:
+  /// The dock with that page in front, or the page of plugins.
+  const QWidget* areaOf(const QString& page) {
+    if (page == QLatin1String("Plugins")) {
+      m_window->action(QStringLiteral("help.plugins"))->trigger();
+      return m_window->pluginPage();
+    }
+    if (page == QLatin1String("Brush")) m_window->tools().activate("brush");
+    m_window->layoutOfDocks().showPage(page);
+    for (const Dock* dock : m_window->findChildren<Dock*>()) {
+      if (dock->currentPage() == page) return dock;
+    }
+    return nullptr;
+  }
+  /// What Tab stops at in an area, in its order.
+  std::vector<QWidget*> stopsIn(const QWidget& area) {
+    std::vector<QWidget*> stops;
+    for (QWidget* at = m_window->nextInFocusChain(); at != m_window.get(); at = at->nextInFocusChain()) {
+      if (area.isAncestorOf(at) && (at->focusPolicy() & Qt::TabFocus) && at->isVisible() && at->isEnabled() &&
+          !at->focusProxy())
+        stops.push_back(at);
+    }
+    return stops;
+  }
   QMenu* viewMenu() {
     for (const QAction* menu : m_window->findChild<QMenuBar*>()->actions()) {
       if (menu->text() == QStringLiteral("View")) return menu->menu();

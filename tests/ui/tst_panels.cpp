@@ -97,6 +97,11 @@ void TestPanels::panelGroupsAndFilters() {
   for (const QLabel* label : panel.findChildren<QLabel*>())
     said |= label->isVisible() && label->text().contains(QStringLiteral("xyzzy"));
   QVERIFY(said);
+  for (QLabel* label : panel.findChildren<QLabel*>()) {
+    if (label->text().contains(QStringLiteral("xyzzy"))) Q_EMIT label->linkActivated(QStringLiteral("clear"));
+  }
+  QCOMPARE(shown(), QStringLiteral("youngs_modulus substeps gravity_on kernel"));
+  panel.setFilter(QStringLiteral("xyzzy"));
   QVERIFY(panel.reveal(QStringLiteral("conductivity")));
   QVERIFY(panel.isRowShown(panel.row(QStringLiteral("conductivity"))));
   QTRY_VERIFY(panel.row(QStringLiteral("conductivity"))->hasFocus());

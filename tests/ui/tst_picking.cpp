@@ -307,6 +307,37 @@ class TestPicking : public QObject {
     QVERIFY(handleAt(ports, pointer));
   }
 
+  /// What is hidden or locked is looked through, and hands leave what is locked where it is.
+  void whatIsHiddenOrLockedIsNotPicked() {
+    Project project = scene();
+    const Vector3 onFloor(0.3, 0, 0.2);
+    SceneWall& floor = project.environment.walls[0];
+    floor.locked = true;
+    QVERIFY(!picked(project, {}, onFloor));
+    floor.locked = floor.visible = false;
+    QVERIFY(!picked(project, {}, onFloor));
+    floor.visible = true;
+    QVERIFY(picked(project, {}, onFloor) == kFloor);
+    std::vector<Emitter> taps(1);
+    taps[0].id = "tap", taps[0].point = Vector3(0, 0.3, 0.2);
+    Pointer pointer;
+    pointer.ray = {{0, 0.3, 1}, {0, 0, -1}};
+    const PortSet ports{&taps, nullptr, {}};
+    QVERIFY(handleAt(ports, pointer));
+    taps[0].locked = true;
+    QVERIFY(!handleAt(ports, pointer));
+    taps[0].locked = taps[0].visible = false;
+    QVERIFY(!handleAt(ports, pointer));
+    const Address wall{Owner::Wall, "floor", ""};
+    m_document->setLocked({wall, {Owner::Body, "rope", ""}, {Owner::Sink, "gone", ""}}, true);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("locking 2 things"));
+    const Placeable held = placeable(*m_document, {kFloor, kPin}, Gizmo::Kind::Move, {});
+    QVERIFY(held.items.empty() && held.note.contains(QStringLiteral("locked")));
+    m_document->undoStack().undo();
+    QVERIFY(!m_document->marks(wall)->locked);
+    QCOMPARE(placeable(*m_document, {kFloor, kPin}, Gizmo::Kind::Move, {}).items.size(), size_t{2});
+  }
+
   /// By the tool: a click on a floor selects it, on nothing nothing; what is selected is outlined.
   void aClickSelects() {
     Toolbox tools(*m_document, *m_selection);

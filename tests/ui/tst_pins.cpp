@@ -4,12 +4,14 @@
 #include "core/scene/pose.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/pinaddress.h"
+#include "ui/panels/outliner.h"
 #include "ui/session/pinexcerpt.h"
 #include "ui/session/selection.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QClipboard>
 #include <QtGui/QUndoStack>
+#include <QtWidgets/QTreeView>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +80,28 @@ class TestPins : public SampleWindowTest {
     QTest::keyClick(view(), Qt::Key_Delete);
     QCOMPARE(pins().size(), size_t{3});
     QVERIFY(m_window->notice()->text().contains(QStringLiteral("locked")));
+  }
+
+  /// Each has a row below its body's, by which it is selected and deleted.
+  void pinsHaveRows() {
+    threePins();
+    QTreeView* tree = m_window->outliner()->view();
+    const auto rowOf = [&](const char* id) {
+      const QModelIndexList found = tree->model()->match(tree->model()->index(0, 0), outline::kId, QLatin1String(id), 1,
+                                                         Qt::MatchExactly | Qt::MatchRecursive);
+      return found.isEmpty() ? QModelIndex() : found.front();
+    };
+    const QModelIndex second = rowOf("ice/1");
+    QVERIFY(second.isValid());
+    QCOMPARE(second.data().toString(), QStringLiteral("Pin 2"));
+    QCOMPARE(second.parent().data(outline::kId).toString(), QLatin1String(kIce));
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualRect(second).center());
+    QCOMPARE(m_window->selection().items(), (std::vector<SelectedItem>{{OutlineKind::Pin, "ice/1"}}));
+    QTest::keyClick(tree, Qt::Key_Delete);
+    QCOMPARE(pins().size(), size_t{2});
+    QVERIFY(rowOf("ice/1").isValid() && !rowOf("ice/2").isValid());
+    document().undoStack().undo();
+    QVERIFY(rowOf("ice/2").isValid());
   }
 
   /// A body that goes takes its pins along; both come back by one step.

@@ -237,7 +237,7 @@ class TestPorts : public QObject {
     for (const QAction* action : menu->actions()) texts << action->text();
     menu->close();
     QVERIFY(texts.contains(QStringLiteral("Rename")) && texts.contains(QStringLiteral("Delete")));
-    QVERIFY(!texts.contains(QStringLiteral("Lock body")));
+    QVERIFY(texts.contains(QStringLiteral("Lock or unlock")));
   }
 
   void aClickElsewhereSelectsNothing() {

@@ -18,6 +18,8 @@
 #include "ui/window/filenames.h"
 #include "ui/window/help.h"
 #include "ui/window/libraryactions.h"
+#include "ui/window/preferenceswindow.h"
+#include "ui/window/projectwindow.h"
 #include "ui/window/shortcutswindow.h"
 
 #include <QtCore/QDir>
@@ -458,6 +460,22 @@ class TestPreferences : public SampleWindowTest {
     about->findChild<QLineEdit*>()->setText(QStringLiteral("Puddle"));
     other.reset();
     QApplication::setActiveWindow(m_window.get());
+  }
+
+  /// What Ctrl+K names is there, and gets the focus.
+  void rowsAreFoundByTheirNames() {
+    for (const DialogRow& row : preferenceRows()) {
+      openPreferences(*m_window, row.label);
+      QVERIFY2(dialog()->focusWidget() && dialog()->focusWidget()->accessibleName() == row.label,
+               qPrintable(row.label));
+    }
+    for (const DialogRow& row : projectRows()) {
+      openProjectProperties(*m_window, row.label);
+      const auto* about = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+      QVERIFY2(about && about->focusWidget() && about->focusWidget()->accessibleName() == row.label,
+               qPrintable(row.label));
+    }
+    delete m_window->findChild<QDialog*>(QStringLiteral("psProject"));
   }
 
   /// From field to field by Tab, to the next choice by an arrow.

@@ -12,12 +12,14 @@
 #include "ui/rows/filterfield.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
 
 #include <QtCore/QMimeData>
 #include <QtGui/QAction>
 #include <QtGui/QClipboard>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QTreeView>
 
 #include <cmath>
@@ -78,6 +80,64 @@ class TestThings : public SampleWindowTest {
     document().undoStack().undo();
     QVERIFY(std::abs(sizeOf(ids[0]) - 0.06) < 1e-12 && std::abs(sizeOf(ids[1]) - other) < 1e-12);
     QVERIFY(row(key)->has(RowState::Mixed));
+  }
+
+  /// Walls and probes likewise, on the first page; a wall's row on the page of the scene is its own alone.
+  void rowsOfManyWallsEditAll() {
+    m_window->selection().selectAll({{OutlineKind::Wall, "floor"}, {OutlineKind::Wall, "left"}});
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Body"));
+    const QString key = QStringLiteral("wall/left/friction");
+    const auto friction = [&](const char* id) {
+      return std::get<double>(document().value({Owner::Wall, id, "friction"}));
+    };
+    QVERIFY(row(key) && row(key)->has(RowState::Mixed));
+    QCOMPARE(row(key)->valueText(), QStringLiteral("—"));
+    picture(QStringLiteral("things-walls.png"));
+    const int steps = document().undoStack().index();
+    QVERIFY(row(key)->enter(QStringLiteral("*2")));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("Friction of 2 walls"));
+    QVERIFY(std::abs(friction("floor") - 0.6) < 1e-12 && std::abs(friction("left") - 0.1) < 1e-12);
+    QVERIFY(row(key)->enter(QStringLiteral("0.2")));
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    QVERIFY(friction("floor") == 0.2 && friction("left") == 0.2 && !row(key)->has(RowState::Mixed));
+    QVERIFY(m_window->inspector().scenePanel()->row(key)->enter(QStringLiteral("0.4")));
+    QVERIFY(friction("floor") == 0.2 && friction("left") == 0.4 && row(key)->has(RowState::Mixed));
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+    QVERIFY(friction("floor") == 0.3 && friction("left") == 0.05);
+    m_window->selection().select(OutlineKind::Wall, "left");
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Scene"));
+    QVERIFY(!row(key));
+  }
+
+  void rowsOfManyProbesEditAll() {
+    m_window->selection().selectAll({{OutlineKind::Probe, "coldest"}, {OutlineKind::Probe, "mean"}});
+    QVERIFY(row(QStringLiteral("probe/mean/quantity"))->has(RowState::Mixed));
+    const QString key = QStringLiteral("probe/mean/in_box"), side = QStringLiteral("probe/mean/box_min_x");
+    const auto region = [&](const char* id) { return document().probe(id)->region; };
+    QVERIFY(!row(key)->has(RowState::Mixed));
+    const int steps = document().undoStack().index();
+    for (const Edit edit : {Edit::Begin, Edit::Live, Edit::End})
+      Q_EMIT m_window->inspector().bodyPanel()->edited(key, Value{true}, edit);
+    QVERIFY(region("coldest") && region("mean"));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY(row(side)->enter(QStringLiteral("-0.1 m")));
+    QCOMPARE(region("coldest")->minimum.x(), -0.1);
+    QCOMPARE(region("mean")->minimum.x(), -0.1);
+    QVERIFY(!row(side)->has(RowState::Mixed));
+    // One that may not have a value keeps all from it.
+    Probe other = *document().probe("coldest");
+    other.region->minimum.x() = 0.1;
+    document().editProbe(other, QStringLiteral("edit"));
+    QVERIFY(row(side)->has(RowState::Mixed));
+    const double most = region("mean")->maximum.x();
+    const Address first{Owner::Probe, "mean", "box_max_x"}, second{Owner::Probe, "coldest", "box_max_x"};
+    const QString problem = document().setParameters({{first, 0.05}, {second, 0.05}}, QStringLiteral("edit"));
+    QVERIFY2(problem.contains(QStringLiteral("must be")), qPrintable(problem));
+    QCOMPARE(region("mean")->maximum.x(), most);
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+    QVERIFY(!region("coldest") && !region("mean"));
+    QCOMPARE(document().undoStack().index(), steps);
   }
 
   /// A row that is found by its name is of one body: that one is selected alone, and the row edits no other.
@@ -288,6 +348,40 @@ class TestThings : public SampleWindowTest {
     QCOMPARE(project().environment.walls.size(), walls);
   }
 
+  /// As a body is, also with other things: a step each, kept by the file; what is locked stays, and its copy is free.
+  void wallsAreRenamedHiddenAndLocked() {
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    tree()->setFocus();
+    trigger("edit.rename");
+    auto* field = tree()->findChild<QLineEdit*>();
+    QVERIFY(field);
+    field->setText(QStringLiteral("Stove"));
+    QTest::keyClick(field, Qt::Key_Return);
+    QTRY_COMPARE(document().wall("floor")->name, std::string("Stove"));
+    const std::string probe = project().probes[0].id;
+    m_window->selection().selectAll({{OutlineKind::Probe, probe}, {OutlineKind::Wall, "floor"}});
+    const int steps = document().undoStack().index();
+    trigger("edit.visible");
+    trigger("edit.locked");
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("locking 2 things"));
+    const auto marked = [](const auto& thing) { return !thing.visible && thing.locked; };
+    QVERIFY(marked(*document().wall("floor")) && marked(*document().probe(probe)));
+    const QModelIndex row = rowOf(OutlineKind::Wall, "floor");
+    QVERIFY(!row.data(outline::kVisible).toBool() && row.data(outline::kLocked).toBool());
+    QVERIFY(row.data(Qt::ToolTipRole).toString().contains(QStringLiteral("acts all the same")));
+    const LoadedProject again = parseProject(writeProject(project()), "again", *session().plugins());
+    QVERIFY(marked(again.project.environment.walls[0]) && marked(again.project.probes[0]));
+    trigger("edit.delete");
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    trigger("edit.copy");
+    trigger("edit.paste");
+    QVERIFY(!project().environment.walls.back().locked && !project().probes.back().locked);
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+    QVERIFY(document().wall("floor")->visible && !document().wall("floor")->locked);
+    QVERIFY(document().probe(probe)->visible && !document().probe(probe)->locked);
+  }
+
   void groupsAreMadeRenamedHiddenAndSaved() {
     const std::vector<std::string> ids = threeBalls();
     selectBodies({ids[0], ids[1]});
@@ -354,6 +448,20 @@ class TestThings : public SampleWindowTest {
     picture(QStringLiteral("things-search.png"));
     search()->clear();
     QVERIFY(!hidden(OutlineKind::Body, "ice"));
+  }
+
+  void withoutMatterTheOutlinerSaysWhatToDo() {
+    const auto says = [&] {
+      const auto labels = m_window->findChild<Outliner*>()->findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+        return label->isVisible() && label->text() == QStringLiteral("Add a body or press B to sketch");
+      });
+    };
+    QVERIFY(!says());
+    QCOMPARE(document().removeBody("ice"), QString());
+    QVERIFY(says());
+    document().undoStack().undo();
+    QVERIFY(!says());
   }
 
   void thingsAreAlignedSpreadAndDropped() {

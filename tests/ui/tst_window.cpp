@@ -302,6 +302,9 @@ class TestWindow : public QObject {
     QVERIFY(transport.durationText().contains(QStringLiteral("end")));
     transport.setPlaying(true);
     QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00"));
+    transport.setPlaying(false);
+    transport.setSnapshot(std::make_shared<Snapshot>());  // nothing was run
+    QCOMPARE(transport.durationText(), QStringLiteral("/ 01:00  Press Space to run"));
   }
 
   /// A pinned row of another material than the panel's has its name.
@@ -340,6 +343,14 @@ class TestWindow : public QObject {
                             << "Frame all";
     QTest::newRow("by key") << "thermal time scale"
                             << "Time lapse of heat";
+    QTest::newRow("thing") << "ice block"
+                           << "Ice block";
+    QTest::newRow("row of the brush") << "steady hand"
+                                      << "Steady hand";
+    QTest::newRow("preference") << "copy it"
+                                << "Copy it";
+    QTest::newRow("property of the project") << "to try"
+                                             << "To try";
   }
   void thePaletteFindsParametersAndActions() {
     QFETCH(QString, query);
@@ -349,6 +360,48 @@ class TestWindow : public QObject {
     QVERIFY(palette->isVisible());
     palette->field()->setText(query);
     QCOMPARE(palette->currentTitle(), title);
+    palette->hide();
+  }
+
+  void thePaletteSelectsAThing() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("cold lid"));
+    QTest::keyClick(palette->field(), Qt::Key_Return);
+    QVERIFY(!palette->isVisible());
+    QVERIFY(m_window->selection().items() == (std::vector<SelectedItem>{{OutlineKind::Wall, "lid"}}));
+    m_window->selection().clear();
+    m_window->viewport()->show(StandardView::Scene);
+  }
+
+  /// It is found, behind what can be done.
+  void whatCannotBeDoneSaysWhy() {
+    const auto entries = m_window->paletteEntries();
+    const auto real = std::find_if(entries.begin(), entries.end(), [](const PaletteEntry& entry) {
+      return entry.title == QStringLiteral("Make it real");
+    });
+    QVERIFY(real != entries.end());
+    const bool possible = m_window->action(QStringLiteral("sketch.real"))->isEnabled();
+    QCOMPARE(real->whyNot, possible ? QString() : QStringLiteral("Nothing is held"));
+    std::vector<PaletteEntry> some(2);
+    some[0].title = QStringLiteral("Undo");
+    some[0].whyNot = QStringLiteral("Nothing to undo");
+    some[1].title = QStringLiteral("What undo does");
+    QVERIFY(paletteMatches(some, QStringLiteral("undo")) == (std::vector<size_t>{1, 0}));
+  }
+
+  void thePaletteSaysThatNothingIsFound() {
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    CommandPalette* palette = m_window->palette();
+    palette->field()->setText(QStringLiteral("x<y"));
+    QCOMPARE(palette->shownCount(), 0);
+    const auto labels = palette->findChildren<QLabel*>();
+    const auto nothing =
+        std::find_if(labels.begin(), labels.end(), [](const QLabel* label) { return label->isVisible(); });
+    QVERIFY(nothing != labels.end());
+    QVERIFY2((*nothing)->text().startsWith(QStringLiteral("Nothing called “x&lt;y”.")), qPrintable((*nothing)->text()));
+    Q_EMIT(*nothing)->linkActivated(QStringLiteral("clear"));
+    QVERIFY(palette->field()->text().isEmpty() && palette->shownCount() > 0 && !(*nothing)->isVisible());
     palette->hide();
   }
 

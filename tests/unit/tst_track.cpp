@@ -147,7 +147,7 @@ void TestTrack::whatHasGoneIsNotSaved() {
   Project project;
   project.tracks = {{"wall/floor/friction", {{0, 1}}, {}}, {"scene/gravity", {{0, 1}}, {}}, {"nonsense", {{0, 1}}, {}}};
   QCOMPARE(ownedTracks(project).size(), size_t{1});
-  project.environment.walls.push_back({"floor", "", {}, {0, 1, 0}, {}, {}});
+  project.environment.walls.push_back({"floor", "", {}, {0, 1, 0}, {}, true, false, {}});
   QCOMPARE(ownedTracks(project).size(), size_t{2});
 }
 

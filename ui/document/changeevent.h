@@ -35,14 +35,14 @@ struct BodyChanged {
   std::vector<ParameterChanged> composition{};
   bool pins = false;  ///< others of its particles are pinned
 };
-/// An emitter or a sink came, went or was renamed; `moved`: nothing but its place has changed. An emitter goes and
-/// comes back together with what it has poured, which `matter` names.
+/// An emitter or a sink came, went, was renamed, hidden or locked; `moved`: nothing but its place has changed. An
+/// emitter goes and comes back together with what it has poured, which `matter` names.
 struct PortChanged {
   bool moved = false;
   std::string id{};
   MatterRef matter{};
 };
-/// Walls came or went; `moved`: nothing but their places has changed.
+/// Walls came, went, were renamed, hidden or locked; `moved`: nothing but their places has changed.
 struct WallsChanged {
   bool moved = false;
 };

@@ -136,6 +136,13 @@ WallsCommand::WallsCommand(Document& document, std::vector<SceneWall> before, st
 void WallsCommand::undo() { m_document.applyWalls(m_before); }
 void WallsCommand::redo() { m_document.applyWalls(m_after); }
 
+MarksCommand::MarksCommand(Document& document, std::vector<ThingMarks> before, std::vector<ThingMarks> after,
+                           const QString& text)
+    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+
+void MarksCommand::undo() { m_document.applyMarks(m_before); }
+void MarksCommand::redo() { m_document.applyMarks(m_after); }
+
 MaterialsCommand::MaterialsCommand(Document& document, std::vector<SceneMaterial> before,
                                    std::vector<SceneMaterial> after, const QString& text)
     : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}

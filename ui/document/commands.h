@@ -41,7 +41,7 @@ class ParameterCommand : public QUndoCommand {
   int m_gesture;
 };
 
-/// Bodies replaced as values: names, visibility, locks, structure. With `matter`: added or removed with their
+/// Bodies replaced as values: names, structure. With `matter`: added or removed with their
 /// particles.
 class BodiesCommand : public QUndoCommand {
  public:
@@ -97,6 +97,18 @@ class WallsCommand : public QUndoCommand {
  private:
   Document& m_document;
   std::vector<SceneWall> m_before, m_after;
+};
+
+/// Things that are shown or hidden, locked or free.
+class MarksCommand : public QUndoCommand {
+ public:
+  MarksCommand(Document& document, std::vector<ThingMarks> before, std::vector<ThingMarks> after, const QString& text);
+  void undo() override;
+  void redo() override;
+
+ private:
+  Document& m_document;
+  std::vector<ThingMarks> m_before, m_after;
 };
 
 /// Materials that come or go, or hold on to others: the list before and after.

@@ -140,6 +140,8 @@ QString Document::setParameter(const Address& address, const Value& value) {
 
 /// Judged together: of two that must keep an order, the first may pass where the other was.
 QString Document::setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text) {
+  if (std::any_of(values.begin(), values.end(), [](const auto& one) { return one.first.owner == Owner::Probe; }))
+    return setProbeParameters(values, text);
   Project together = m_project;
   for (const auto& [address, value] : values) {
     ParameterSet* set = findSet(together, address);
@@ -205,31 +207,6 @@ void Document::renameBody(const std::string& id, const QString& name) {
   const std::string wanted = name.trimmed().toStdString();
   if (!old || wanted.empty() || wanted == old->name) return;
   editBody(id, QStringLiteral("rename of %1").arg(nameOf(*old)), [&](Body& b) { b.name = wanted; });
-}
-
-void Document::editBodies(const std::vector<std::string>& ids, const QString& text,
-                          const std::function<bool(Body&)>& change) {
-  std::vector<SceneEdit> edits;
-  for (const std::string& id : ids) {
-    const Body* before = body(id);
-    if (!before) continue;
-    BodyEdit edit{id, *before, *before, 0};
-    if (change(*edit.after)) edits.emplace_back(std::move(edit));
-  }
-  if (edits.empty()) return;
-  const QString what =
-      edits.size() == 1 ? nameOf(*body(bodyOf(edits[0]))) : QStringLiteral("%1 bodies").arg(edits.size());
-  m_undo.push(new BodiesCommand(*this, std::move(edits), text.arg(what)));
-}
-
-void Document::setBodiesVisible(const std::vector<std::string>& ids, bool visible) {
-  editBodies(ids, visible ? QStringLiteral("showing %1") : QStringLiteral("hiding %1"),
-             [&](Body& b) { return std::exchange(b.visible, visible) != visible; });
-}
-
-void Document::setBodiesLocked(const std::vector<std::string>& ids, bool locked) {
-  editBodies(ids, locked ? QStringLiteral("locking %1") : QStringLiteral("unlocking %1"),
-             [&](Body& b) { return std::exchange(b.locked, locked) != locked; });
 }
 
 std::string Document::freeBodyId(const std::string& stem) {

@@ -71,8 +71,8 @@ class Document : public QObject {
   void endGesture();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
-  /// Several parameters as one undo step, judged together; within a gesture those of the same addresses are one.
-  /// Returns "" or why one is refused; nothing is then set.
+  /// Several parameters as one undo step, judged together (of probes those alone); within a gesture those of the same
+  /// addresses are one. Returns "" or why one is refused; nothing is then set.
   QString setParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
   /// The engine has refused a value and goes on with another (see storedValue()): so does the document, as if it had
   /// never been set. Nothing happens when it has another value by now.
@@ -81,8 +81,6 @@ class Document : public QObject {
   // Bodies
   const Body* body(const std::string& id) const;
   void renameBody(const std::string& id, const QString& name);
-  void setBodiesVisible(const std::vector<std::string>& ids, bool visible);
-  void setBodiesLocked(const std::vector<std::string>& ids, bool locked);
   /// An id that no body and no emitter has had since the project was opened: "sketch-2". Matter of those that are gone
   /// may live on in the scene, or come back by undo.
   std::string freeBodyId(const std::string& stem);
@@ -125,8 +123,14 @@ class Document : public QObject {
   /// already are left out. Returns "" or why none came.
   QString addWalls(const std::vector<std::string>& sides);
   void removeWall(const std::string& id);
+  void renameWall(const std::string& id, const QString& name);
 
   // Things of several kinds
+  std::optional<ThingMarks> marks(const Address& thing) const;  ///< whatever its key; nothing: it is gone
+  void setVisible(const std::vector<Address>& things, bool visible);
+  void setLocked(const std::vector<Address>& things, bool locked);
+  void setBodiesVisible(const std::vector<std::string>& ids, bool visible);
+  void setBodiesLocked(const std::vector<std::string>& ids, bool locked);
   /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their tracks, groups
   /// and materials, but for materials that the scene has already; what they refer to among themselves follows their new
   /// ids. A copy of some of a group's members joins that group, one of all of them is a group more. Returns them as
@@ -214,6 +218,7 @@ class Document : public QObject {
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyPlacement(const Placement& to);
   void applyWalls(const std::vector<SceneWall>& walls);
+  void applyMarks(const std::vector<ThingMarks>& marks);
   void applyMaterials(const std::vector<SceneMaterial>& materials);
   void applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live);
   void applyState(const std::shared_ptr<const ProjectState>& state);
@@ -232,6 +237,9 @@ class Document : public QObject {
  private:
   void notify(const ChangeEvent& event);
   QString setProbeParameter(const Address& address, const Value& value);
+  QString setProbeParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text);
+  /// The probe with another value there; nothing where it is the same, or where `problem` says why it is refused.
+  std::optional<Probe> probeWith(const Address& address, const Value& value, QString& problem) const;
   void pushProbe(ProbeEdit edit, const QString& title);
   void setGraphs(std::vector<Graph> graphs, const QString& title);
   void setMarkers(std::vector<Marker> markers, const QString& title);
@@ -239,8 +247,9 @@ class Document : public QObject {
   std::vector<ParameterChanged> compositionOf(const SceneEdit& edit) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
-  /// Those that `change` says it has changed, as one step.
-  void editBodies(const std::vector<std::string>& ids, const QString& text, const std::function<bool(Body&)>& change);
+  /// Those that `change` has changed, as one step.
+  void setMarks(const std::vector<Address>& things, const QString& title,
+                const std::function<void(ThingMarks&)>& change);
   template <class Item>
   void pushPort(std::optional<Item> before, std::optional<Item> after, size_t index, const QString& title);
 

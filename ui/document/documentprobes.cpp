@@ -62,22 +62,44 @@ void Document::removeProbe(const std::string& id) {
   m_undo.endMacro();
 }
 
-QString Document::setProbeParameter(const Address& address, const Value& value) {
+std::optional<Probe> Document::probeWith(const Address& address, const Value& value, QString& problem) const {
   const Probe* old = probe(address.id);
   const api::ParameterDeclaration* declared = declaration(address);
-  if (!old || !declared)
-    return QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
-  if (const std::string problem = problemWith(m_project, m_plugins, address, value); !problem.empty())
-    return QString::fromStdString(problem);
+  if (!old || !declared) {
+    problem = QStringLiteral("%1 is no longer part of the scene.").arg(QString::fromStdString(address.text()));
+    return std::nullopt;
+  }
+  problem = QString::fromStdString(problemWith(m_project, m_plugins, address, value));
   Probe after = *old;
-  if (!setProbeValue(after, address.key, conformed(value, *declared), m_project.environment)) return {};
+  if (!problem.isEmpty() || !setProbeValue(after, address.key, conformed(value, *declared), m_project.environment))
+    return std::nullopt;
   followChoice(after, address.key, m_project);
   const auto problems = probeProblems(after, m_plugins ? ParticleFields(*m_plugins) : ParticleFields());
-  if (!problems.empty()) {
-    const QString what = QString::fromStdString(problems.front().second);
-    return what.left(1).toUpper() + what.mid(1) + QLatin1Char('.');
+  if (problems.empty()) return after;
+  const QString what = QString::fromStdString(problems.front().second);
+  problem = what.left(1).toUpper() + what.mid(1) + QLatin1Char('.');
+  return std::nullopt;
+}
+
+QString Document::setProbeParameter(const Address& address, const Value& value) {
+  QString problem;
+  std::optional<Probe> after = probeWith(address, value, problem);
+  if (!after) return problem;
+  const QString title =
+      QStringLiteral("%1 of %2").arg(QString::fromUtf8(declaration(address)->label), nameOf(*probe(address.id)));
+  editProbe(std::move(*after), title);
+  return {};
+}
+
+QString Document::setProbeParameters(const std::vector<std::pair<Address, Value>>& values, const QString& text) {
+  Placement all;
+  for (const auto& [address, value] : values) {
+    QString problem;
+    std::optional<Probe> after = probeWith(address, value, problem);
+    if (!problem.isEmpty()) return problem;
+    if (after) all.probes.push_back(std::move(*after));
   }
-  editProbe(std::move(after), QStringLiteral("%1 of %2").arg(QString::fromUtf8(declared->label), nameOf(*old)));
+  place(std::move(all), text);
   return {};
 }
 

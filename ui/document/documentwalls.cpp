@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walls of a document: they come where the scene ends, and go.
+// Walls of a document: they come where the scene ends, are renamed, and go.
 #include "core/scene/scenewall.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
@@ -114,6 +114,16 @@ void Document::removeWall(const std::string& id) {
   walls.erase(walls.begin() + (old - m_project.environment.walls.data()));
   m_undo.push(new WallsCommand(*this, m_project.environment.walls, std::move(walls),
                                QStringLiteral("deletion of %1").arg(nameOf(*old))));
+}
+
+void Document::renameWall(const std::string& id, const QString& name) {
+  const SceneWall* old = wall(id);
+  const std::string wanted = name.trimmed().toStdString();
+  if (!old || wanted.empty() || wanted == old->name) return;
+  std::vector<SceneWall> walls = m_project.environment.walls;
+  walls[static_cast<size_t>(old - m_project.environment.walls.data())].name = wanted;
+  m_undo.push(new WallsCommand(*this, m_project.environment.walls, std::move(walls),
+                               QStringLiteral("rename of %1").arg(nameOf(*old))));
 }
 
 void Document::applyWalls(const std::vector<SceneWall>& walls) {

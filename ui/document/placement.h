@@ -28,6 +28,14 @@ struct Placement {
   }
 };
 
+/// How a view treats a thing of the scene, which acts all the same.
+struct ThingMarks {
+  Address thing;        ///< a body, emitter, sink, wall or probe; without a key
+  bool visible = true;  ///< drawn
+  bool locked = false;  ///< hands neither pick, move nor delete it
+  bool operator==(const ThingMarks&) const = default;
+};
+
 /// How the things of a scene stand in lists, by their ids, and which of them are grouped.
 struct SceneOrder {
   std::vector<SceneGroup> groups;

@@ -204,6 +204,7 @@ QWidget* LibraryPage::makeRight() {
   m_words->setToolTip(QStringLiteral("Words by which this preset is found, with commas between them: food, kitchen"));
   column->addWidget(m_words);
   m_table->setRootIsDecorated(false);
+  m_table->setAllColumnsShowFocus(true);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
   column->addWidget(m_table, 1);

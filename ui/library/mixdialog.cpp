@@ -172,6 +172,7 @@ void MixDialog::addResult() {
   m_grid->addWidget(m_note, m_grid->rowCount(), 0, 1, 2);
   m_grid->addWidget(m_preview, m_grid->rowCount(), 0, 1, 2);
   m_table->setRootIsDecorated(false);
+  m_table->setAllColumnsShowFocus(true);
   m_table->setWordWrap(true);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties of the mixture and their rules"));

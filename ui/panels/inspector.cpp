@@ -54,18 +54,17 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     m_notes.hear(event);
   });
   connect(&session.swatches(), &Swatches::arrived, this, &Inspector::showMaterialHeader);
-  connect(&selection, &Selection::changed, this, [this, &selection] {
-    if (selection.kind() == OutlineKind::Probe)
-      setProbe(selection.id());
-    else if (!selection.empty())
-      setBodies(selection.bodies());
-  });
+  connect(&selection, &Selection::changed, this, &Inspector::showSelected);
   connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
 }
 
 void Inspector::connectPanel(ParameterPanel* panel) {
-  connect(panel, &ParameterPanel::edited, this, &Inspector::onEdited);
-  connect(panel, &ParameterPanel::scaled, this, &Inspector::onScaled);
+  const bool together = panel == m_body;  // rows elsewhere are of one thing, whatever is selected
+  connect(panel, &ParameterPanel::edited, this, [this, together](const QString& key, const Value& value, Edit edit) {
+    onEdited(key, value, edit, together);
+  });
+  connect(panel, &ParameterPanel::scaled, this,
+          [this, together](const QString& key, double factor) { onScaled(key, factor, together); });
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
   connect(panel, &ParameterPanel::pinToggled, this,
           [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
@@ -85,7 +84,7 @@ void Inspector::connectPanel(ParameterPanel* panel) {
 
 const char* Inspector::keep(const QString& text) { return m_texts.insert(text.toStdString()).first->c_str(); }
 
-void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
+void Inspector::onEdited(const QString& key, const Value& value, Edit edit, bool together) {
   const auto address = Address::parse(key.toStdString());
   if (!address) return;
   if (edit == Edit::Begin) {
@@ -100,7 +99,7 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit) {
     for (ParameterPanel* panel : panels()) panel->setValue(key, m_session.valueNow(*address));
     return;
   }
-  const QString problem = setAll(*address, value);
+  const QString problem = setAll(together ? addressesOf(*address) : std::vector{*address}, value);
   for (ParameterPanel* panel : panels()) panel->setError(key, problem);
 }
 
@@ -152,8 +151,8 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
 }
 
 void Inspector::rebuildBody() {
-  if (rebuildProbe()) return;
-  const Body* body = m_document.body(m_bodyId);
+  if (rebuildThings()) return;
+  const Body* body = m_bodies.empty() ? nullptr : m_document.body(m_bodies.back().id);
   std::vector<RowModel> rows;
   if (!body) {
     m_body->setHeader({}, {});
@@ -168,7 +167,7 @@ void Inspector::rebuildBody() {
   for (const SceneMaterial& material : m_document.project().materials) {
     if (material.id == body->material && !material.label.empty()) matter = QString::fromStdString(material.label);
   }
-  if (!showBodiesHeader())
+  if (!showCount())
     m_body->setHeader(nameOf(*body), matter + QStringLiteral(" · ") + QString::fromStdString(shape), countOfBodies());
   if (auto material = rowModelOf(m_document, {Owner::Body, body->id, kBodyMaterialKey}))
     rows.push_back(std::move(*material));
@@ -393,9 +392,10 @@ void Inspector::onChanged(const ChangeEvent& event) {
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
     if (address.owner == Owner::Material && address.id == m_materialId) showMaterialHeader();
   } else if (std::holds_alternative<ProjectOpened>(event)) {
-    m_probeId.clear();
-    m_others.clear();
-    m_bodyId = m_document.project().bodies.empty() ? std::string() : m_document.project().bodies.front().id;
+    m_things.clear();
+    m_bodies.clear();
+    if (!m_document.project().bodies.empty())
+      m_bodies.push_back({Owner::Body, m_document.project().bodies.front().id, ""});
     m_materialId.clear();
     m_notes.clear();
     m_mean.clear();
@@ -415,10 +415,12 @@ void Inspector::onChanged(const ChangeEvent& event) {
     onProbe(probe->id);
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     if (!port->moved) rebuildScene();
+    if (!port->moved && !m_things.empty()) rebuildBody();
     showMaterialHeader();
   } else if (const auto* walls = std::get_if<WallsChanged>(&event)) {
     if (walls->moved) return;
     rebuildScene();
+    if (!m_things.empty()) rebuildBody();
     rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();

@@ -21,6 +21,7 @@ enum class OutlineKind;
 class Session;
 
 /// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
+/// The first shows what is selected: bodies, probes, or walls, taps or drains where they are several, edited together.
 /// Keys of their rows are addresses. Each gesture in a row is one undo step of the document.
 class Inspector : public QObject {
   Q_OBJECT
@@ -34,13 +35,14 @@ class Inspector : public QObject {
   void rebuild();
   void setBodies(const std::vector<std::string>& ids);  ///< rows are of the last one, edits reach all
   void setBody(const std::string& id) { setBodies(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
-  void setProbe(const std::string& id);  ///< in the place of a body
+  /// Of one kind, in the place of bodies: probes, walls, emitters or sinks, without keys; likewise.
+  void setThings(std::vector<Address> things);
   void setMaterial(const std::string& id);
   const std::string& material() const { return m_materialId; }
   /// The panel that shows an address, after selecting its owner alone; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
-  /// How often the value of one body was compared with another's so far, for rows of several.
+  /// How often the value of one thing was compared with another's so far, for rows of several.
   size_t comparedValues() const { return m_compared; }
 
   /// A key of the row under the pointer, or of the one that has the focus; false: there is none.
@@ -60,18 +62,18 @@ class Inspector : public QObject {
   void refreshIdle(const Address& changed);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
-  void onEdited(const QString& key, const Value& value, Edit edit);
+  void onEdited(const QString& key, const Value& value, Edit edit, bool together);
   void onKey(const QString& key, const Value& shown);
   void onWay(const QString& key, ToNext way);
   /// Marks of rows whose parameters have keys, and what these give now.
   void showTracks();
   void showTrack(const Address& address, KeyMark mark, ToNext way);
   double now() const;  ///< s, of the scene's time
-  void onScaled(const QString& key, double factor);
+  void onScaled(const QString& key, double factor, bool together);
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
-  bool rebuildProbe();  ///< false: none is shown
-  void showProbeHeader(const Probe& probe);
+  bool rebuildThings();  ///< false: bodies are shown
+  void showThingsHeader();
   void onProbe(const std::string& id);
   void rebuildMaterial();
   void showMaterialHeader();
@@ -81,14 +83,17 @@ class Inspector : public QObject {
   double temperatureOf(const std::string& material) const;
   double ambientTemperature() const;  ///< K, at which curves are read where there is no matter
   // inspectorbodies.cpp
+  void showSelected();
+  /// What the first panel shows, without keys; rows are of the last one.
+  const std::vector<Address>& shown() const;
   std::vector<Address> addressesOf(const Address& address) const;
   bool isMixed(const Address& address) const;
   void shareRows(std::vector<RowModel>& rows) const;
-  bool showBodiesHeader();  ///< false: one is shown
+  bool showCount();  ///< of several, in the header; false: one is shown
   QString countOfBodies() const;
   void countSoon();
   void refreshMixed(const Address& changed);
-  QString setAll(const Address& address, const Value& value);
+  QString setAll(const std::vector<Address>& all, const Value& value);
   QString setOne(const Address& address, const Value& value);
   QString whyKeyed(const std::vector<Address>& all) const;
   QString titleOfAll(const Address& address, size_t count) const;
@@ -109,11 +114,10 @@ class Inspector : public QObject {
   Selection& m_selection;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
-  std::string m_bodyId, m_materialId;
-  std::vector<std::string> m_others;                       ///< bodies that are shown with that one
+  std::string m_materialId;
+  std::vector<Address> m_bodies, m_things;                 ///< what is shown; bodies while none of the others is there
   mutable std::map<std::string, std::string> m_differing;  ///< one of them with another value, by the row's address
   mutable size_t m_compared = 0;
-  std::string m_probeId;                 ///< shown in the place of the body; "": none
   std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
   bool m_counts = false;                 ///< soon: once for all bodies that an edit reaches
   QString m_count;                       ///< of several bodies, as the header says it

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A probe in the inspector: what it measures, of which matter, where.
+// Probes in the inspector, in the place of bodies: what they measure, of which matter, where; likewise several walls,
+// taps or drains.
 #include "core/simulation/probeparameters.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -11,40 +12,41 @@
 
 namespace ps {
 
-void Inspector::setProbe(const std::string& id) {
-  m_probeId = id;
-  rebuildBody();
+void Inspector::showThingsHeader() {
+  const Address& thing = shown().back();
+  const Probe* probe = thing.owner == Owner::Probe ? m_document.probe(thing.id) : nullptr;
+  if (showCount()) return;
+  const QString name = ownerLabel(m_document.project(), thing);
+  const Quantity* quantity = probe ? m_session.fields().quantity(probe->quantity) : nullptr;
+  const QString what = QString::fromStdString(quantity ? quantity->label : probe ? probe->quantity : std::string());
+  m_body->setHeader(name, probe ? QStringLiteral("Probe · ") + what.left(1).toLower() + what.mid(1) : QString());
 }
 
-void Inspector::showProbeHeader(const Probe& probe) {
-  const Quantity* quantity = m_session.fields().quantity(probe.quantity);
-  const QString what = QString::fromStdString(quantity ? quantity->label : probe.quantity);
-  m_body->setHeader(nameOf(probe), QStringLiteral("Probe · ") + what.left(1).toLower() + what.mid(1));
-}
-
-bool Inspector::rebuildProbe() {
-  const Probe* probe = m_document.probe(m_probeId);
-  if (!probe) return false;
-  showProbeHeader(*probe);
+bool Inspector::rebuildThings() {
+  if (m_things.empty() || &shown() != &m_things) return false;
+  showThingsHeader();
   std::vector<RowModel> rows;
-  const Address any{Owner::Probe, probe->id, ""};
+  const Address& any = m_things.back();
   const api::ParameterList list = declarationsOf(m_document.project(), m_document.plugins(), any);
   for (size_t i = 0; i < list.count; ++i) {
-    if (auto row = rowModelOf(m_document, {Owner::Probe, probe->id, list[i].key})) rows.push_back(std::move(*row));
+    if (auto row = rowModelOf(m_document, {any.owner, any.id, list[i].key})) rows.push_back(std::move(*row));
   }
+  shareRows(rows);
   m_body->setModel(std::move(rows));
   m_notes.show();
+  showTracks();
   return true;
 }
 
 void Inspector::onProbe(const std::string& id) {
   const Probe* probe = m_document.probe(id);
-  if (id == m_probeId) {
-    if (!probe || m_body->rows().empty())
-      rebuildBody();
-    else
-      showProbeHeader(*probe);
-  }
+  const Address thing{Owner::Probe, id, ""};
+  const bool last = !m_things.empty() && m_things.back() == thing;
+  const bool among = std::find(m_things.begin(), m_things.end(), thing) != m_things.end();
+  if (last && (!probe || m_body->rows().empty()))
+    rebuildBody();
+  else if (among && &shown() == &m_things)
+    showThingsHeader();
   const std::string prefix = Address{Owner::Probe, id, ""}.prefix();
   const QString start = QString::fromStdString(prefix);
   const std::vector<std::string>& pins = m_document.project().view.pinned;
@@ -62,6 +64,8 @@ void Inspector::onProbe(const std::string& id) {
       row->setDisabledReason(idleText(m_document, *address));
     }
   }
+  for (const ParameterRow* row : among ? m_body->rows() : std::vector<ParameterRow*>{})
+    m_body->setMixed(row->key(), isMixed(*Address::parse(row->key().toStdString())));
   m_notes.show();
 }
 

@@ -52,6 +52,7 @@ MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
   m_view->setHeaderHidden(true);
   m_view->setRootIsDecorated(false);
   m_view->setUniformRowHeights(true);
+  m_view->setAllColumnsShowFocus(true);
   m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
   m_view->setAccessibleName(QStringLiteral("Messages"));
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);

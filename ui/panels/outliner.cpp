@@ -8,6 +8,7 @@
 #include "core/simulation/particlefield.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/panels/outlinermodel.h"
 #include "ui/rows/filterfield.h"
@@ -74,20 +75,10 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   auto* delegate = new OutlinerDelegate(m_view);
   m_view->setItemDelegate(delegate);
   connect(delegate, &OutlinerDelegate::visibleToggled, this,
-          [this](int kind, const std::string& id, bool on) { m_document.setBodiesVisible(bodiesOf(kind, id), on); });
+          [this](int kind, const std::string& id, bool on) { m_document.setVisible(thingsOf(kind, id), on); });
   connect(delegate, &OutlinerDelegate::lockToggled, this,
-          [this](int kind, const std::string& id, bool on) { m_document.setBodiesLocked(bodiesOf(kind, id), on); });
-  connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
-    if (kind == static_cast<int>(OutlineKind::Body)) {
-      m_document.renameBody(id, name);
-    } else if (kind == static_cast<int>(OutlineKind::Group)) {
-      m_document.renameGroup(id, name);
-    } else if (kind == static_cast<int>(OutlineKind::Probe)) {
-      m_document.renameProbe(id, name);
-    } else {
-      m_document.renamePort({kind == static_cast<int>(OutlineKind::Sink), id}, name);
-    }
-  });
+          [this](int kind, const std::string& id, bool on) { m_document.setLocked(thingsOf(kind, id), on); });
+  connect(delegate, &OutlinerDelegate::renamed, this, &Outliner::rename);
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
     if (selected().first != OutlineKind::Environment && m_view->currentIndex().isValid())
@@ -112,9 +103,10 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
   item->setData(icon, outline::kIcon);
-  item->setEditable(kind == OutlineKind::Group || kind == OutlineKind::Body || kind == OutlineKind::Emitter ||
-                    kind == OutlineKind::Sink || kind == OutlineKind::Probe);
-  item->setDragEnabled(kind != OutlineKind::Scene && kind != OutlineKind::Environment && kind != OutlineKind::Probes);
+  const bool fixed = kind == OutlineKind::Scene || kind == OutlineKind::Environment || kind == OutlineKind::Probes ||
+                     kind == OutlineKind::Pin;
+  item->setEditable(!fixed);
+  item->setDragEnabled(!fixed);
   item->setDropEnabled(kind == OutlineKind::Scene || kind == OutlineKind::Group || kind == OutlineKind::Probes ||
                        kind == OutlineKind::Body);
   if (parent) {
@@ -141,17 +133,25 @@ void Outliner::addGroups(QStandardItem* scene) {
     QStandardItem* item =
         add(scene, OutlineKind::Group, group.id, QString::fromStdString(group.name), QStringLiteral("folder"));
     item->setData(QString::number(group.members.size()), outline::kDetail);
-    bool visible = false, locked = true, any = false;
-    for (const std::string& id : bodiesOf(static_cast<int>(OutlineKind::Group), group.id)) {
-      const Body& body = *m_document.body(id);
-      visible = visible || body.visible;
-      locked = locked && body.locked;
-      any = true;
-    }
-    if (!any) continue;
-    item->setData(visible, outline::kVisible);
-    item->setData(locked, outline::kLocked);
+    mark(item, thingsOf(static_cast<int>(OutlineKind::Group), group.id));
   }
+}
+
+/// Eye and lock: of what is shown in part the eye is open, of what is locked in part the lock is.
+void Outliner::mark(QStandardItem* item, const std::vector<Address>& things) const {
+  bool visible = false, locked = true;
+  for (const Address& thing : things) {
+    const ThingMarks marks = *m_document.marks(thing);
+    visible = visible || marks.visible;
+    locked = locked && marks.locked;
+  }
+  if (things.empty()) return;
+  item->setData(visible, outline::kVisible);
+  item->setData(locked, outline::kLocked);
+  QStringList tip;
+  if (!visible) tip << QStringLiteral("Hidden: the view does not draw it. It acts all the same.");
+  if (locked) tip << QStringLiteral("Locked: hands neither move nor delete it.");
+  item->setToolTip(tip.join(QLatin1Char('\n')));
 }
 
 void Outliner::addBodies(QStandardItem* scene) {
@@ -164,9 +164,41 @@ void Outliner::addBodies(QStandardItem* scene) {
     QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(QString::fromStdString(body.material), outline::kMaterial);
-    item->setData(body.visible, outline::kVisible);
-    item->setData(body.locked, outline::kLocked);
+    mark(item, {{Owner::Body, body.id, ""}});
     item->setData(plugins && isPlaceholder(project, body, *plugins), outline::kPlaceholder);
+    addPins(item, body);
+  }
+}
+
+void Outliner::addPins(QStandardItem* row, const Body& body) {
+  for (size_t k = 0; k < body.pins.size(); ++k) {
+    const std::string address = PinAddress{body.id, k}.text();
+    add(row, OutlineKind::Pin, address, QStringLiteral("Pin %1").arg(k + 1), QStringLiteral("pin"));
+  }
+}
+
+void Outliner::addPorts(QStandardItem* scene) {
+  const Project& project = m_document.project();
+  for (const Emitter& emitter : project.emitters) {
+    QStandardItem* item = add(parentOf(scene, Owner::Emitter, emitter.id), OutlineKind::Emitter, emitter.id,
+                              nameOf(emitter), QStringLiteral("tap"));
+    item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
+    item->setData(QString::fromStdString(emitter.material), outline::kMaterial);
+    mark(item, {{Owner::Emitter, emitter.id, ""}});
+  }
+  for (const Sink& sink : project.sinks) {
+    mark(add(parentOf(scene, Owner::Sink, sink.id), OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain")),
+         {{Owner::Sink, sink.id, ""}});
+  }
+}
+
+void Outliner::addProbes(QStandardItem* scene) {
+  const Project& project = m_document.project();
+  if (project.probes.empty()) return;
+  QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
+  for (const Probe& probe : project.probes) {
+    mark(add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe")),
+         {{Owner::Probe, probe.id, ""}});
   }
 }
 
@@ -177,26 +209,14 @@ void Outliner::rebuild() {
   QStandardItem* scene = add(nullptr, OutlineKind::Scene, "", m_document.title(), QStringLiteral("folder"));
   addGroups(scene);
   addBodies(scene);
-  for (const Emitter& emitter : project.emitters) {
-    QStandardItem* item = add(parentOf(scene, Owner::Emitter, emitter.id), OutlineKind::Emitter, emitter.id,
-                              nameOf(emitter), QStringLiteral("tap"));
-    item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
-    item->setData(QString::fromStdString(emitter.material), outline::kMaterial);
-  }
-  for (const Sink& sink : project.sinks) {
-    add(parentOf(scene, Owner::Sink, sink.id), OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain"));
-  }
+  addPorts(scene);
   for (const SceneWall& wall : project.environment.walls) {
-    add(parentOf(scene, Owner::Wall, wall.id), OutlineKind::Wall, wall.id, nameOf(wall),
-        hasTemperature(wall) ? QStringLiteral("plate") : QStringLiteral("wall"));
+    mark(add(parentOf(scene, Owner::Wall, wall.id), OutlineKind::Wall, wall.id, nameOf(wall),
+             hasTemperature(wall) ? QStringLiteral("plate") : QStringLiteral("wall")),
+         {{Owner::Wall, wall.id, ""}});
   }
   add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
-  if (!project.probes.empty()) {
-    QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
-    for (const Probe& probe : project.probes) {
-      add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe"));
-    }
-  }
+  addProbes(scene);
   m_view->expandAll();
   filter();
   refreshSurroundings();
@@ -291,20 +311,42 @@ std::pair<OutlineKind, std::string> Outliner::selected() const {
   return {item.kind, item.id};
 }
 
+std::vector<Address> Outliner::selectedThings() const {
+  std::vector<Address> things;
+  for (const SelectedItem& item : m_selection.items()) {
+    const auto thing = thingOf(item);
+    if (thing && item.kind != OutlineKind::Pin) things.push_back(*thing);
+  }
+  return things;
+}
+
 void Outliner::toggleVisible() {
-  const Body* last = m_document.body(m_selection.body());
-  if (last) m_document.setBodiesVisible(m_selection.bodies(), !last->visible);
+  const std::vector<Address> things = selectedThings();
+  if (!things.empty()) m_document.setVisible(things, !m_document.marks(things.back())->visible);
 }
 
 void Outliner::toggleLocked() {
-  const Body* last = m_document.body(m_selection.body());
-  if (last) m_document.setBodiesLocked(m_selection.bodies(), !last->locked);
+  const std::vector<Address> things = selectedThings();
+  if (!things.empty()) m_document.setLocked(things, !m_document.marks(things.back())->locked);
 }
 
 void Outliner::renameSelected() {
-  if (!m_selection.body().empty() || m_selection.port() || selected().first == OutlineKind::Probe ||
-      selected().first == OutlineKind::Group)
-    m_view->edit(m_view->currentIndex());
+  if (m_view->currentIndex().flags() & Qt::ItemIsEditable) m_view->edit(m_view->currentIndex());
+}
+
+void Outliner::rename(int kind, const std::string& id, const QString& name) {
+  switch (static_cast<OutlineKind>(kind)) {
+    case OutlineKind::Body:
+      return m_document.renameBody(id, name);
+    case OutlineKind::Group:
+      return m_document.renameGroup(id, name);
+    case OutlineKind::Probe:
+      return m_document.renameProbe(id, name);
+    case OutlineKind::Wall:
+      return m_document.renameWall(id, name);
+    default:
+      return m_document.renamePort({kind == static_cast<int>(OutlineKind::Sink), id}, name);
+  }
 }
 
 }  // namespace ps

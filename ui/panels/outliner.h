@@ -34,8 +34,9 @@ inline constexpr int kKind = Qt::UserRole + 1, kId = Qt::UserRole + 2, kIcon = Q
                      kLocked = Qt::UserRole + 7, kPlaceholder = Qt::UserRole + 8, kMaterial = Qt::UserRole + 9;
 }
 
-/// Groups, bodies, walls, probes and air as a tree: icon, name, count, swatch, lock, eye. F2 renames, a drag puts in
-/// another place or group, the field on top searches; the menu of what is selected is the window's.
+/// Groups, bodies with their pins, taps, drains, walls, probes and air as a tree: icon, name, count, swatch, lock, eye.
+/// F2 renames, a drag puts in another place or group, the field on top searches; the menu of what is selected is the
+/// window's.
 class Outliner : public QWidget {
   Q_OBJECT
  public:
@@ -43,26 +44,32 @@ class Outliner : public QWidget {
   void rebuild();
   std::pair<OutlineKind, std::string> selected() const;  ///< the row that shows as selected
   void renameSelected();
-  void toggleVisible();  ///< of the selected body
+  void toggleVisible();  ///< of all that is selected, to what the last one is not
   void toggleLocked();
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
-  void menuRequested(const QPoint& global);  ///< of the selected body, tap or drain
+  void menuRequested(const QPoint& global);  ///< of what is selected
 
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
                      const QString& icon);
   void addGroups(QStandardItem* scene);
   void addBodies(QStandardItem* scene);
+  void addPins(QStandardItem* row, const Body& body);
+  void addPorts(QStandardItem* scene);
+  void addProbes(QStandardItem* scene);
+  void mark(QStandardItem* item, const std::vector<Address>& things) const;
   QStandardItem* parentOf(QStandardItem* scene, Owner owner, const std::string& id) const;
   void onChanged(const ChangeEvent& event);
   void showSelection();
   void takeSelection();
   SelectedItem itemOf(const QModelIndex& index) const;
-  std::vector<std::string> bodiesOf(int kind, const std::string& id) const;
+  std::vector<Address> thingsOf(int kind, const std::string& id) const;
+  std::vector<Address> selectedThings() const;
+  void rename(int kind, const std::string& id, const QString& name);
   bool holdsAll(const SceneGroup& group) const;
   QLayout* makeSearch();
   void filter();
@@ -80,7 +87,7 @@ class Outliner : public QWidget {
   OutlinerModel* m_model;
   QTreeView* m_view;
   FilterField* m_filter;
-  QLabel* m_nothing;  ///< what the search does not find
+  QLabel* m_nothing;  ///< what the search does not find, or what to do where there is no matter
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
   bool m_building = false;

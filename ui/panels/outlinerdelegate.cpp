@@ -16,8 +16,8 @@ namespace {
 constexpr int kRow = 24, kIcon = 16;
 
 std::string idOf(const QModelIndex& index) { return index.data(outline::kId).toString().toStdString(); }
-/// A body, or a group that has some: what can be hidden and locked.
-bool isBody(const QModelIndex& index) { return index.data(outline::kVisible).isValid(); }
+/// Whether it can be hidden and locked.
+bool hasMarks(const QModelIndex& index) { return index.data(outline::kVisible).isValid(); }
 int kindOf(const QModelIndex& index) { return index.data(outline::kKind).toInt(); }
 
 }  // namespace
@@ -33,14 +33,14 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
   painter->save();
   painter->setRenderHint(QPainter::Antialiasing);
   const bool selected = option.state & QStyle::State_Selected, hover = option.state & QStyle::State_MouseOver;
-  const bool body = isBody(index), visible = !body || index.data(outline::kVisible).toBool();
+  const bool marks = hasMarks(index), visible = !marks || index.data(outline::kVisible).toBool();
   const QRect row = option.rect;
   if (selected || hover) painter->fillRect(row, theme[selected ? Token::Selection : Token::Header]);
   const QRectF text = row.adjusted(kIcon + 10, 0, 0, 0);
   const QColor ink = theme[!visible ? Token::Disabled : selected ? Token::Text : Token::Text2];
   paintIcon(*painter, QRectF(row.left() + 4, row.top() + 4, kIcon, kIcon), index.data(outline::kIcon).toString(), ink);
   double right = row.right() - 6;
-  if (body) {
+  if (marks) {
     const bool locked = index.data(outline::kLocked).toBool();
     if (!visible || selected || hover) {
       paintIcon(*painter, QRectF(eyeRect(row)).adjusted(2, 2, -2, -2),
@@ -62,7 +62,7 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
     right = swatch.left() - 6;
   }
   const QString detail = index.data(outline::kDetail).toString();
-  const bool lockInstead = body && (index.data(outline::kLocked).toBool() || hover);
+  const bool lockInstead = marks && (index.data(outline::kLocked).toBool() || hover);
   if (lockInstead) right = lockRect(row).left() - 2;
   if (!detail.isEmpty() && !lockInstead) {
     const QFont small = Theme::font(TextRole::Small);
@@ -80,7 +80,8 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
 
 bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, const QStyleOptionViewItem& option,
                                    const QModelIndex& index) {
-  if (isBody(index) && (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseButtonDblClick)) {
+  if (hasMarks(index) &&
+      (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseButtonDblClick)) {
     const QPoint at = static_cast<QMouseEvent*>(event)->position().toPoint();
     const bool release = event->type() == QEvent::MouseButtonRelease;
     if (eyeRect(option.rect).contains(at)) {

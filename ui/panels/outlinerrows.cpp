@@ -141,19 +141,25 @@ bool Outliner::holdsAll(const SceneGroup& group) const {
   });
 }
 
-/// A click on the eye of one of those that are selected is meant for all of them, on that of a group for its bodies.
-std::vector<std::string> Outliner::bodiesOf(int kind, const std::string& id) const {
-  if (kind != static_cast<int>(OutlineKind::Group))
-    return m_selection.has(OutlineKind::Body, id) ? m_selection.bodies() : std::vector<std::string>{id};
-  std::vector<std::string> bodies;
+/// A click on the eye of one of those that are selected is meant for all of them, on that of a group for its members.
+std::vector<Address> Outliner::thingsOf(int kind, const std::string& id) const {
+  const SelectedItem item{static_cast<OutlineKind>(kind), id};
+  std::vector<Address> things;
+  if (item.kind != OutlineKind::Group) {
+    if (m_selection.has(item.kind, id)) return selectedThings();
+    if (const auto thing = thingOf(item)) things.push_back(*thing);
+    return things;
+  }
   const auto group =
       std::find_if(m_groups.begin(), m_groups.end(), [&](const SceneGroup& one) { return one.id == id; });
-  for (const Body& body : m_document.project().bodies) {
-    if (group != m_groups.end() &&
-        std::find(group->members.begin(), group->members.end(), memberOf(Owner::Body, body.id)) != group->members.end())
-      bodies.push_back(body.id);
+  if (group == m_groups.end()) return things;
+  for (const std::string& member : group->members) {
+    for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall}) {
+      const std::string prefix = memberOf(owner, "");
+      if (member.starts_with(prefix)) things.push_back({owner, member.substr(prefix.size()), ""});
+    }
   }
-  return bodies;
+  return things;
 }
 
 QLayout* Outliner::makeSearch() {
@@ -188,9 +194,12 @@ void Outliner::filter() {
     return any;
   };
   const bool any = show({}, wanted.isEmpty());
-  m_nothing->setVisible(!any);
+  const Project& project = m_document.project();
+  const bool bare = project.bodies.empty() && project.emitters.empty() && wanted.isEmpty();
+  m_nothing->setVisible(!any || bare);
   m_nothing->setText(
-      QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
+      bare ? QStringLiteral("Add a body or press B to sketch")
+           : QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
 }
 
 /// To another place in its list, into a group or out of it.

@@ -91,6 +91,7 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   m_view->setModel(m_model);
   m_view->setRootIsDecorated(false);
   m_view->setUniformRowHeights(true);
+  m_view->setAllColumnsShowFocus(true);
   m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
   m_view->setAccessibleName(QStringLiteral("Plugins"));
   column->addWidget(m_view, 1);

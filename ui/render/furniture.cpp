@@ -312,7 +312,8 @@ bool sameFurniture(const Environment& a, const Environment& b) {
   return a.boundsMinimum == b.boundsMinimum && a.boundsMaximum == b.boundsMaximum &&
          std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(),
                     [](const SceneWall& v, const SceneWall& w) {
-                      return v.point == w.point && v.normal == w.normal && v.parameters == w.parameters;
+                      return v.point == w.point && v.normal == w.normal && v.parameters == w.parameters &&
+                             v.visible == w.visible;
                     });
 }
 
@@ -327,6 +328,7 @@ Furniture buildFurniture(const Environment& environment, bool dark, const std::o
   out.hasFloor = false;  // until it is seen that a section leaves one
   const Colour lid = sceneColour(dark, "lid");
   for (size_t i = 0; i < environment.walls.size(); ++i) {
+    if (!environment.walls[i].visible) continue;
     constexpr double kRound = 0.3, kGlass = 0.06;
     addGlass(out.clear, environment, i, section, with(lid, kGlass));
     for (const auto& [from, to] : ps::leftOf(roundLines(environment, i), section)) addEdge(out.edges, from, to, kRound);

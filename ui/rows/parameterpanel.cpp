@@ -134,6 +134,7 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   d->scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   d->scroll->setFocusPolicy(Qt::NoFocus);
   d->empty = new QLabel(this);
+  d->empty->setTextFormat(Qt::RichText);
   d->empty->setAlignment(Qt::AlignCenter);
   d->empty->setWordWrap(true);
   d->empty->setProperty("role", "muted");
@@ -152,6 +153,7 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   layout->addWidget(d->empty, 1);
   connect(d->filter, &QLineEdit::textChanged, this, [this] { d->show(); });
   connect(d->changed, &QPushButton::toggled, this, [this] { d->show(); });
+  connect(d->empty, &QLabel::linkActivated, d->filter, &QLineEdit::clear);
   d->scroll->viewport()->installEventFilter(this);
   setMinimumWidth(240);
   d->show();
@@ -325,9 +327,9 @@ void ParameterPanel::Private::show() {
   scroll->setVisible(shown > 0);
   empty->setVisible(shown == 0);
   if (total == 0)
-    empty->setText(emptyText);
+    empty->setText(emptyText.toHtmlEscaped());
   else if (!text.isEmpty())
-    empty->setText(QStringLiteral("Nothing called “%1”. Clear the filter.").arg(text));
+    empty->setText(QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(text.toHtmlEscaped()));
   else
     empty->setText(QStringLiteral("Nothing is changed."));
   showCount();

@@ -18,6 +18,26 @@ void transfer(std::vector<SelectedItem>& from, std::vector<SelectedItem>& to, co
 
 }  // namespace
 
+std::optional<Address> thingOf(const SelectedItem& item) {
+  switch (item.kind) {
+    case OutlineKind::Body:
+      return Address{Owner::Body, item.id, ""};
+    case OutlineKind::Emitter:
+      return Address{Owner::Emitter, item.id, ""};
+    case OutlineKind::Sink:
+      return Address{Owner::Sink, item.id, ""};
+    case OutlineKind::Wall:
+      return Address{Owner::Wall, item.id, ""};
+    case OutlineKind::Probe:
+      return Address{Owner::Probe, item.id, ""};
+    case OutlineKind::Pin:
+      if (const auto pin = PinAddress::parse(item.id)) return Address{Owner::Body, pin->body, ""};
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
 Selection::Selection(Document& document, QObject* parent) : QObject(parent), m_document(document) {
   connect(&document, &Document::changed, this, &Selection::onChanged);
 }

@@ -15,8 +15,7 @@ namespace ps {
 
 class Document;
 
-/// What can be selected: rows of the outliner.
-/// Pins have no row, they are selected in the view; their id is a PinAddress.
+/// What can be selected: rows of the outliner. A pin's id is a PinAddress.
 enum class OutlineKind { Scene, Group, Body, Emitter, Sink, Wall, Probes, Probe, Environment, Pin };
 
 /// One thing that is selected.
@@ -25,6 +24,10 @@ struct SelectedItem {
   std::string id;
   bool operator==(const SelectedItem&) const = default;
 };
+
+/// The body, emitter, sink, wall or probe that it is, of a pin its body, as an address without a key; nothing for
+/// others.
+std::optional<Address> thingOf(const SelectedItem& item);
 
 /// What is selected and which material is the current one, of one editor. Tools and panels set it, all of them follow.
 /// What leaves the document leaves the selection, and comes back with it as long as nothing else has been selected.

@@ -194,6 +194,7 @@ void RunLines::paintEvent(QPaintEvent*) {
     paintText(painter, row.text, Qt::AlignLeft | Qt::AlignVCenter, row.name, Theme::font(TextRole::Small),
               theme[chosen ? Token::Text : Token::Text2]);
   }
+  if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 2);
 }
 
 }  // namespace ps

@@ -246,10 +246,14 @@ QString Transport::durationText() const {
     return QStringLiteral("Recorded, up to %1").arg(clockText(newest ? newest->stats.time : 0));
   }
   const bool end = !m_playing && m_seconds > m_total - 0.02;
+  const RunRecord::Extent kept = m_session.recorded().extent();
+  const bool waiting = !m_playing && kept.to <= kept.from;
   QString total = clockText(m_total);
   if (total.endsWith(QStringLiteral(".00"))) total.chop(3);
   return QStringLiteral("/ ") + total +
-         (end ? QStringLiteral("  The end: Space goes on, Home begins anew") : QString());
+         (end       ? QStringLiteral("  The end: Space goes on, Home begins anew")
+          : waiting ? QStringLiteral("  Press Space to run")
+                    : QString());
 }
 
 ThermalTexts Transport::thermalTexts() const {

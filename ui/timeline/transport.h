@@ -38,7 +38,8 @@ class Transport : public QWidget {
   void setStateTime(double seconds);  ///< of the state that the project opens at; 0: it opens at its start
   void setTimeScale(double scale);    ///< thermal seconds per mechanical second
   void setSnapshot(const SnapshotPtr& snapshot);
-  /// "/ 01:00", and what goes on from there while it stands at the end, or from where while a recorded frame is shown.
+  /// "/ 01:00", and what begins a run where none is recorded, what goes on from there while it stands at the end, or
+  /// from where while a recorded frame is shown.
   QString durationText() const;
   QString timeText() const;
   ThermalTexts thermalTexts() const;

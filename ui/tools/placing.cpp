@@ -29,9 +29,8 @@ Vector3 placeOf(const Body& body, const MatterPlaces& matter) {
   return known == matter.end() ? centroidOf(body) : known->second;
 }
 
-/// "" or why a body is left where it is.
+/// "" or why a body that is not locked is left where it is.
 QString whyNot(const Body& body, Kind kind) {
-  if (body.locked) return QStringLiteral("locked");
   if (kind == Kind::Rotate) return QString::fromStdString(whyNotTurned(body));
   if (kind == Kind::Scale) return QString::fromStdString(whyNotScaled(body));
   return {};
@@ -51,9 +50,14 @@ struct Collector {
 };
 
 void collect(Collector& to, const Document& document, const SelectedItem& item, Kind kind, const MatterPlaces& matter) {
-  const auto unless = [&](bool cannot, const char* why) { return cannot ? QString::fromUtf8(why) : QString(); };
+  const auto thing = thingOf(item);
+  const auto marks = thing ? document.marks(*thing) : std::nullopt;
+  const bool locked = marks && marks->locked;
+  const auto unless = [&](bool cannot, const char* why) {
+    return locked ? QStringLiteral("locked") : cannot ? QString::fromUtf8(why) : QString();
+  };
   if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
-    to.add(item, placeOf(*body, matter), nameOf(*body), whyNot(*body, kind));
+    to.add(item, placeOf(*body, matter), nameOf(*body), locked ? QStringLiteral("locked") : whyNot(*body, kind));
   } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
     to.add(item, emitter->point, nameOf(*emitter), unless(kind == Kind::Scale, "its width is its row “Diameter”"));
   } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
@@ -63,12 +67,12 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
            unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));
   } else if (const Probe* probe = item.kind == OutlineKind::Probe ? document.probe(item.id) : nullptr) {
     to.add(item, probe->region ? middleOf(*probe->region) : Vector3(Vector3::Zero()), nameOf(*probe),
-           !probe->region ? QStringLiteral("it measures wherever its matter is")
+           !probe->region ? unless(true, "it measures wherever its matter is")
                           : unless(kind == Kind::Rotate, "its box stands along the axes"));
   } else if (const Region* pin = item.kind == OutlineKind::Pin ? findPin(document.project(), item.id) : nullptr) {
     const Body& held = *document.body(PinAddress::parse(item.id)->body);
     to.add(item, middleOf(*pin), QStringLiteral("Pin of %1").arg(nameOf(held)),
-           held.locked ? QStringLiteral("locked") : unless(kind == Kind::Rotate, "a pin stands along the axes"));
+           unless(kind == Kind::Rotate, "a pin stands along the axes"));
   }
 }
 

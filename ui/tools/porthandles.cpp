@@ -98,7 +98,7 @@ Vector3 cornerOf(const Sink& sink, int corner) {
 std::optional<PortHandle> handleAt(const PortSet& ports, const Pointer& pointer) {
   std::optional<PortHandle> found;
   forPorts(ports, true, [&](const Port& port, const auto& item) {
-    if (found) return;
+    if (found || item.locked) return;
     const double least = leastJet(pointer, anchorOf(item));
     if (ports.selected == port) {
       for (const PortHandle& knob : knobsOf(port, item, least)) {

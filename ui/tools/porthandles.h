@@ -51,7 +51,7 @@ std::vector<PortHandle> knobsOf(const Port& port, const Sink& sink, double least
 Vector3 anchorOf(const Emitter& emitter);
 Vector3 anchorOf(const Sink& sink);
 
-/// visit(port, item) for each port that shows, the selected one first or last.
+/// visit(port, item) for each port that shows (no hidden one), the selected one first or last.
 template <class Visit>
 void forPorts(const PortSet& ports, bool selectedFirst, Visit&& visit) {
   const auto pass = [&](bool marked) {
@@ -59,7 +59,7 @@ void forPorts(const PortSet& ports, bool selectedFirst, Visit&& visit) {
       for (const auto& item : items) {
         const Port port{isSink, item.id};
         const bool selected = ports.selected == port;
-        const bool shows = selected || !ports.section || ports.section->shows(anchorOf(item));
+        const bool shows = item.visible && (selected || !ports.section || ports.section->shows(anchorOf(item)));
         if (shows && selected == marked) visit(port, item);
       }
     };
@@ -70,7 +70,7 @@ void forPorts(const PortSet& ports, bool selectedFirst, Visit&& visit) {
   pass(!selectedFirst);
 }
 
-/// What the pointer can take hold of; tips and corners of the selected one only.
+/// What the pointer can take hold of, nothing of locked ones; tips and corners of the selected one only.
 std::optional<PortHandle> handleAt(const PortSet& ports, const Pointer& pointer);
 
 // What a drag of a handle to a place in m gives.

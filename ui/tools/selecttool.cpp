@@ -12,6 +12,11 @@
 #include <algorithm>
 
 namespace ps {
+namespace {
+
+bool canPick(const auto& port) { return port.visible && !port.locked; }
+
+}  // namespace
 
 void SelectTool::hover(const Pointer& pointer) {
   m_handles.hover(pointer);
@@ -85,13 +90,13 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
     }
   }
   for (const Emitter& emitter : project.emitters) {
-    if (within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
+    if (canPick(emitter) && within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
   }
   for (const Sink& sink : project.sinks) {
-    if (within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
+    if (canPick(sink) && within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
   }
   for (const Probe& probe : project.probes) {
-    if (probe.region && within(0.5 * (probe.region->minimum + probe.region->maximum)))
+    if (canPick(probe) && probe.region && within(0.5 * (probe.region->minimum + probe.region->maximum)))
       items.push_back({OutlineKind::Probe, probe.id});
   }
   return items;
@@ -138,10 +143,10 @@ std::vector<Wire> SelectTool::wires() const {
   for (size_t k = 0; k < scene.walls.size(); ++k) {
     const SelectedItem item{OutlineKind::Wall, scene.walls[k].id};
     const bool selected = selection.has(item.kind, item.id);
-    if (selected || m_hovered == item) add(item, wallLines(scene, k, selected), false);
+    if (scene.walls[k].visible && (selected || m_hovered == item)) add(item, wallLines(scene, k, selected), false);
   }
   for (const Probe& probe : project.probes) {
-    if (probe.region) add({OutlineKind::Probe, probe.id}, boxLines(*probe.region), true);
+    if (probe.visible && probe.region) add({OutlineKind::Probe, probe.id}, boxLines(*probe.region), true);
   }
   for (const SelectedItem& pin : shownPins(project, selection.items()))
     add(pin, boxLines(*findPin(project, pin.id)), true);

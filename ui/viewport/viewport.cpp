@@ -353,7 +353,7 @@ void Viewport::show(StandardView view) {
   update();
 }
 
-/// Around all bodies, taps and drains that are selected.
+/// Around all bodies, taps, drains, pins and regions of probes that are selected.
 std::optional<Box> Viewport::boxOfSelection() const {
   std::optional<Box> all;
   const auto add = [&](const std::optional<Box>& box) {
@@ -370,6 +370,8 @@ std::optional<Box> Viewport::boxOfSelection() const {
       add(boxAround({item.kind == OutlineKind::Sink, item.id}));
     const Region* pin = item.kind == OutlineKind::Pin ? findPin(m_document.project(), item.id) : nullptr;
     if (pin) add(Box(pin->minimum, pin->maximum));
+    const Probe* probe = item.kind == OutlineKind::Probe ? m_document.probe(item.id) : nullptr;
+    if (probe && probe->region) add(Box(probe->region->minimum, probe->region->maximum));
   }
   return all;
 }

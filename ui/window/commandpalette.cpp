@@ -7,6 +7,7 @@
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QStyledItemDelegate>
@@ -17,7 +18,7 @@
 namespace ps {
 namespace {
 
-constexpr int kWhere = Qt::UserRole + 1, kKeys = Qt::UserRole + 2, kIndex = Qt::UserRole + 3;
+constexpr int kWhere = Qt::UserRole + 1, kKeys = Qt::UserRole + 2, kIndex = Qt::UserRole + 3, kIdle = Qt::UserRole + 4;
 constexpr int kWidth = 560, kRow = 28, kMostRows = 12;
 
 class EntryDelegate : public QStyledItemDelegate {
@@ -35,12 +36,14 @@ class EntryDelegate : public QStyledItemDelegate {
     const QFont font = Theme::font(TextRole::Normal), small = Theme::font(TextRole::Small);
     const double right = keys.isEmpty() ? 0 : textWidth(keys, small) + 12;
     const double w = std::min(textWidth(title, font) + 2, row.width() * 0.6);
+    const bool idle = index.data(kIdle).toBool();
     paintText(*painter, QRectF(row.left(), row.top(), w, row.height()), Qt::AlignVCenter | Qt::AlignLeft, title, font,
-              theme[Token::Text]);
+              theme[idle ? Token::Disabled : Token::Text]);
     paintText(*painter, QRectF(row.left() + w + 10, row.top(), row.width() - w - 10 - right, row.height()),
               Qt::AlignVCenter | Qt::AlignLeft, index.data(kWhere).toString(), small,
               theme[selected ? Token::Text2 : Token::Muted]);
-    paintText(*painter, row, Qt::AlignVCenter | Qt::AlignRight, keys, small, theme[Token::Text2]);
+    paintText(*painter, row, Qt::AlignVCenter | Qt::AlignRight, keys, small,
+              theme[idle ? Token::Disabled : Token::Text2]);
     painter->restore();
   }
 };
@@ -57,10 +60,14 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
                                      [&](const QString& word) { return all.contains(word, Qt::CaseInsensitive); });
     if (!matches) continue;
     const QString joined = words.join(QLatin1Char(' '));
-    const int rank = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive) ? 0
-                     : entry.replaces                                                       ? 3
-                     : entry.title.contains(words.front(), Qt::CaseInsensitive)             ? 1
-                                                                                            : 2;
+    const bool is = entry.title.compare(joined, Qt::CaseInsensitive) == 0;
+    const bool begins = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive);
+    const int rank = !entry.whyNot.isEmpty()                                    ? 5
+                     : is                                                       ? 0
+                     : begins                                                   ? 1
+                     : entry.replaces                                           ? 4
+                     : entry.title.contains(words.front(), Qt::CaseInsensitive) ? 2
+                                                                                : 3;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -70,7 +77,8 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
   return order;
 }
 
-CommandPalette::CommandPalette(QWidget* parent) : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget) {
+CommandPalette::CommandPalette(QWidget* parent)
+    : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget), m_nothing(new QLabel) {
   setObjectName(QStringLiteral("psPalette"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
@@ -83,9 +91,15 @@ CommandPalette::CommandPalette(QWidget* parent) : QWidget(parent), m_field(new Q
   m_list->setAccessibleName(QStringLiteral("Found"));
   column->addWidget(m_field);
   column->addWidget(m_list);
+  m_nothing->setTextFormat(Qt::RichText);
+  m_nothing->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  m_nothing->setContentsMargins(10, 6, 10, 6);
+  m_nothing->setWordWrap(true);
+  column->addWidget(m_nothing, 1);
   m_field->installEventFilter(this);
   connect(m_field, &QLineEdit::textChanged, this, &CommandPalette::refresh);
   connect(m_list, &QListWidget::itemClicked, this, &CommandPalette::runCurrent);
+  connect(m_nothing, &QLabel::linkActivated, m_field, &QLineEdit::clear);
   hide();
 }
 
@@ -112,21 +126,24 @@ void CommandPalette::refresh() {
   m_list->clear();
   for (const size_t i : paletteMatches(m_entries, m_field->text())) {
     auto* item = new QListWidgetItem(m_entries[i].title, m_list);
-    item->setData(kWhere, m_entries[i].where);
+    const QString& whyNot = m_entries[i].whyNot;
+    item->setData(kWhere, whyNot.isEmpty() ? m_entries[i].where : whyNot);
     item->setData(kKeys, m_entries[i].keys);
+    item->setData(kIdle, !whyNot.isEmpty());
+    item->setToolTip(whyNot);
     item->setData(kIndex, static_cast<int>(i));
   }
-  if (m_list->count() > 0) {
-    m_list->setCurrentRow(0);
-  } else {
-    auto* none = new QListWidgetItem(QStringLiteral("Nothing called “%1”").arg(m_field->text()), m_list);
-    none->setFlags(Qt::NoItemFlags);
-  }
+  const bool any = m_list->count() > 0;
+  if (any) m_list->setCurrentRow(0);
+  m_list->setVisible(any);
+  m_nothing->setVisible(!any);
+  m_nothing->setText(QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>")
+                         .arg(m_field->text().trimmed().toHtmlEscaped()));
 }
 
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = m_list->currentItem();
-  if (!item || !item->data(kIndex).isValid()) return;
+  if (!item || item->data(kIdle).toBool()) return;
   const auto run = m_entries[static_cast<size_t>(item->data(kIndex).toInt())].run;
   hide();
   if (m_before) m_before->setFocus(Qt::OtherFocusReason);
@@ -162,7 +179,7 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
                    : key == Qt::Key_PageUp   ? -kMostRows
                                              : 0;
   if (step == 0) return QWidget::eventFilter(watched, event);
-  m_list->setCurrentRow(std::clamp(m_list->currentRow() + step, 0, m_list->count() - 1));
+  m_list->setCurrentRow(std::clamp(m_list->currentRow() + step, 0, std::max(0, m_list->count() - 1)));
   return true;
 }
 

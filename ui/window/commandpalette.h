@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+class QLabel;
 class QLineEdit;
 class QListWidget;
 
@@ -20,13 +21,16 @@ struct PaletteEntry {
   QString words;  ///< further words to find it by
   std::function<void()> run;
   bool replaces = false;  ///< puts another scene in the place of this one
+  QString whyNot{};       ///< why it cannot be run now; "": it can
 };
 
-/// Entries that match every word of `query`, best first: titles that begin with it, then titles, then other words.
-/// What replaces the scene comes last unless its title begins with the query.
+/// Entries that match every word of `query`, best first: titles that are it, titles that begin with it, then titles,
+/// then other words.
+/// What replaces the scene comes last unless its title begins with the query, and what cannot be run comes behind all.
 std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, const QString& query);
 
-/// The search field over the window: type, arrows choose, Enter runs or jumps, Esc closes.
+/// The search field over the window: type, arrows choose, Enter runs or jumps, Esc closes. What cannot be run is grey
+/// and says why.
 class CommandPalette : public QWidget {
   Q_OBJECT
  public:
@@ -46,6 +50,7 @@ class CommandPalette : public QWidget {
   std::vector<PaletteEntry> m_entries;
   QLineEdit* m_field;
   QListWidget* m_list;
+  QLabel* m_nothing;  ///< in the place of the list where nothing is found
   QPointer<QWidget> m_before;
 };
 

@@ -18,4 +18,12 @@ void addDialogRow(QGridLayout& grid, const QString& label, QWidget* field, const
   grid.addWidget(field, line, 1);
 }
 
+void focusDialogRow(const QWidget& dialog, const QString& label) {
+  if (label.isEmpty()) return;
+  for (QWidget* field : dialog.findChildren<QWidget*>()) {
+    if (field->accessibleName() == label && field->focusPolicy() != Qt::NoFocus)
+      return field->setFocus(Qt::OtherFocusReason);
+  }
+}
+
 }  // namespace ps

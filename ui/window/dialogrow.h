@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtCore/QString>
 
 class QGridLayout;
-class QString;
 class QWidget;
 
 namespace ps {
 
 /// A field with its label before it, below what a dialog's two columns hold already.
 void addDialogRow(QGridLayout& grid, const QString& label, QWidget* field, const QString& tip);
+
+/// A row of a dialog, as Ctrl+K finds it.
+struct DialogRow {
+  QString label;
+  QString words;  ///< further ones to find it by
+};
+/// Gives the field of that name the focus; "": nothing happens.
+void focusDialogRow(const QWidget& dialog, const QString& label);
 
 }  // namespace ps

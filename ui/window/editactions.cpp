@@ -23,9 +23,9 @@ void EditActions::makeMenu(QMenu* menu) {
   menu->addSeparator();
   m_actions.add(menu, QStringLiteral("edit.rename"), QStringLiteral("Rename"), {QKeySequence(QStringLiteral("F2"))},
                 [this] { m_outliner.renameSelected(); });
-  m_actions.add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide body"), {},
+  m_actions.add(menu, QStringLiteral("edit.visible"), QStringLiteral("Show or hide"), {},
                 [this] { m_outliner.toggleVisible(); });
-  m_actions.add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock body"), {},
+  m_actions.add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock or unlock"), {},
                 [this] { m_outliner.toggleLocked(); });
   m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(); });
   m_actions.add(
@@ -61,10 +61,12 @@ void EditActions::openItemMenu(const QPoint& global) const {
   const bool body = !m_selection.body().empty(), placed = body || m_selection.port();
   const OutlineKind kind = m_selection.kind();
   if (placed || kind == OutlineKind::Probe || kind == OutlineKind::Wall || kind == OutlineKind::Pin) {
-    if (kind != OutlineKind::Wall && kind != OutlineKind::Pin) add("edit.rename");
-    if (body) {
+    if (kind != OutlineKind::Pin) {
+      add("edit.rename");
       add("edit.visible");
       add("edit.locked");
+    }
+    if (body) {
       add("edit.isolate");
       add("edit.pin");
     }

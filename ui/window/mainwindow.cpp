@@ -386,8 +386,7 @@ void MainWindow::showPluginProblems() {
 
 std::vector<PaletteEntry> MainWindow::paletteEntries() {
   m_files->updateRestore();
-  return ps::paletteEntries(*m_session, *m_selection, m_actions,
-                            [this](const Address& address) { revealParameter(address); });
+  return ps::paletteEntries(*this, m_actions);
 }
 
 void MainWindow::updateTitle() {

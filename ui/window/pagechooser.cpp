@@ -7,12 +7,28 @@
 #include "ui/window/dock.h"
 #include "ui/window/windowlayout.h"
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
 const QString kInspector = QStringLiteral("dock.inspector");
 const QString kBody = QStringLiteral("Body"), kMaterial = QStringLiteral("Material"), kScene = QStringLiteral("Scene"),
               kSolver = QStringLiteral("Solver"), kBrush = QStringLiteral("Brush");
+
+/// What the first page is called for what is selected, which it shows in the place of bodies; "" where it does not.
+QString titleInstead(const Selection& selection) {
+  const OutlineKind kind = selection.kind();
+  const auto& items = selection.items();
+  const auto count =
+      std::count_if(items.begin(), items.end(), [&](const SelectedItem& item) { return item.kind == kind; });
+  if (kind == OutlineKind::Probe) return count > 1 ? QStringLiteral("Probes") : QStringLiteral("Probe");
+  if (count < 2) return {};
+  return kind == OutlineKind::Wall      ? QStringLiteral("Walls")
+         : kind == OutlineKind::Emitter ? QStringLiteral("Taps")
+         : kind == OutlineKind::Sink    ? QStringLiteral("Drains")
+                                        : QString();
+}
 
 }  // namespace
 
@@ -33,9 +49,13 @@ void PageChooser::onTool() {
 }
 
 void PageChooser::onSelection() {
-  const bool probe = !m_selection.empty() && m_selection.kind() == OutlineKind::Probe;
-  m_layout.setPageTitle(kBody, probe ? QStringLiteral("Probe") : kBody);
+  const QString instead = titleInstead(m_selection);
+  m_layout.setPageTitle(kBody, instead.isEmpty() ? kBody : instead);
   if (m_selection.empty()) return;
+  if (!instead.isEmpty() && m_selection.kind() != OutlineKind::Probe) {
+    m_layout.showPage(kBody);
+    return;
+  }
   const std::string id = m_selection.id();
   switch (m_selection.kind()) {
     case OutlineKind::Body:

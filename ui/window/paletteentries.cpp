@@ -5,19 +5,33 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/presets.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
+#include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
+#include "ui/window/dialogrow.h"
+#include "ui/window/libraryactions.h"
+#include "ui/window/mainwindow.h"
+#include "ui/window/preferenceswindow.h"
+#include "ui/window/projectwindow.h"
 #include "ui/window/welcome.h"
+#include "ui/window/windowlayout.h"
 
 #include <QtGui/QAction>
 
 #include <set>
+#include <utility>
 
 namespace ps {
 namespace {
+
+using Entries = std::vector<PaletteEntry>;
 
 QString valueText(Document& document, const Address& address, const api::ParameterDeclaration& declaration) {
   const Value value = document.value(address);
@@ -31,22 +45,39 @@ QString valueText(Document& document, const Address& address, const api::Paramet
   return formatValue(declaration, std::get<Response>(value).at(293.15));
 }
 
-}  // namespace
+/// Why an action that is disabled is so.
+QString whyNot(const QAction& action, bool ready) {
+  static constexpr std::pair<const char*, const char*> kReasons[] = {
+      {"edit.undo", "Nothing to undo"},
+      {"edit.redo", "Nothing to redo"},
+      {"sketch.real", "Nothing is held"},
+      {"view.section", "Nothing is cut open: press X"},
+      {"view.full", "The welcome page is shown"},
+      {"file.restore", "No unsaved work waits"},
+      {"file.removeState", "The project holds no saved state"},
+      {"simulation.state", "The project holds no saved state"},
+      {"file.checkEnd", "This is no copy that was made for sharing"}};
+  if (!ready) return QStringLiteral("Plugins are still being loaded");
+  for (const auto& [name, reason] : kReasons) {
+    if (action.objectName().startsWith(QLatin1String(name))) return QString::fromLatin1(reason);
+  }
+  return QStringLiteral("Not possible at present");
+}
 
-std::vector<PaletteEntry> paletteEntries(Session& session, Selection& selection, const Actions& actions,
-                                         const std::function<void(const Address&)>& reveal) {
-  std::vector<PaletteEntry> entries;
+void addActions(Entries& entries, MainWindow& window, const Actions& actions) {
+  const bool ready = window.session().isReady();
   for (QAction* action : actions.all()) {
-    if (action->objectName().isEmpty() || !action->objectName().contains(QLatin1Char('.')) || !action->isEnabled() ||
-        action->text().isEmpty())
-      continue;
+    if (!action->objectName().contains(QLatin1Char('.')) || action->text().isEmpty()) continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
     entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText),
                        action->property(kWords).toString(), [action] { action->trigger(); },
-                       action->property(kReplaces).toBool()});
+                       action->property(kReplaces).toBool(), action->isEnabled() ? QString() : whyNot(*action, ready)});
   }
-  Document& document = session.document();
+}
+
+void addParameters(Entries& entries, MainWindow& window) {
+  Document& document = window.session().document();
   for (const Address& address : allAddresses(document.project(), document.plugins())) {
     const auto* declaration = document.declaration(address);
     if (!declaration) continue;
@@ -55,22 +86,106 @@ std::vector<PaletteEntry> paletteEntries(Session& session, Selection& selection,
                        valueText(document, address, *declaration),
                        QString::fromUtf8(declaration->group) + QLatin1Char(' ') +
                            QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
-                       [reveal, address] { reveal(address); }});
+                       [&window, address] { window.revealParameter(address); }});
   }
-  if (const PluginRegistry* plugins = session.plugins()) {
-    std::set<std::string> present;
-    for (const SceneMaterial& material : document.project().materials) present.insert(material.base);
-    for (const std::string& base : plugins->ids(PluginKind::Material)) {
-      if (present.count(base)) continue;
-      const std::string& label = plugins->material(base)->label;
-      entries.push_back(
-          {QStringLiteral("Add material %1").arg(QString::fromStdString(label.empty() ? base : label)),
-           QStringLiteral("Materials"),
-           {},
-           QString::fromStdString(base),
-           [&session, &selection, base] { selection.pickMaterial(session.document().addMaterial(base)); }});
+}
+
+/// Selected, and seen: there is no view on the welcome page, and no outliner in Tune.
+void showThing(MainWindow& window, const SelectedItem& item) {
+  window.welcome().leave();
+  if (window.workspaceTab() == MainWindow::kTuneTab) window.showWorkspace(MainWindow::kSceneTab);
+  window.selection().select(item.kind, item.id);
+  if (Viewport* view = window.viewport()) view->frameSelection();
+}
+
+void addThings(Entries& entries, MainWindow& window) {
+  const auto add = [&](const auto& items, OutlineKind kind, const char* what) {
+    for (const auto& item : items) {
+      entries.push_back({nameOf(item),
+                         QString::fromLatin1(what),
+                         {},
+                         QString::fromStdString(item.id),
+                         [&window, thing = SelectedItem{kind, item.id}] { showThing(window, thing); }});
     }
+  };
+  const Project& project = window.session().document().project();
+  add(project.bodies, OutlineKind::Body, "Body");
+  add(project.emitters, OutlineKind::Emitter, "Tap");
+  add(project.sinks, OutlineKind::Sink, "Drain");
+  add(project.environment.walls, OutlineKind::Wall, "Wall");
+  add(project.probes, OutlineKind::Probe, "Probe");
+}
+
+void revealBrush(MainWindow& window, BrushPanel& panel, const QString& key) {
+  window.welcome().leave();
+  if (!window.tools().tool().usesBrush()) window.tools().activate(kBrushTool);
+  window.layoutOfDocks().showPage(QStringLiteral("Brush"));
+  panel.setFilter({});
+  panel.setChangedOnly(false);
+  panel.reveal(key);
+}
+
+void addBrush(Entries& entries, MainWindow& window) {
+  auto* panel = window.findChild<BrushPanel*>();
+  if (!panel) return;
+  for (const ParameterRow* row : panel->rows()) {
+    entries.push_back({QString::fromUtf8(row->model().declaration.label), QStringLiteral("Brush"), row->valueText(),
+                       QString::fromUtf8(row->model().declaration.group),
+                       [&window, panel, key = row->key()] { revealBrush(window, *panel, key); }});
   }
+}
+
+void addDialogs(Entries& entries, MainWindow& window) {
+  for (const DialogRow& row : preferenceRows())
+    entries.push_back({row.label, QStringLiteral("Preferences"), {}, row.words, [&window, label = row.label] {
+                         openPreferences(window, label);
+                       }});
+  for (const DialogRow& row : projectRows())
+    entries.push_back({row.label, QStringLiteral("Project properties"), {}, row.words, [&window, label = row.label] {
+                         openProjectProperties(window, label);
+                       }});
+}
+
+/// Installed ones that the scene has not, and all presets.
+void addMaterials(Entries& entries, MainWindow& window) {
+  Session& session = window.session();
+  Selection& selection = window.selection();
+  const PluginRegistry* plugins = session.plugins();
+  if (!plugins) return;
+  const auto title = [](const QString& label) { return QStringLiteral("Add material %1").arg(label); };
+  std::set<std::string> present;
+  for (const SceneMaterial& material : session.document().project().materials) present.insert(material.base);
+  for (const std::string& base : plugins->ids(PluginKind::Material)) {
+    if (present.count(base)) continue;
+    const std::string& label = plugins->material(base)->label;
+    entries.push_back({title(QString::fromStdString(label.empty() ? base : label)),
+                       QStringLiteral("Materials"),
+                       {},
+                       QString::fromStdString(base),
+                       [&session, &selection, base] { selection.pickMaterial(session.document().addMaterial(base)); }});
+  }
+  for (const LibraryEntry& entry : window.library().library().entries()) {
+    if (entry.file.isEmpty()) continue;
+    entries.push_back({title(entry.label),
+                       QStringLiteral("Presets"),
+                       {},
+                       entry.about,
+                       [&session, &selection, material = entry.material] {
+                         selection.pickMaterial(addPreset(session.document(), material));
+                       }});
+  }
+}
+
+}  // namespace
+
+std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& actions) {
+  Entries entries;
+  addActions(entries, window, actions);
+  addParameters(entries, window);
+  addMaterials(entries, window);
+  addThings(entries, window);
+  addBrush(entries, window);
+  addDialogs(entries, window);
   return entries;
 }
 

@@ -5,13 +5,10 @@
 namespace ps {
 
 class Actions;
-class Session;
-class Selection;
-struct Address;
+class MainWindow;
 
-/// Everything that Ctrl+K finds now: actions, parameters with their values, materials that could be added. `reveal`
-/// jumps to a parameter's row.
-std::vector<PaletteEntry> paletteEntries(Session& session, Selection& selection, const Actions& actions,
-                                         const std::function<void(const Address&)>& reveal);
+/// Everything that Ctrl+K finds now: actions, parameters with their values, things of the scene, materials and presets
+/// that could be added, rows of the brush, of the preferences and of what the project says of itself.
+std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& actions);
 
 }  // namespace ps

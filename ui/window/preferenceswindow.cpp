@@ -302,12 +302,24 @@ void Preferences::refresh() {
 
 }  // namespace
 
-void openPreferences(MainWindow& window) {
+void openPreferences(MainWindow& window, const QString& row) {
   auto* dialog = window.findChild<QDialog*>(kName);
   if (!dialog) dialog = new Preferences(window);
   dialog->show();
   dialog->raise();
   dialog->activateWindow();
+  focusDialogRow(*dialog, row);
+}
+
+std::vector<DialogRow> preferenceRows() {
+  return {{QStringLiteral("Theme"), QStringLiteral("dark light colours window")},
+          {QStringLiteral("Temperatures"), QStringLiteral("unit Celsius kelvin Fahrenheit")},
+          {QStringLiteral("Mouse"), QStringLiteral("buttons preset Blender Maya")},
+          {QStringLiteral("At the start"), QStringLiteral("welcome page last scene")},
+          {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
+          {QStringLiteral("In memory, at most"), QStringLiteral("recording of a run")},
+          {QStringLiteral("On the disk, at most"), QStringLiteral("recording of a run")},
+          {QStringLiteral("Folder"), QStringLiteral("recording of a run disk")}};
 }
 
 }  // namespace ps

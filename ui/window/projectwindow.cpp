@@ -6,6 +6,7 @@
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
 #include "ui/welcome/thumbnails.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/welcome.h"
 
@@ -222,12 +223,20 @@ void ProjectProperties::done(int result) {
 
 }  // namespace
 
-void openProjectProperties(MainWindow& window) {
+void openProjectProperties(MainWindow& window, const QString& row) {
   auto* dialog = window.findChild<QDialog*>(kName);
   if (!dialog) dialog = new ProjectProperties(window);
   dialog->show();
   dialog->raise();
   dialog->activateWindow();
+  focusDialogRow(*dialog, row);
+}
+
+std::vector<DialogRow> projectRows() {
+  return {{QStringLiteral("Title"), QStringLiteral("name of the project")},
+          {QStringLiteral("Description"), QStringLiteral("what the scene shows")},
+          {QStringLiteral("To try"), QStringLiteral("what to change first")},
+          {QStringLiteral("Duration"), QStringLiteral("length of the run, end")}};
 }
 
 }  // namespace ps

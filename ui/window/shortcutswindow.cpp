@@ -96,6 +96,7 @@ void openShortcuts(MainWindow& window) {
     list->setColumnCount(2);
     list->setHeaderHidden(true);
     list->setRootIsDecorated(false);
+    list->setAllColumnsShowFocus(true);
     list->setSelectionMode(QAbstractItemView::SingleSelection);
     fill(*list, window);
     QObject::connect(&window.tools(), &Toolbox::mouseChanged, list, [list, &window] { fill(*list, window); });

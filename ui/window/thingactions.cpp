@@ -7,7 +7,6 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/freename.h"
-#include "ui/document/pinaddress.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/session/excerpt.h"
 #include "ui/session/pinexcerpt.h"
@@ -70,11 +69,15 @@ void nameApart(Project& things, const Project& scene) {
   each(things.probes, scene.probes);
 }
 
-/// "" or the body that something is, or is a part of.
-std::string bodyBehind(const SelectedItem& item) {
-  if (item.kind == OutlineKind::Body) return item.id;
-  const auto pin = item.kind == OutlineKind::Pin ? PinAddress::parse(item.id) : std::nullopt;
-  return pin ? pin->body : std::string();
+void unlock(Project& things) {
+  const auto each = [](auto& items) {
+    for (auto& item : items) item.locked = false;
+  };
+  each(things.bodies);
+  each(things.emitters);
+  each(things.sinks);
+  each(things.environment.walls);
+  each(things.probes);
 }
 
 /// Those of the same ids, as they are now.
@@ -288,7 +291,7 @@ Placement ThingActions::insert(Project things, const QString& title, const QStri
     return {};
   }
   place(things, shifted(as, *way));
-  for (Body& body : things.bodies) body.locked = false;
+  unlock(things);
   const uint64_t before = document.changeCount();
   const Placement come = document.insertThings(std::move(things), title.arg(what));
   const bool had = document.changeCount() == before;
@@ -297,15 +300,17 @@ Placement ThingActions::insert(Project things, const QString& title, const QStri
   return come;
 }
 
-/// Locked bodies stay, with their pins, and are told of.
+/// What is locked stays, a body with its pins, and is told of.
 void ThingActions::remove(const char* title) {
   Document& document = m_session.document();
   std::vector<SelectedItem> items = m_selection.items();
   QString problem;
   std::erase_if(items, [&](const SelectedItem& item) {
-    const Body* body = document.body(bodyBehind(item));
-    if (body && body->locked) problem = QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*body));
-    return body && body->locked;
+    const auto thing = thingOf(item);
+    const auto marks = thing ? document.marks(*thing) : std::nullopt;
+    if (!marks || !marks->locked) return false;
+    problem = QStringLiteral("“%1” is locked. Unlock it first.").arg(ownerLabel(document.project(), *thing));
+    return true;
   });
   m_notices.refuse(items.empty() ? QStringLiteral("Nothing was deleted.") : QStringLiteral("Not all was deleted."),
                    problem);
