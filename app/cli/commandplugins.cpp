@@ -65,6 +65,7 @@ json jsonOf(const PluginRegistry& plugins, const PluginInfo& info) {
            {"author", info.author}, {"help", info.help},
            {"path", info.path},     {"capabilities", info.capabilities},
            {"json", info.json},     {"state", pluginStateName(info.state)}};
+  if (!info.tags.empty()) out["tags"] = info.tags;
   if (!info.problem.empty()) out["problem"] = info.problem;
   if (!info.note.empty()) out["note"] = info.note;
   if (info.state == PluginInfo::State::Loaded) out["parameters"] = jsonOf(plugins.parameters(info.id));

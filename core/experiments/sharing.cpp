@@ -81,6 +81,7 @@ SharedCopy copyForSharing(Project project, const PluginRegistry& plugins) {
     out.id = material.id;
     out.mixture = material.mixture;
     out.unknown = material.unknown;
+    out.tags = material.tags;
     material = std::move(out);
     copy.written.push_back(material.id);
   }

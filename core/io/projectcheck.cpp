@@ -6,6 +6,7 @@
 #include "core/io/trackcheck.h"
 #include "core/io/wallcheck.h"
 #include "core/matter/material.h"
+#include "core/matter/tags.h"
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/solidform.h"
@@ -108,6 +109,7 @@ class ProjectChecker : public FieldVisitor {
   }
 
   void object(const SceneMaterial& source, const std::string& pointer) override {
+    if (const auto wrong = problemOfTags(source.tags)) fail(at(pointer + "/tags", wrong->index), wrong->what);
     if (!m_plugins.material(source.base)) return;
     std::optional<Material> base = baseOf(source, pointer);
     if (!base) return;

@@ -32,6 +32,8 @@ const FieldTable<SceneMaterial>& materialFields() {
       .help = "an installed material with changed properties",
       .rows = {field("id", &SceneMaterial::id, Id{}, "").required(),
                field("label", &SceneMaterial::label, Text{}, "name shown to people"),
+               field("tags", &SceneMaterial::tags, List{Text{}, "a short word: food, building"},
+                     "words by which people find it in the library"),
                field("base", &SceneMaterial::base, PluginId{PluginKind::Material, "bodies made of it stand still"}, "")
                    .required(),
                field("properties", &SceneMaterial::properties, Declared{&propertyCatalogue}, ""),

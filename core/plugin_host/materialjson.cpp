@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "core/matter/tags.h"
 #include "core/plugin_host/declarations.h"
 #include "core/plugin_host/pluginmetadata.h"
 
@@ -157,6 +158,11 @@ void readAdheresTo(const Place& place, Material& material) {
   }
 }
 
+void readTags(const Place& place, std::vector<std::string>& tags) {
+  for (size_t i = 0; i < place.list().value.size(); ++i) tags.push_back(place.at(i).text());
+  if (const auto wrong = problemOfTags(tags)) place.at(wrong->index).fail(wrong->what);
+}
+
 void readFormat(const Place& root) {
   if (!root.has("format"))
     Place{root.value, root.file, "/format"}.fail(
@@ -177,8 +183,8 @@ Material parseMaterialJson(std::string_view text, const std::string& name, Plugi
   const Place root{document, name, ""};
   root.object();
   readFormat(root);
-  root.only(
-      {"format", "version", "id", "label", "licence", "author", "help", "data_version", "adheres_to", "properties"});
+  root.only({"format", "version", "id", "label", "licence", "author", "help", "data_version", "adheres_to", "tags",
+             "properties"});
   Material material;
   const Place id = root.needed("id");
   if (const std::string problem = problemOfId(id.text()); !problem.empty()) id.fail(problem);
@@ -194,6 +200,7 @@ Material parseMaterialJson(std::string_view text, const std::string& name, Plugi
     root.at("data_version").fail(problem);
   if (root.has("adheres_to")) readAdheresTo(root.at("adheres_to"), material);
   info.adheresTo = material.adheresTo;
+  if (root.has("tags")) readTags(root.at("tags"), info.tags);
   readProperties(root.needed("properties"), material);
   return material;
 }

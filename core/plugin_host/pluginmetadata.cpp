@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plugin_host/pluginmetadata.h"
 
+#include "core/matter/tags.h"
 #include "core/plugin_host/pluginloader.h"
 
 #include <phasesketch/stamp.h>
@@ -111,6 +112,18 @@ std::string readAdheresTo(const QJsonObject& metadata, std::vector<std::string>&
     if (!problemOfId(adheresTo.back()).empty()) return rule;
   }
   return {};
+}
+
+/// Reads a material's optional list "tags"; "" or why the plugin cannot be used.
+std::string readTags(const QJsonObject& metadata, std::vector<std::string>& tags) {
+  const QJsonValue list = metadata["tags"];
+  const std::string rule =
+      "its metadata need a list of short words under the key \"tags\", or none; correct the JSON file that "
+      "Q_PLUGIN_METADATA names and build the plugin again";
+  if (list.isUndefined()) return {};
+  if (!list.isArray()) return rule;
+  for (const QJsonValue& value : list.toArray()) tags.push_back(value.toString().toStdString());
+  return problemOfTags(tags) ? rule : std::string();
 }
 
 /// Reads a brush's optional key; "" or why the plugin cannot be used.
@@ -260,6 +273,7 @@ std::string checkMetadata(const QJsonObject& root, PluginInfo& info) {
   if (const std::string what = problemOfVersion(info.version); !what.empty())
     return "the version \"" + info.version + "\" " + what;
   if (std::string what = readAdheresTo(own, info.adheresTo); !what.empty()) return what;
+  if (std::string what = readTags(own, info.tags); !what.empty()) return what;
   if (std::string what = readKey(own, info.key); !what.empty()) return what;
   return readCapabilities(own, info.capabilities);
 }

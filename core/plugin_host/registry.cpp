@@ -397,7 +397,8 @@ std::vector<PluginRegistry::MaterialReading> PluginRegistry::changedMaterials() 
     if (info.problem.empty() && info.id != known.id)
       info.problem = known.path + ":/id: was \"" + known.id +
                      "\" when the program started; another one is found at the next start";
-    if (info.problem.empty() && offered && sameMaterial(*offered, reading.material) && info.help == known.help)
+    if (info.problem.empty() && offered && sameMaterial(*offered, reading.material) && info.help == known.help &&
+        info.tags == known.tags)
       continue;
     info.id = known.id;
     if (info.label.empty()) info.label = known.label;

@@ -25,6 +25,7 @@ struct PluginInfo {
   std::string id, label, version, api, licence, author, help, path;
   std::vector<std::string> capabilities;  ///< what it needs of the program beyond its kind's interface
   std::vector<std::string> adheresTo;     ///< of materials: Material::adheresTo
+  std::vector<std::string> tags;          ///< of materials: words by which people find them
   std::string key;                        ///< of a brush: the letter of the keyboard that it asks for; "" for none
   PluginKind kind = PluginKind::Material;
   State state = State::Refused;

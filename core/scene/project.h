@@ -47,6 +47,7 @@ struct SceneMaterial {
   /// beside. nullptr: it was not.
   std::shared_ptr<const Mixture> mixture{};
   Unknown unknown;
+  std::vector<std::string> tags{};  ///< words by which people find it, see core/matter/tags.h
 };
 
 /// A block of particles on a cubic lattice of the scene's spacing.

@@ -672,6 +672,18 @@ class TestPluginHost : public QObject {
                                          << ":/adheres_to/0: must be lower-case";
     QTest::newRow("no list of materials") << replaced("\"licence\"", "\"adheres_to\": \"wood\", \"licence\"")
                                           << ":/adheres_to: must be a list, not the text 'wood'";
+    const auto tagged = [](const char* tags) {
+      return QByteArray(kSoundJson).replace("\"licence\"", QByteArray("\"tags\": ") + tags + ", \"licence\"");
+    };
+    QTest::newRow("no list of tags") << tagged("\"food\"") << ":/tags: must be a list, not the text 'food'";
+    QTest::newRow("number for a tag") << tagged("[\"food\", 7]") << ":/tags/1: must be a text, not the number 7";
+    QTest::newRow("empty tag") << tagged("[\"\"]") << ":/tags/0: must be a word of 1 to 24 letters";
+    QTest::newRow("long tag") << tagged("[\"a-word-that-nobody-reads-x\"]") << ":/tags/0: must be a word of 1 to 24";
+    QTest::newRow("two tags in one") << tagged("[\"food, kitchen\"]") << ":/tags/0: must be a word without commas";
+    QTest::newRow("tag twice") << tagged("[\"food\", \"cold\", \"Food\"]") << ":/tags/2: stands here twice";
+    QTest::newRow("too many tags")
+        << tagged("[\"a\",\"b\",\"c\",\"d\",\"e\",\"f\",\"g\",\"h\",\"i\",\"j\",\"k\",\"l\",\"m\"]")
+        << ":/tags/12: is one more than the 12";
     QTest::newRow("unknown property")
         << replaced("density_solid", "densty_solid")
         << ":/properties/densty_solid: is not a property that PhaseSketch knows (did you mean 'density_solid'?)";
@@ -738,6 +750,15 @@ class TestPluginHost : public QObject {
     QCOMPARE(registry.plugins()[1].label, std::string("Hard soap"));
     QCOMPARE(registry.plugins()[0].label, std::string("Soap"));
     QVERIFY(registry.plugins()[1].state == PluginInfo::State::Loaded && registry.changedMaterials().empty());
+    QVERIFY(write(file, QByteArray(kSoundJson)
+                            .replace("1050", "1060")
+                            .replace("Soap", "Hard soap")
+                            .replace("\"licence\"", "\"tags\": [\"bath\"], \"licence\"")));
+    const auto tagged = registry.changedMaterials();
+    QCOMPARE(tagged.size(), size_t(1));
+    registry.offer(tagged[0]);
+    QCOMPARE(registry.plugins()[1].tags, std::vector<std::string>{"bath"});
+    QVERIFY(registry.changedMaterials().empty());
     for (const auto& [from, to, says] : {std::tuple("1050", "-3", ":/properties/density_solid"),
                                          std::tuple("\"soap\"", "\"soap.other\"", ":/id: was \"soap\"")}) {
       QVERIFY(write(file, QByteArray(kSoundJson).replace(from, to)));
@@ -754,7 +775,7 @@ class TestPluginHost : public QObject {
   void materialFileKeepsSourcesAndForms() {
     PluginInfo info;
     const Material m = parseMaterialJson(R"({"format": "phasesketch-material", "version": 1, "id": "a.b", "label": "AB",
-      "licence": "MIT", "data_version": "2.1", "help": "h", "adheres_to": ["water", "wax"], "properties": {
+      "licence": "MIT", "data_version": "2.1", "help": "h", "adheres_to": ["water", "wax"], "tags": ["food", "käse"], "properties": {
       "density_solid": {"points": [[200, 900], [300, 890]], "source": "Kell", "grade": "A"}, "sinters": true,
       "density_liquid": {"points": [[200, 900, {"to_next": "step"}], [300, 890, {"to_next": "linear", "slope_before": 0.1}],
         [400, 800]]},
@@ -770,6 +791,7 @@ class TestPluginHost : public QObject {
     QCOMPARE(m.properties.at("density_liquid").points[1].slopeBefore, std::optional(0.1));
     QCOMPARE(m.properties.at("sinters").constant, 1.0);
     QCOMPARE(m.adheresTo, (std::vector<std::string>{"water", "wax"}));
+    QCOMPARE(info.tags, (std::vector<std::string>{"food", "käse"}));
     QVERIFY(m.properties.at("viscosity").kind == Response::Kind::Law);
   }
 

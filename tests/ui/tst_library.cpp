@@ -158,6 +158,17 @@ class TestLibrary : public SampleWindowTest {
     QVERIFY(page()->shown().contains(entryOf("iron")->label) && !page()->shown().contains(QStringLiteral("Water")));
   }
 
+  /// Words of files, of plugins as well.
+  void tagsOfFilesChoose() {
+    QVERIFY(entryOf("water")->tags.contains(QStringLiteral("Kitchen")));
+    QVERIFY(button(QStringLiteral("Food")));
+    page()->setTag(QStringLiteral("Food"));
+    QVERIFY(page()->shown().contains(entryOf("honey")->label) && !page()->shown().contains(entryOf("iron")->label));
+    page()->setTag({});
+    search(QStringLiteral("geology"));
+    QCOMPARE(page()->shown(), QStringList{entryOf("lava")->label});
+  }
+
   void twoAreComparedSideBySide() {
     page()->choose(QStringLiteral("Water"));
     QCOMPARE(page()->table()->columnCount(), 2);
@@ -429,6 +440,35 @@ class TestLibrary : public SampleWindowTest {
     QSignalSpy changed(&library(), &MaterialLibrary::changed);
     QTRY_VERIFY_WITH_TIMEOUT(!changed.isEmpty(), kLong);
     QVERIFY(said.isEmpty());
+  }
+
+  /// At first those of what it is of; they are written to its file, where nothing else changes.
+  void aPresetHasTagsOfItsOwn() {
+    page()->choose(QStringLiteral("Soft ice"));
+    QLineEdit* words = field(QStringLiteral("Tags"));
+    QVERIFY(words && words->isVisibleTo(page()));
+    QCOMPARE(words->text(), QStringLiteral("cold, kitchen"));
+    const auto type = [words](const char* text) {
+      words->setFocus();
+      words->selectAll();
+      QTest::keyClicks(words, QString::fromLatin1(text));
+      QTest::keyClick(words, Qt::Key_Return);
+    };
+    type("Glacier,  kitchen,");
+    QTRY_VERIFY_WITH_TIMEOUT(entry(QStringLiteral("Soft ice"))->tags.contains(QStringLiteral("Glacier")), kLong);
+    QCOMPARE(entry(QStringLiteral("Soft ice"))->material.tags, (std::vector<std::string>{"Glacier", "kitchen"}));
+    QCOMPARE(valueOf(entry(QStringLiteral("Soft ice"))->values, "youngs_modulus", 263), 3e6);
+    QCOMPARE(words->text(), QStringLiteral("Glacier, kitchen"));
+    search(QStringLiteral("glacier"));
+    QCOMPARE(page()->shown(), QStringList{QStringLiteral("Soft ice")});
+    QSignalSpy said(&library(), &MaterialLibrary::said);
+    type("ice, Ice");
+    QCOMPARE(said.size(), 1);
+    QVERIFY(said[0][0].toBool());
+    QCOMPARE(said[0][1].toString(), QStringLiteral("The tag “Ice” stands here twice."));
+    QVERIFY(entry(QStringLiteral("Soft ice"))->tags.contains(QStringLiteral("Glacier")));
+    page()->choose(QStringLiteral("Water"));
+    QVERIFY(!words->isVisibleTo(page()));
   }
 
   void oneFileIsPassedOn() {

@@ -84,7 +84,7 @@ constexpr const char* kFull = R"({
       [250, 2.6, {"slope_before": -0.02, "slope_after": -0.01}], [273.15, 2.2]]},
       "viscosity": {"law": "arrhenius", "coefficients": [0.001, 16000.5, 293.15]}, "density_solid": 916.7},
       "adheres_to": ["slime"]},
-    {"id": "slime", "base": "org.example.gone", "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
+    {"id": "slime", "base": "org.example.gone", "tags": ["food", "kitchen"], "parameters": {"stickiness": [1, 2, {"deep": null}]}}],
   "bodies": [
     {"id": "a", "material": "water", "temperature": 263.15000000000003, "fixed": true, "velocity": [0, -1e-7, 0], "jitter": 0.2, "seed": 7,
      "spin": [0, 6.283185307179586, 0], "temperature_gradient": [-20.5, 0, 0],
@@ -178,6 +178,7 @@ void TestProjectIo::everythingSurvives() {
   const Project project = parse(kFull).project;
   QCOMPARE(project.bodies.size(), size_t{2});
   QCOMPARE(project.materials[0].adheresTo, (std::optional<std::vector<std::string>>{{"slime"}}));
+  QCOMPARE(project.materials[1].tags, (std::vector<std::string>{"food", "kitchen"}));
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).runs[1].x, -2);
   QCOMPARE(project.environment.periodic, (std::array<bool, 3>{false, true, false}));
   QCOMPARE(std::get<VoxelShape>(project.bodies[1].shape).spacing, 0.02);  // not said: the scene's
@@ -456,6 +457,9 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       R"(tracks=[{"parameter": "scene/gravity", "keys": [{"time": 0, "value": 1}]},
                  {"parameter": "scene/gravity", "keys": [{"time": 1, "value": 2}]}])",
       "/tracks/1/parameter: 'scene/gravity' has a track already; put all its keys into one");
+  row("empty tag", R"(materials/0/tags=["food", ""])", "/materials/0/tags/1: must be a word of 1 to 24 letters");
+  row("tag twice", R"(materials/0/tags=["food", "Food"])", "/materials/0/tags/1: stands here twice");
+  row("no tag", R"(materials/0/tags=[7])", "/materials/0/tags/0: must be text, not the number 7");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
   row("too new, as a fraction", "version=10.0", "/version: needs project format 10.0, this program reads up to 1");
   row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");

@@ -4,6 +4,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
+#include "ui/library/flow.h"
 #include "ui/library/materialcard.h"
 #include "ui/library/phaseview.h"
 #include "ui/session/carriedmaterial.h"
@@ -17,6 +18,7 @@
 
 #include <QtCore/QEvent>
 #include <QtCore/QMimeData>
+#include <QtCore/QSignalBlocker>
 #include <QtGui/QDrag>
 #include <QtGui/QPainter>
 #include <QtWidgets/QButtonGroup>
@@ -108,6 +110,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_selection(selection),
       m_search(new QLineEdit),
       m_name(new QLineEdit),
+      m_words(new QLineEdit),
       m_cards(new CardList(library, [this](QMimeData* carried) { carry(carried); })),
       m_table(new QTreeWidget),
       m_title(new QLabel),
@@ -149,12 +152,8 @@ QWidget* LibraryPage::makeLeft() {
   m_search->setFixedWidth(190);
   head->addWidget(m_search);
   column->addLayout(head);
-  auto* choices = new QHBoxLayout;
-  m_chips = new QHBoxLayout;
-  m_chips->setSpacing(6);
-  choices->addLayout(m_chips);
-  choices->addStretch(1);
-  column->addLayout(choices);
+  m_chips = new Flow(6);
+  column->addLayout(m_chips);
   m_cards->setItemDelegate(new MaterialCard(m_library, m_session.swatches(), m_cards));
   m_cards->setViewMode(QListView::IconMode);
   m_cards->setResizeMode(QListView::Adjust);
@@ -200,6 +199,10 @@ QWidget* LibraryPage::makeRight() {
   shown->addWidget(m_about, 1);
   column->addLayout(shown);
   column->addWidget(m_phases);
+  m_words->setPlaceholderText(QStringLiteral("Tags, with commas between them"));
+  m_words->setAccessibleName(QStringLiteral("Tags"));
+  m_words->setToolTip(QStringLiteral("Words by which this preset is found, with commas between them: food, kitchen"));
+  column->addWidget(m_words);
   m_table->setRootIsDecorated(false);
   m_table->setSelectionMode(QAbstractItemView::NoSelection);
   m_table->setAccessibleName(QStringLiteral("Properties"));
@@ -230,6 +233,11 @@ QWidget* LibraryPage::makeRight() {
   connect(m_remove, &QPushButton::clicked, this, [this] {
     if (const auto some = chosen(); !some.empty()) m_library.removePreset(*some.front());
   });
+  connect(m_words, &QLineEdit::editingFinished, this, [this] {
+    if (const auto some = chosen(); some.size() == 1 && m_words->isModified())
+      m_library.setTags(*some.front(), m_words->text());
+    m_words->setModified(false);
+  });
   connect(mix, &QPushButton::clicked, this, [this] {
     const QStringList labels = compared();
     Q_EMIT mixWanted(labels.value(0), labels.value(1));
@@ -252,6 +260,7 @@ void LibraryPage::refresh() {
       QStringLiteral("The bar shows solid, liquid and gas from %1 to %2 under the air's usual pressure; its "
                      "line is at %3. Ctrl+click compares two. Drag a card onto a body, which becomes of it.")
           .arg(temperatureText(kColdest, 0), temperatureText(kHottest, 0), temperatureText(kRoom, 0)));
+  const QSignalBlocker quiet(m_cards);  // what is chosen shows below, once
   m_cards->clear();
   for (size_t i = 0; i < m_library.entries().size(); ++i) {
     const LibraryEntry& entry = m_library.entries()[i];
@@ -341,6 +350,7 @@ void LibraryPage::showChosen() {
   m_phases->showMaterials(some);
   for (QPushButton* button : {m_add, m_export}) button->setEnabled(!some.empty());
   m_remove->setVisible(some.size() == 1 && !some.front()->file.isEmpty());
+  showTags();
   const api::ParameterList catalogue = propertyCatalogue();
   for (size_t at = 0; at < catalogue.count; ++at) {
     const api::ParameterDeclaration& declaration = catalogue[at];
@@ -367,6 +377,21 @@ void LibraryPage::showChosen() {
     m_table->resizeColumnToContents(k);
     m_table->setColumnWidth(k, std::min(m_table->columnWidth(k), kWidestColumn));
   }
+}
+
+/// Of one preset, whose file they are written to; what somebody is typing stays.
+void LibraryPage::showTags() {
+  const std::vector<const LibraryEntry*> some = chosen();
+  const bool one = some.size() == 1 && !some.front()->file.isEmpty();
+  const QString of = one ? m_cards->selectedItems().front()->data(kKeyRole).toString() : QString();
+  const bool stays = m_words->isModified() && of == m_wordsOf;
+  m_wordsOf = of;
+  m_words->setVisible(one);
+  if (stays) return;
+  QStringList words;
+  for (const std::string& tag : one ? some.front()->material.tags : std::vector<std::string>{})
+    words << QString::fromStdString(tag);
+  m_words->setText(words.join(QStringLiteral(", ")));
 }
 
 /// The scene's material that would become a preset.

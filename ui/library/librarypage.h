@@ -7,7 +7,6 @@
 #include <array>
 
 class QButtonGroup;
-class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -17,6 +16,7 @@ class QTreeWidget;
 
 namespace ps {
 
+class Flow;
 class PhaseView;
 class Selection;
 class SwatchView;
@@ -54,6 +54,7 @@ class LibraryPage : public QWidget {
   QWidget* makeRight();
   void filter();
   void showChosen();
+  void showTags();
   void showScene();
   void addToScene();
   void carry(QMimeData* carried);
@@ -61,8 +62,9 @@ class LibraryPage : public QWidget {
   MaterialLibrary& m_library;
   Session& m_session;
   Selection& m_selection;
-  QLineEdit *m_search, *m_name;
-  QHBoxLayout* m_chips = nullptr;
+  QLineEdit *m_search, *m_name, *m_words;
+  QString m_wordsOf;  ///< whose tags the line has, by the key of its card
+  Flow* m_chips = nullptr;
   QButtonGroup* m_tags = nullptr;
   QListWidget* m_cards;
   QTreeWidget* m_table;

@@ -5,6 +5,7 @@
 #include "core/io/mixing.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
+#include "core/matter/tags.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/compile.h"
 #include "ui/document/declared.h"
@@ -38,7 +39,14 @@ Project holding(const SceneMaterial& material) {
   return project;
 }
 
-QStringList tagsOf(const LibraryEntry& entry) {
+/// As tags show: "Food" of "food".
+QString shownTag(const std::string& tag) {
+  const QString text = QString::fromStdString(tag);
+  return text.left(1).toUpper() + text.mid(1);
+}
+
+/// `own`: those of its file.
+QStringList tagsOf(const LibraryEntry& entry, const std::vector<std::string>& own) {
   QStringList tags;
   for (const PhaseBand& band : entry.bands) {
     if (kRoom < band.from || kRoom >= band.to) continue;
@@ -50,6 +58,8 @@ QStringList tagsOf(const LibraryEntry& entry) {
       valueOf(entry.values, "density_solid", kRoom) > kMetalWeighs)
     tags << QStringLiteral("Metals");
   if (!entry.file.isEmpty()) tags << QStringLiteral("Presets");
+  for (const std::string& tag : own) tags << shownTag(tag);
+  tags.removeDuplicates();
   return tags;
 }
 
@@ -67,13 +77,18 @@ std::map<QString, QDateTime> installedFiles(const PluginRegistry& plugins) {
   return files;
 }
 
+/// What its plugin says of itself; nothing where that is not installed.
+PluginInfo infoOf(const PluginRegistry& plugins, const SceneMaterial& material) {
+  for (const PluginInfo& plugin : plugins.plugins()) {
+    if (plugin.id == material.base) return plugin;
+  }
+  return {};
+}
+
 QString aboutOf(const PluginRegistry& plugins, const SceneMaterial& material) {
   if (material.mixture)
     return QStringLiteral("A mixture of %1.").arg(QString::fromStdString(mixtureText(*material.mixture)));
-  for (const PluginInfo& plugin : plugins.plugins()) {
-    if (plugin.id == material.base) return QString::fromStdString(plugin.help);
-  }
-  return {};
+  return QString::fromStdString(infoOf(plugins, material).help);
 }
 
 }  // namespace
@@ -229,7 +244,7 @@ LibraryEntry MaterialLibrary::entryOf(const SceneMaterial& material, const QStri
                      colourOf(project, &plugins, material.id),
                      {}};
   entry.bands = bandsOf(entry.values);
-  entry.tags = tagsOf(entry);
+  entry.tags = tagsOf(entry, file.isEmpty() ? infoOf(plugins, material).tags : material.tags);
   return entry;
 }
 
@@ -245,7 +260,7 @@ LibraryEntry MaterialLibrary::entryOf(const PluginRegistry::MaterialReading& wai
   entry.values = waiting.material;
   entry.about = QString::fromStdString(waiting.info.help);
   entry.bands = bandsOf(entry.values);
-  entry.tags = tagsOf(entry);
+  entry.tags = tagsOf(entry, waiting.info.tags);
   return entry;
 }
 
@@ -303,11 +318,11 @@ QStringList MaterialLibrary::tags() const {
   return tags;
 }
 
-void MaterialLibrary::write(const SceneMaterial& material, const QString& path, const QString& done) {
-  m_session.worker().run([this, material, path, done] {
+void MaterialLibrary::write(const QString& path, const QString& done, std::function<std::string()> text) {
+  m_session.worker().run([this, text = std::move(text), path, done] {
     QString problem;
     try {
-      writeFileAtomically(path.toStdString(), writeProject(holding(material)));
+      writeFileAtomically(path.toStdString(), text());
     } catch (const std::exception& error) {
       problem = QString::fromUtf8(error.what());
     }
@@ -343,13 +358,44 @@ bool MaterialLibrary::isAlone(const LibraryEntry& entry) const {
 void MaterialLibrary::keep(SceneMaterial material, const QString& label, const QString& path) {
   material.label = label.toStdString();
   material.id = material.mixture ? "mixture" : material.base;
-  write(material, path, QStringLiteral("“%1” is kept among your presets.").arg(label));
+  write(path, QStringLiteral("“%1” is kept among your presets.").arg(label),
+        [material] { return writeProject(holding(material)); });
 }
 
 void MaterialLibrary::savePreset(const SceneMaterial& material, const QString& name) {
   const QString label = name.trimmed();
   if (label.isEmpty()) return Q_EMIT said(true, QStringLiteral("A preset needs a name."));
-  keep(material, label, placeOf(label, true, {}));
+  SceneMaterial preset = material;
+  preset.tags = tagsOfKept(label, material);
+  keep(std::move(preset), label, placeOf(label, true, {}));
+}
+
+/// Its own, or those of the preset that it replaces, or of the installed one that it is of.
+std::vector<std::string> MaterialLibrary::tagsOfKept(const QString& label, const SceneMaterial& material) const {
+  if (!material.tags.empty()) return material.tags;
+  for (const LibraryEntry& entry : m_entries) {
+    if (entry.label == label && entry.file.startsWith(m_folder) && isAlone(entry)) return entry.material.tags;
+  }
+  return material.mixture ? std::vector<std::string>{} : infoOf(*m_session.plugins(), material).tags;
+}
+
+void MaterialLibrary::setTags(const LibraryEntry& preset, const QString& words) {
+  std::vector<std::string> tags;
+  for (const QString& word : words.split(QLatin1Char(','))) {
+    if (const QString tag = word.simplified(); !tag.isEmpty()) tags.push_back(tag.toStdString());
+  }
+  if (tags == preset.material.tags) return;
+  if (const auto wrong = problemOfTags(tags))
+    return Q_EMIT said(true, QStringLiteral("The tag “%1” %2.")
+                                 .arg(QString::fromStdString(tags[wrong->index]), QString::fromStdString(wrong->what)));
+  write(preset.file, QStringLiteral("The tags of “%1” are kept.").arg(preset.label),
+        [plugins = m_session.registry(), path = preset.file.toStdString(), id = preset.material.id, tags] {
+          Project project = loadProject(path, *plugins).project;
+          for (SceneMaterial& material : project.materials) {
+            if (material.id == id) material.tags = tags;
+          }
+          return writeProject(project);
+        });
 }
 
 void MaterialLibrary::importFrom(const QString& path) {
@@ -375,7 +421,8 @@ void MaterialLibrary::importFrom(const QString& path) {
 }
 
 void MaterialLibrary::exportTo(const LibraryEntry& entry, const QString& path) {
-  write(entry.material, path, QStringLiteral("“%1” is written to %2.").arg(entry.label, path));
+  write(path, QStringLiteral("“%1” is written to %2.").arg(entry.label, path),
+        [material = entry.material] { return writeProject(holding(material)); });
 }
 
 void MaterialLibrary::removePreset(const LibraryEntry& entry) {

@@ -15,6 +15,7 @@
 #include <QtCore/QTimer>
 #include <QtGui/QColor>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -30,7 +31,7 @@ struct LibraryEntry {
   Material values;         ///< all its properties
   QString label, about;
   QString file;      ///< of a preset; "": installed
-  QStringList tags;  ///< words to choose by
+  QStringList tags;  ///< words to choose by: what it is by its values, and those of its file
   QColor colour;
   std::vector<PhaseBand> bands;  ///< coldest first
 };
@@ -57,6 +58,8 @@ class MaterialLibrary : public QObject {
   void importFrom(const QString& path);
   void exportTo(const LibraryEntry& entry, const QString& path);
   void removePreset(const LibraryEntry& entry);
+  /// `words`: with commas between them. Nothing else of the preset's file changes.
+  void setTags(const LibraryEntry& preset, const QString& words);
   /// Labels of installed materials whose files have other values by now than the scene's run is made of.
   QStringList waiting() const;
   /// Those come to act: the scene goes back to its start.
@@ -82,7 +85,9 @@ class MaterialLibrary : public QObject {
   QString placeOf(const QString& label, bool replaces, const QStringList& taken) const;
   bool isAlone(const LibraryEntry& entry) const;  ///< in its file
   void keep(SceneMaterial material, const QString& label, const QString& path);
-  void write(const SceneMaterial& material, const QString& path, const QString& done);
+  /// `text` is made by the worker; what it throws is said.
+  void write(const QString& path, const QString& done, std::function<std::string()> text);
+  std::vector<std::string> tagsOfKept(const QString& label, const SceneMaterial& material) const;
   Session& m_session;
   QString m_folder;
   QFileSystemWatcher m_watcher;
