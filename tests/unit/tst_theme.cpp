@@ -21,8 +21,11 @@
 #include <QtWidgets/QTabBar>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace ps;
 
@@ -41,6 +44,72 @@ api::ParameterDeclaration declaration(const char* unit, const char* shown = "", 
   return d;
 }
 
+using Triple = std::array<double, 3>;
+using Matrix = std::array<Triple, 3>;
+
+/// Sight without one of the three cones, in linear sRGB: Machado, Oliveira and Fernandes, "A Physiologically-based
+/// Model for Simulation of Color Vision Deficiency", IEEE TVCG 15 (2009) 1291, the matrices of severity 1.
+struct Sight {
+  const char* name;
+  Matrix matrix;
+};
+constexpr std::array<Sight, 3> kSights{
+    {{"protan", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
+     {"deutan", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
+     {"tritan",
+      {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}}};
+constexpr Matrix kEveryCone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+Triple times(const Matrix& matrix, const Triple& v) {
+  Triple out{};
+  for (size_t i = 0; i < 3; ++i) out[i] = matrix[i][0] * v[0] + matrix[i][1] * v[1] + matrix[i][2] * v[2];
+  return out;
+}
+
+/// OKLab (Ottosson 2020) of a colour as it is seen.
+Triple seen(const QColor& colour, const Matrix& sight) {
+  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  Triple rgb = times(sight, {linear(colour.redF()), linear(colour.greenF()), linear(colour.blueF())});
+  for (double& part : rgb) part = std::clamp(part, 0.0, 1.0);
+  Triple cones = times({{{0.4122214708, 0.5363325363, 0.0514459929},
+                         {0.2119034982, 0.6806995451, 0.1073969566},
+                         {0.0883024619, 0.2817188376, 0.6299787005}}},
+                       rgb);
+  for (double& part : cones) part = std::cbrt(part);
+  return times({{{0.2104542553, 0.7936177850, -0.0040720468},
+                 {1.9779984951, -2.4285922050, 0.4505937099},
+                 {0.0259040371, 0.7827717662, -0.8086757660}}},
+               cones);
+}
+
+/// Distance in OKLab, times 100.
+double difference(const QColor& a, const QColor& b, const Matrix& sight) {
+  const Triple one = seen(a, sight), other = seen(b, sight);
+  return 100 * std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+}
+
+/// Of any two.
+double leastDifference(const std::vector<QColor>& colours, const Matrix& sight) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < colours.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) least = std::min(least, difference(colours[i], colours[k], sight));
+  }
+  return least;
+}
+
+std::vector<QColor> stopsOf(const char* map) {
+  std::vector<QColor> colours;
+  for (const auto& [position, colour] : colourMap(QString::fromLatin1(map)).stops) colours.push_back(colour);
+  return colours;
+}
+
+std::vector<QColor> seriesOf(bool dark) {
+  const Theme theme = Theme::load(dark);
+  std::vector<QColor> colours;
+  for (int i = 0; !theme.seriesDashed(i); ++i) colours.push_back(theme.series(i));
+  return colours;
+}
+
 }  // namespace
 
 class TestTheme : public QObject {
@@ -48,6 +117,10 @@ class TestTheme : public QObject {
  private Q_SLOTS:
   void contrastSuffices_data();
   void contrastSuffices();
+  void colourBlindSightTellsColoursApart_data();
+  void colourBlindSightTellsColoursApart();
+  void sightIsSimulated();
+  void phasesAreToldApartInGrey();
   void seriesAreVisible();
   void contrastIsWcags();
   void badTokensAreNamed_data();
@@ -118,6 +191,56 @@ void TestTheme::contrastSuffices() {
     const Theme theme = Theme::load(dark);
     const double ratio = contrast(theme[static_cast<Token>(foreground)], theme[static_cast<Token>(background)]);
     QVERIFY2(ratio >= least, qPrintable(QStringLiteral("%1 theme: %2").arg(dark ? "dark" : "light").arg(ratio)));
+  }
+}
+
+/// The figures for which the maps were made, whole numbers: a difference of 11.9 is 12.
+void TestTheme::colourBlindSightTellsColoursApart_data() {
+  QTest::addColumn<std::vector<QColor>>("colours");
+  QTest::addColumn<double>("figure");
+  QTest::newRow("temperature") << stopsOf("temperature") << 12.0;
+  QTest::newRow("density error") << stopsOf("density_error") << 10.0;
+  QTest::newRow("phase") << stopsOf("phase") << 7.0;  // hence letters, too
+  QTest::newRow("series, dark") << seriesOf(true) << 13.0;
+  QTest::newRow("series, light") << seriesOf(false) << 13.0;
+}
+
+void TestTheme::colourBlindSightTellsColoursApart() {
+  QFETCH(std::vector<QColor>, colours);
+  QFETCH(double, figure);
+  for (const Sight& sight : kSights) {
+    const double least = leastDifference(colours, sight.matrix);
+    QVERIFY2(std::round(least) >= figure, qPrintable(QStringLiteral("%1: %2").arg(sight.name).arg(least)));
+  }
+}
+
+/// A red and a green as light as one another are one brown to who lacks a cone for either; grey is grey to all.
+void TestTheme::sightIsSimulated() {
+  const QColor red(0xC0, 0x50, 0x50), green(0x7A, 0x7A, 0x48), grey(0x80, 0x80, 0x80);
+  QVERIFY(difference(red, green, kEveryCone) > 15);
+  QVERIFY(difference(red, green, kSights[0].matrix) < 7 && difference(red, green, kSights[1].matrix) < 2);
+  QVERIFY(difference(red, green, kSights[2].matrix) > 15);
+  QVERIFY(std::abs(difference(Qt::black, Qt::white, kEveryCone) - 100) < 0.01);  // OKLab's lightness is 0 to 1
+  for (const Sight& sight : kSights) {
+    const Triple one = seen(grey, sight.matrix), other = seen(grey, kEveryCone);
+    for (size_t k = 0; k < 3; ++k) QVERIFY(std::abs(one[k] - other[k]) < 1e-4);
+  }
+}
+
+/// By letters: each another one, and dark or light enough on its colour, as a legend chooses.
+void TestTheme::phasesAreToldApartInGrey() {
+  const ColourMap& map = colourMap(QStringLiteral("phase"));
+  QCOMPARE(map.classes.size(), map.stops.size());
+  QStringList letters;
+  for (const auto& [letter, name] : map.classes) letters << letter;
+  QCOMPARE(letters.removeDuplicates(), 0);
+  for (const bool dark : {true, false}) {
+    const Theme theme = Theme::load(dark);
+    for (const auto& [position, colour] : map.stops) {
+      const double ratio = std::max(contrast(colour, theme[dark ? Token::Window : Token::Text]),
+                                    contrast(colour, theme[dark ? Token::Text : Token::Panel]));
+      QVERIFY2(ratio >= 3, qPrintable(QStringLiteral("%1: %2").arg(colour.name()).arg(ratio)));  // of marks
+    }
   }
 }
 
