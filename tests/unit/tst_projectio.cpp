@@ -459,7 +459,7 @@ void TestProjectIo::wrongValuesNameThePlace_data() {
       "/tracks/1/parameter: 'scene/gravity' has a track already; put all its keys into one");
   row("empty tag", R"(materials/0/tags=["food", ""])", "/materials/0/tags/1: must be a word of 1 to 24 letters");
   row("tag twice", R"(materials/0/tags=["food", "Food"])", "/materials/0/tags/1: stands here twice");
-  row("no tag", R"(materials/0/tags=[7])", "/materials/0/tags/0: must be a text, not the number 7");
+  row("no tag", R"(materials/0/tags=[7])", "/materials/0/tags/0: must be text, not the number 7");
   row("too new", "version=99999", "/version: needs project format 99999, this program reads up to 1");
   row("too new, as a fraction", "version=10.0", "/version: needs project format 10.0, this program reads up to 1");
   row("version in words", "version=\"one\"", "/version: must be a whole number, not the text 'one'");

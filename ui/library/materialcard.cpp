@@ -55,7 +55,7 @@ QString transitionsText(const LibraryEntry& entry) {
   for (size_t i = 1; i < entry.bands.size(); ++i) {
     const bool gas = entry.bands[i].phase == api::Phase::Gas, solid = entry.bands[i - 1].phase == api::Phase::Solid;
     const QString verb = !gas    ? flows ? QStringLiteral("melts at ") : QStringLiteral("decomposes at ")
-                         : solid ? QStringLiteral("turns to gas at ")
+                            : solid ? QStringLiteral("turns to gas at ")
                                  : QStringLiteral("boils at ");
     parts << verb + temperatureText(entry.bands[i].from, 0);
   }
