@@ -4,6 +4,8 @@
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLabel>
 
+#include <algorithm>
+
 namespace ps {
 
 void addDialogRow(QGridLayout& grid, const QString& label, QWidget* field, const QString& tip) {
@@ -20,9 +22,15 @@ void addDialogRow(QGridLayout& grid, const QString& label, QWidget* field, const
 
 void focusDialogRow(const QWidget& dialog, const QString& label) {
   if (label.isEmpty()) return;
+  const auto takes = [](const QWidget* field) { return field->focusPolicy() & Qt::TabFocus; };
   for (QWidget* field : dialog.findChildren<QWidget*>()) {
-    if (field->accessibleName() == label && field->focusPolicy() != Qt::NoFocus)
-      return field->setFocus(Qt::OtherFocusReason);
+    if (field->accessibleName() != label) continue;
+    QList<QWidget*> parts = field->findChildren<QWidget*>();  // buttons of a row that has several
+    parts.prepend(field);
+    const auto first = std::find_if(parts.begin(), parts.end(), takes);
+    if (first == parts.end()) continue;
+    (*first)->setFocus(Qt::OtherFocusReason);
+    return;
   }
 }
 

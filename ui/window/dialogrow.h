@@ -15,7 +15,7 @@ struct DialogRow {
   QString label;
   QString words;  ///< further ones to find it by
 };
-/// Gives the field of that name the focus; "": nothing happens.
+/// Gives the field of that name the focus, or the first of its parts that takes it; "": nothing happens.
 void focusDialogRow(const QWidget& dialog, const QString& label);
 
 }  // namespace ps

@@ -90,10 +90,10 @@ void addParameters(Entries& entries, MainWindow& window) {
   }
 }
 
-/// Selected, and seen: there is no view on the welcome page, and no outliner in Tune.
+/// Selected, and seen: there is no view on the welcome page, and no outliner in Tune and Film.
 void showThing(MainWindow& window, const SelectedItem& item) {
   window.welcome().leave();
-  if (window.workspaceTab() == MainWindow::kTuneTab) window.showWorkspace(MainWindow::kSceneTab);
+  if (window.workspaceTab() != MainWindow::kSketchTab) window.showWorkspace(MainWindow::kSceneTab);
   window.selection().select(item.kind, item.id);
   if (Viewport* view = window.viewport()) view->frameSelection();
 }

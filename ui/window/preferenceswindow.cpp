@@ -319,7 +319,10 @@ std::vector<DialogRow> preferenceRows() {
           {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
           {QStringLiteral("In memory, at most"), QStringLiteral("recording of a run")},
           {QStringLiteral("On the disk, at most"), QStringLiteral("recording of a run")},
-          {QStringLiteral("Folder"), QStringLiteral("recording of a run disk")}};
+          {QStringLiteral("Folder"), QStringLiteral("recording of a run disk")},
+          {QStringLiteral("Projects"), QStringLiteral("folder files")},
+          {QStringLiteral("Presets"), QStringLiteral("folder materials library")},
+          {QStringLiteral("Plugins"), QStringLiteral("folder")}};
 }
 
 }  // namespace ps
