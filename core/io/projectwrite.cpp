@@ -42,6 +42,15 @@ std::string sceneHash(const Project& project) {
   for (const char* key : {"description", "end", "generator", "graphs", "groups", "markers", "minVersion",
                           "pluginsRequired", "pluginsUsed", "probes", "thumbnail", "title", "toTry", "version", "view"})
     out.erase(key);
+  // What only the view and lists go by.
+  const auto leave = [](json& owner, const char* list, std::initializer_list<const char*> keys) {
+    if (!owner.contains(list)) return;
+    for (json& item : owner[list])
+      for (const char* key : keys) item.erase(key);
+  };
+  for (const char* list : {"emitters", "sinks"}) leave(out, list, {"visible", "locked"});
+  if (out.contains("environment")) leave(out["environment"], "walls", {"visible", "locked"});
+  leave(out, "materials", {"tags"});
   return hashText(hashOf(writeJson(out)));
 }
 

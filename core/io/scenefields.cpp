@@ -157,7 +157,7 @@ const FieldTable<Probe>& probeFields() {
                field("region_when", &Probe::regionWhen, Choice{{Probe::kAtStart, Probe::kNow}},
                      "start: sees what stood in the region then, wherever it is; now: what is in it, frame by frame"),
                field("wave", &Probe::wave, Optional{Object{wave}}, ""),
-               field("visible", &Probe::visible, Toggle{}, "its region is drawn while it is selected"),
+               field("visible", &Probe::visible, Toggle{}, "its region is drawn"),
                field("locked", &Probe::locked, Toggle{}, "protected from edits by hand")},
       .unknown = &Probe::unknown};
   return table;

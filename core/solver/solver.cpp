@@ -378,6 +378,15 @@ uint64_t Solver::frame() const { return m->frame; }
 const HeatLedger& Solver::heatLedger() const { return m->heat.ledger(); }
 double Solver::thermalEnergy() const { return m->heat.energy(m->store); }
 std::span<const double> Solver::thermalEnergies() const { return m->heat.energies(m->store); }
+double Solver::latentHeat(size_t particle) const { return m->heat.latentHeat(m->store, particle); }
+double Solver::heatOfFixed(uint32_t body) const {
+  const std::span<const double> energies = thermalEnergies();
+  double sum = 0;
+  for (size_t i = 0; i < energies.size(); ++i) {
+    if (m->store.body()[i] == body && m->store.motion()[i] == api::Motion::Static) sum += energies[i];
+  }
+  return sum;
+}
 double Solver::elasticEnergy() const { return m->constraints.energy(m->store); }
 
 std::vector<Limit> Solver::limits() const {

@@ -128,6 +128,7 @@ QString MaterialLibrary::usualFolder() {
 }
 
 void MaterialLibrary::setFolder(const QString& folder) {
+  m_watcher.removePath(m_folder);  // read() watches it again where installed materials are there too
   m_folder = folderMeant(folder);
   QDir().mkpath(m_folder);
   read();

@@ -404,6 +404,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuild();
   } else if (const auto* body = std::get_if<BodyChanged>(&event); body && body->move) {
     showPlace(body->id);
+    countSoon();
   } else if (std::holds_alternative<BodyChanged>(event) || std::holds_alternative<StrokeChanged>(event)) {
     rebuildBody();
     if (const auto* changed = std::get_if<BodyChanged>(&event)) {

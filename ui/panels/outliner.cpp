@@ -241,6 +241,7 @@ void Outliner::onChanged(const ChangeEvent& event) {
 
 void Outliner::readValues() {
   m_snapshot = m_session.snapshot();
+  countMatter();
   if (!m_document.project().tracks.empty()) refreshSurroundings();
   refreshCounts();
 }
@@ -258,25 +259,28 @@ void Outliner::refreshSurroundings() {
   show(find(OutlineKind::Environment, ""), now.parameters, environmentParameters(), "ambient_temperature");
 }
 
+/// Once for each picture of the matter: rows are made anew more often.
+void Outliner::countMatter() {
+  m_counts.clear();
+  if (!m_snapshot || !m_snapshot->bodyIds) return;
+  std::vector<size_t> byIndex(m_snapshot->bodyIds->size(), 0);
+  for (const uint32_t body : m_snapshot->body) {
+    if (body < byIndex.size()) ++byIndex[body];
+  }
+  for (size_t i = 0; i < byIndex.size(); ++i) m_counts[(*m_snapshot->bodyIds)[i]] = byIndex[i];
+}
+
 void Outliner::refreshCounts() {
   if (!m_snapshot || m_model->rowCount() == 0) return;
-  std::map<std::string, size_t> counts;
-  if (m_snapshot->bodyIds) {
-    std::vector<size_t> byIndex(m_snapshot->bodyIds->size(), 0);
-    for (const uint32_t body : m_snapshot->body) {
-      if (body < byIndex.size()) ++byIndex[body];
-    }
-    for (size_t i = 0; i < byIndex.size(); ++i) counts[(*m_snapshot->bodyIds)[i]] = byIndex[i];
-  }
   const Project& project = m_document.project();
   for (const Body& body : project.bodies) {
     if (QStandardItem* item = find(OutlineKind::Body, body.id)) {
-      item->setData(formatFixed(static_cast<double>(counts[body.id])), outline::kDetail);
+      item->setData(formatFixed(static_cast<double>(m_counts[body.id])), outline::kDetail);
     }
   }
   for (const Emitter& emitter : project.emitters) {
     if (QStandardItem* item = find(OutlineKind::Emitter, emitter.id)) {
-      item->setData(formatFixed(static_cast<double>(counts[emitter.id])), outline::kDetail);
+      item->setData(formatFixed(static_cast<double>(m_counts[emitter.id])), outline::kDetail);
     }
   }
   const bool held = !m_snapshot->id.empty() && !hasMatter(m_snapshot->stats);

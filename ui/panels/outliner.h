@@ -78,6 +78,7 @@ class Outliner : public QWidget {
   void tellDrop(const QDragMoveEvent& event) const;
   void readValues();  ///< counts, probe values
   void refreshSurroundings();
+  void countMatter();
   void refreshCounts();
   QStandardItem* find(OutlineKind kind, const std::string& id) const;
 
@@ -90,6 +91,7 @@ class Outliner : public QWidget {
   QLabel* m_nothing;  ///< what the search does not find, or what to do where there is no matter
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
+  std::map<std::string, size_t> m_counts;  ///< particles of it, by body and tap
   bool m_building = false;
 };
 

@@ -27,6 +27,17 @@ std::optional<Box> boxOf(const Snapshot& snapshot, std::optional<uint32_t> body)
   return box;
 }
 
+std::vector<std::optional<Box>> boxesOfBodies(const Snapshot& snapshot) {
+  std::vector<std::optional<Box>> boxes(snapshot.bodyIds ? snapshot.bodyIds->size() : 0);
+  for (size_t i = 0; i < snapshot.position.size(); ++i) {
+    const api::Float4& p = snapshot.position[i];
+    if (snapshot.body[i] >= boxes.size() || !std::isfinite(p.x + p.y + p.z + p.w)) continue;
+    const Vector3 centre = vectorOf(p), radius = Vector3::Constant(static_cast<double>(p.w));
+    join(boxes[snapshot.body[i]], centre - radius, centre + radius);
+  }
+  return boxes;
+}
+
 Box boxOf(const Snapshot& snapshot, const Environment& environment) {
   std::optional<Box> box = boxOf(snapshot);
   for (size_t i = 0; i < environment.walls.size(); ++i) {

@@ -117,8 +117,9 @@ double gridOf(const Placement& things) {
 MatterBoxes matterBoxesOf(const Snapshot* scene) {
   MatterBoxes boxes;
   if (!scene || !scene->bodyIds) return boxes;
-  for (uint32_t k = 0; k < scene->bodyIds->size(); ++k) {
-    if (const auto box = ps::boxOf(*scene, k)) boxes[(*scene->bodyIds)[k]] = {box->first, box->second};
+  const std::vector<std::optional<Box>> all = boxesOfBodies(*scene);
+  for (size_t k = 0; k < all.size(); ++k) {
+    if (all[k]) boxes[(*scene->bodyIds)[k]] = {all[k]->first, all[k]->second};
   }
   return boxes;
 }

@@ -116,7 +116,9 @@ bool GizmoTool::press(const Pointer& pointer) {
   m_pressed->scene = nullptr;  // its memory is not held meanwhile
   m_before = placementOf(box().document(), things);
   m_matterBefore = m_matter;
-  if (m_kind == Kind::Move) {
+  m_bounds.reset();
+  // Pins and probes belong where they are; only bodies come to rest on something.
+  if (m_kind == Kind::Move && box().handles().snap.surfaces && !m_before.bodies.empty()) {
     const MatterBoxes boxes = matterBoxesOf(pointer.scene.get());
     m_bounds = boundsOf(m_before, boxes);
     m_beside = bodiesBeside(box().document().project(), m_before, boxes);

@@ -87,7 +87,7 @@ void paintPorts(QPainter& painter, const PortView& view) {
     painter.drawPath(path);
     painter.setPen(QPen(colour, marked || warm ? 2 : 1.5, works(item) ? Qt::SolidLine : Qt::DashLine));
     painter.drawPath(path);
-    if (!marked) return;
+    if (!marked || item.locked) return;
     painter.setPen(QPen(theme[Token::Shadow], 1.5));
     painter.setBrush(colour);
     for (const PortHandle& knob : knobsOf(port, item, least)) {

@@ -107,6 +107,7 @@ void Solver::Impl::runFrame() {
 bool Solver::Impl::advance() {
   keepLastGood();
   constraints.setTime(time);
+  motion.startFrame(settings.substeps, settings.dt);
   heat.setClock(time, thermalTime);
   timed(Stage::Neighbours, [&] { freshLists(); });
   constraints.setPasses(static_cast<uint32_t>(settings.iterations * structurePasses()));
