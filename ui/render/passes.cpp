@@ -392,6 +392,9 @@ void Passes::drawPanels(const Job& job) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame.place.framebuffer);
   glViewport(frame.place.x, frame.place.y, frame.width / scale, frame.height / scale);
   glDisable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CCW);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   const Program& program = m_programs.panel;
@@ -415,6 +418,7 @@ void Passes::drawPanels(const Job& job) {
     program.texture("image", 0, (picture++)->texture.name());
     glDrawArrays(GL_TRIANGLES, 6 * static_cast<GLint>(k), 6);
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
 }
 

@@ -66,7 +66,7 @@ void Hands::makeActions() {
   m_steer = make("steer", "Turn and choose", XR_ACTION_TYPE_VECTOR2F_INPUT);
   m_steerPress = make("steer_press", "Confirm the choice", XR_ACTION_TYPE_BOOLEAN_INPUT);
   m_first = make("first", "Undo, or play", XR_ACTION_TYPE_BOOLEAN_INPUT);
-  m_second = make("second", "Undo, or redo", XR_ACTION_TYPE_BOOLEAN_INPUT);
+  m_second = make("second", "Board, or make real", XR_ACTION_TYPE_BOOLEAN_INPUT);
   m_feel = make("feel", "Feel", XR_ACTION_TYPE_VIBRATION_OUTPUT);
 }
 

@@ -66,6 +66,7 @@ class Headset::Loop {
   void frame() {
     const XrFrameState state = m_session.waitFrame();
     const steady_clock::time_point began = steady_clock::now();
+    m_waited = 0;
     m_session.beginFrame();
     m_hands.sync();
     std::optional<std::array<XrView, 2>> views;
@@ -84,8 +85,8 @@ class Headset::Loop {
     layer.viewCount = 2;
     layer.views = shown.data();
     const auto* header = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
+    const double worked = std::chrono::duration<double>(steady_clock::now() - began).count() - m_waited;
     m_session.endFrame(state.predictedDisplayTime, {&header, 1});
-    const double worked = std::chrono::duration<double>(steady_clock::now() - began).count();
     m_detail.note(std::max(worked, m_clock.took()), kNanosecond * double(state.predictedDisplayPeriod));
     m_shown = m_detail.scale();
   }
@@ -106,7 +107,9 @@ class Headset::Loop {
 
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
     EyePicture& picture = *m_pictures[eye];
+    const steady_clock::time_point asked = steady_clock::now();
     const RenderTarget target = picture.acquire(m_detail.scale());
+    m_waited += std::chrono::duration<double>(steady_clock::now() - asked).count();
     m_scene->draw(eye, eyeOf(view, m_setup.nearPlane, m_setup.farPlane), target);
     picture.release();
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
@@ -124,6 +127,7 @@ class Headset::Loop {
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;
   Detail m_detail;
+  double m_waited = 0;  ///< s of this frame, for pictures that the runtime still had
   CardClock m_clock;
 };
 

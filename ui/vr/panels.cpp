@@ -17,6 +17,7 @@ constexpr double kBeforePanel = 0.006;                    // m, of a popup
 constexpr double kEdge = 0.026;  // tangent of 1.5 degrees, by which a beam may leave what it is on
 constexpr double kAnywhere = 3;  // likewise, while it presses; of a tip, m
 constexpr double kNear = 0.03, kThrough = 0.002, kBack = 0.01;  // m of a tip from a panel
+constexpr double kDraws = 0.12, kDrawn = 0.06;                  // of a trigger's way, as HandBrush takes it
 constexpr double kPull = 0.5, kLetGo = 0.3;                     // of a trigger's way
 
 /// Upright but for a tilt, its front towards a place.
@@ -88,35 +89,39 @@ void Panels::placePopup(const HeadsetView& view) {
 void Panels::point(size_t hand, const HandInput& input) {
   std::optional<PanelPoint>& now = m_pointed[hand];
   const std::optional<PanelPoint> before = std::exchange(now, std::nullopt);
-  const bool pulled = input.aim && input.draw > (m_presses[hand] || m_draws[hand] ? kLetGo : kPull);
-  if (!pulled) m_draws[hand] = m_presses[hand] = false;
+  // A trigger stays what it was pulled for, also while nobody knows where the hand is.
+  if (input.draw < (m_draws[hand] ? kDrawn : kLetGo)) m_draws[hand] = m_presses[hand] = false;
   if (!input.aim || m_draws[hand]) return;
   if (before && before->pressed && m_places[before->panel]) {
     now = before->tip ? tipOn(before->panel, *input.aim, kAnywhere) : beamOn(before->panel, *input.aim, kAnywhere);
-    if (now) now->pressed = now->tip ? now->depth < kBack : pulled;
+    if (now) now->pressed = now->tip ? now->depth < kBack : m_presses[hand];
     return;
   }
   now = pointAnew(hand, *input.aim, before);
-  if (now && now->tip) {
-    now->pressed = before && before->tip && now->depth < kThrough && before->depth >= kThrough;
-  } else if (now) {
-    now->pressed = pulled && !m_presses[hand];
-    m_presses[hand] = pulled;
-  } else {
-    m_draws[hand] = pulled && !m_presses[hand];
+  const bool anew = !m_presses[hand] && input.draw > kPull;
+  if (!now) {
+    m_draws[hand] = !m_presses[hand] && input.draw > kDraws;
+    return;
   }
+  m_presses[hand] = m_presses[hand] || anew;
+  if (now->tip)
+    now->pressed = before && before->tip && now->depth < kThrough && before->depth >= kThrough;
+  else
+    now->pressed = anew;
 }
 
-/// The last panel lies over the others.
+/// A tip is nearer than any beam; of beams the first panel that one meets.
 std::optional<PanelPoint> Panels::pointAnew(size_t hand, const HandPose& aim,
                                             const std::optional<PanelPoint>& before) const {
+  std::optional<PanelPoint> beam;
   for (size_t panel = kPanels; panel-- > 0;) {
     if (!m_places[panel] || (panel == kPalette && hand == kLeft)) continue;  // a hand does not point at its own
     const bool was = before && before->panel == panel;
     if (auto tip = tipOn(panel, aim, was ? kBack : 0)) return tip;
-    if (auto beam = beamOn(panel, aim, was ? kEdge : 0)) return beam;
+    const auto one = beamOn(panel, aim, was ? kEdge : 0);
+    if (one && (!beam || one->depth < beam->depth)) beam = one;
   }
-  return std::nullopt;
+  return beam;
 }
 
 /// `edge`: m by which it may be beside the panel.
@@ -152,7 +157,9 @@ void Panels::addTo(Props& props, const Stand& stand, const HeadsetView& view) co
     if (!m_places[panel]) continue;
     const Place& place = *m_places[panel];
     const auto corner = [&](double x, double y) { return stand.toScene(place.at(x, y)); };
-    seen.push_back({(place.pose.position - m_head).norm(),
+    // A popup lies over the one that it came from, wherever on it.
+    const Place& far = panel == kPopup && m_places[view.panels[panel].on] ? *m_places[view.panels[panel].on] : place;
+    seen.push_back({(far.pose.position - m_head).norm(),
                     {{corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)}, view.panels[panel].image}});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first > b.first; });

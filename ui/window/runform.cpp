@@ -96,9 +96,10 @@ void RunForm::addRange() {
 void RunForm::addRates() {
   const QSignalBlocker quiet(m_every);
   const int before = std::max(0, m_every->currentIndex());
+  m_shownLength = frameLength(m_session.document().project());
   m_every->clear();
   for (const int step : kSteps) {
-    const QString rate = formatShort(1 / (step * frameLength(m_session.document().project())), 3);
+    const QString rate = formatShort(1 / (step * m_shownLength), 3);
     m_every->addItem(step == 1 ? QStringLiteral("Every one, %1 a second").arg(rate)
                                : QStringLiteral("One in %1, %2 a second").arg(QString::number(step), rate),
                      step);
@@ -118,6 +119,7 @@ void RunForm::followRun() {
   connect(clock, &QTimer::timeout, this, [this] {
     if (!isVisible()) return;
     if (!m_rangeTyped && !m_from->hasFocus() && !m_to->hasFocus()) showAll();
+    if (m_shownLength != frameLength(m_session.document().project())) addRates();
     refresh();
   });
   clock->start();

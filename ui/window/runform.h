@@ -73,6 +73,7 @@ class RunForm : public QWidget {
   QString m_place;
   bool m_chosen = false;  ///< the place, by hand
   bool m_rangeTyped = false;
+  double m_shownLength = 0;  ///< s of a frame, by which rates are told
 };
 
 /// A form to be answered or given up.

@@ -86,7 +86,7 @@ void VrMode::begin() {
   m_parts.notices.bar().close(kTopic);
   if (!m_parts.view) throw Error("VR needs OpenGL 4.3, which there is none of here; a graphics driver brings it.");
   m_link = std::make_shared<vr::HeadsetLink>();
-  m_panels = std::make_unique<VrPanels>(
+  m_panels = std::make_shared<VrPanels>(
       VrPanels::Parts{m_parts.session, m_parts.tools, m_parts.curves, m_parts.view, m_parts.actions});
   show();
   m_timer.start();
@@ -150,12 +150,16 @@ void VrMode::look() {
   showState();
 }
 
+/// A hand may open a menu that waits in there until it closes: the looks of that time have seen newer hands, and
+/// perhaps the end of the stay.
 void VrMode::useHands() {
+  const uint64_t look = ++m_looks;
+  const std::shared_ptr<VrPanels> panels = m_panels;
   const std::vector<vr::HandsSeen> all = m_link->takeHands();
   for (const vr::HandsSeen& hands : all) {
     m_hands->act(hands, m_parts.view->snapshot());
-    m_panels->act(hands);
-    if (!m_panels) return;  // a menu there was open until VR had ended
+    panels->act(hands);
+    if (look != m_looks || panels != m_panels) return;
   }
   if (!all.empty()) {
     m_sinceHands.start();
@@ -206,7 +210,7 @@ void VrMode::end(const vr::Ending& ending) {
     m_window = nullptr;
   }
   m_hands->letGo();
-  if (m_panels) m_panels.release()->deleteLater();  // likewise
+  m_panels.reset();
   m_context.reset();
   m_link.reset();
   const QString said = ending.failed ? asSentence(ending.sentence)

@@ -75,7 +75,7 @@ class VrMode : public QObject {
   std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
   std::unique_ptr<VrHands> m_hands;
-  std::unique_ptr<VrPanels> m_panels;
+  std::shared_ptr<VrPanels> m_panels;  ///< of a stay; a menu that is open there keeps them until it closes
   std::unique_ptr<vr::Headset> m_headset;
   VrWithout* m_window = nullptr;
   bool m_leaving = false;
@@ -83,7 +83,7 @@ class VrMode : public QObject {
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
   QElapsedTimer m_sinceShown, m_sinceHands;
-  uint64_t m_picture = 0;
+  uint64_t m_picture = 0, m_looks = 0;
   uint64_t m_project = 1;  ///< counts those that were shown
 };
 

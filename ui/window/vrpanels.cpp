@@ -13,6 +13,7 @@
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtGui/QWheelEvent>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -37,7 +38,6 @@ constexpr QSize kBoardSize{385, 308}, kPaletteSize{400, 360};
 constexpr double kSharpness = 2.5;               // pixels painted for each logical one
 constexpr int kOpacity = 237;                    // 93 % of 255
 constexpr int kPaint = 100, kPaintTouched = 30;  // ms between pictures
-constexpr int kOpens = 500;                      // ms after a press within which a menu is taken for one that it opened
 constexpr int kTwice = 400;                      // ms within which a second press makes it a double click
 constexpr double kTwiceReach = 8;                // px
 constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
@@ -99,6 +99,10 @@ VrPanels::VrPanels(const Parts& parts)
   m_pages = new QStackedWidget;
   column->addLayout(header);
   column->addWidget(m_pages, 1);
+  // Pages that nobody asks for go with the board.
+  for (ParameterPanel* panel :
+       {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(), m_inspector->solverPanel()})
+    panel->setParent(m_board.get());
   connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
   showUnseen(*m_palette, kPaletteSize);
   showUnseen(*m_board, kBoardSize);
@@ -146,19 +150,17 @@ QWidget* VrPanels::widget(size_t panel) const {
 
 /// Menus that the mouse opens in the window are not for the headset.
 void VrPanels::findPopup() {
-  QWidget* popup = QApplication::activePopupWidget();
-  const bool came = popup && !std::exchange(m_hadPopup, popup != nullptr);
-  if (came) m_popup = m_sincePress.isValid() && !m_sincePress.hasExpired(kOpens) ? popup : nullptr;
-  m_hadPopup = popup != nullptr;
+  if (m_delivering > 0) m_popup = QApplication::activePopupWidget();
 }
 
 bool VrPanels::paint() {
-  if (!m_sincePaint.hasExpired(m_touched ? kPaintTouched : kPaint)) return false;
+  const bool ticked = std::exchange(m_ticked, false);
+  if (!m_sincePaint.hasExpired(m_touched ? kPaintTouched : kPaint)) return ticked;
   m_sincePaint.start();
   m_touched = false;
   m_palette->follow();
   findPopup();
-  bool changed = false;
+  bool changed = ticked;
   for (size_t panel = 0; panel < vr::kPanels; ++panel) {
     vr::PanelView& view = m_painted[panel];
     QWidget* shown = widget(panel);
@@ -187,26 +189,36 @@ void VrPanels::describe(vr::HeadsetView& view) const {
 }
 
 void VrPanels::act(const vr::HandsSeen& seen) {
+  const uint64_t act = ++m_acts;
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
     const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
     follow(m_pointers[hand], point);
+    if (act != m_acts) return;  // a menu was open meanwhile: these hands are old
     if (point && std::abs(seen.hands[hand].input.steerY) > kPushed)
       scroll(m_pointers[hand], seen.hands[hand].input.steerY, seen.seconds);
   }
 }
 
 void VrPanels::letGo() {
-  for (Pointer& pointer : m_pointers) follow(pointer, std::nullopt);
+  for (Pointer& pointer : m_pointers) leave(pointer);
+}
+
+/// What it presses is let go, and not clicked.
+void VrPanels::leave(Pointer& pointer) {
+  if (pointer.pressed) {
+    const auto* button = qobject_cast<QAbstractButton*>(pointer.grabs.data());
+    if (button && pointer.on && pointer.on->isAncestorOf(button))
+      pointer.at = button->mapTo(pointer.on, QPoint(-1, -1));
+    release(pointer);
+  }
+  if (pointer.on) enter(pointer, nullptr);
+  pointer.on = nullptr;
 }
 
 void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point) {
   QWidget* on = point ? widget(point->panel) : nullptr;
-  if (!on) {
-    if (pointer.pressed) release(pointer);
-    if (pointer.on) enter(pointer, nullptr);
-    pointer.on = nullptr;
-    return;
-  }
+  if (on != pointer.on) leave(pointer);
+  if (!on) return;
   const QPointF at(point->x * on->width(), point->y * on->height());
   const bool moved = on != pointer.on || (at - pointer.at).manhattanLength() > 0.01;
   pointer.on = on;
@@ -214,7 +226,7 @@ void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& poi
   QWidget* child = on->childAt(at.toPoint());
   enter(pointer, pointer.grabs ? pointer.grabs.data() : child ? child : on);
   if (moved && pointer.under) send(pointer, *pointer.under, QEvent::MouseMove, Qt::NoButton);
-  if (point->pressed == pointer.pressed) return;
+  if (!pointer.on || point->pressed == pointer.pressed) return;
   point->pressed ? press(pointer) : release(pointer);
 }
 
@@ -225,23 +237,28 @@ void VrPanels::enter(Pointer& pointer, QWidget* under) {
   if (pointer.under) {
     pointer.under->setAttribute(Qt::WA_UnderMouse, false);
     QEvent leave(QEvent::Leave);
-    QApplication::sendEvent(pointer.under, &leave);
+    deliver(*pointer.under, leave);
   }
   pointer.under = under;
   if (!under) return;
   under->setAttribute(Qt::WA_UnderMouse, true);
   const QPointF local = under->mapFrom(pointer.on, pointer.at.toPoint());
   QEnterEvent event(local, pointer.at, pointer.on->mapToGlobal(pointer.at));
-  QApplication::sendEvent(under, &event);
-  if (under->isEnabled() && (under->focusPolicy() != Qt::NoFocus || under->inherits("QAbstractButton")))
+  deliver(*under, event);
+  if (under->isEnabled() && (under->focusPolicy() != Qt::NoFocus || under->inherits("QAbstractButton"))) {
     ++pointer.ticks;
+    m_ticked = true;
+  }
 }
 
 void VrPanels::press(Pointer& pointer) {
   const bool twice = pointer.sincePress.isValid() && !pointer.sincePress.hasExpired(kTwice) &&
                      (pointer.at - pointer.pressedAt).manhattanLength() < kTwiceReach;
   pointer.pressed = m_touched = true;
-  m_sincePress.start();
+  if (m_popup && m_popup->isVisible() && pointer.on != m_popup) {
+    m_popup->close();  // as a press beside a menu does
+    return;
+  }
   pointer.grabs = pointer.under;
   pointer.pressedAt = pointer.at;
   twice ? pointer.sincePress.invalidate() : pointer.sincePress.start();
@@ -252,7 +269,6 @@ void VrPanels::press(Pointer& pointer) {
 void VrPanels::release(Pointer& pointer) {
   pointer.pressed = false;
   m_touched = true;
-  m_sincePress.start();
   const QPointer<QWidget> held = std::exchange(pointer.grabs, nullptr);
   if (held) send(pointer, *held, QEvent::MouseButtonRelease, Qt::LeftButton);
 }
@@ -265,16 +281,24 @@ void VrPanels::scroll(Pointer& pointer, double way, double seconds) {
   const QPointF local = pointer.under->mapFrom(pointer.on, pointer.at.toPoint());
   QWheelEvent wheel(local, pointer.on->mapToGlobal(pointer.at), {}, {0, way > 0 ? kNotch : -kNotch}, Qt::NoButton,
                     Qt::NoModifier, Qt::NoScrollPhase, false);
-  QApplication::sendEvent(pointer.under, &wheel);
+  deliver(*pointer.under, wheel);
 }
 
-void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) const {
-  if (!pointer.on) return;
+void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) {
+  if (!pointer.on || (&target != pointer.on && !pointer.on->isAncestorOf(&target))) return;
   const QPointF origin = target.mapTo(pointer.on, QPoint(0, 0));
   const Qt::MouseButtons held = pointer.pressed ? Qt::LeftButton : Qt::NoButton;
   QMouseEvent event(static_cast<QEvent::Type>(type), pointer.at - origin, pointer.at,
                     pointer.on->mapToGlobal(pointer.at), button, held, Qt::NoModifier);
+  deliver(target, event);
+}
+
+void VrPanels::deliver(QWidget& target, QEvent& event) {
+  QWidget* before = QApplication::activePopupWidget();
+  ++m_delivering;
   QApplication::sendEvent(&target, &event);
+  --m_delivering;
+  if (QWidget* popup = QApplication::activePopupWidget(); popup && popup != before) m_popup = popup;
 }
 
 }  // namespace ps

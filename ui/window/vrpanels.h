@@ -69,7 +69,9 @@ class VrPanels : public QObject {
   void press(Pointer& pointer);
   void release(Pointer& pointer);
   void scroll(Pointer& pointer, double way, double seconds);
-  void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) const;
+  void leave(Pointer& pointer);
+  void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button);
+  void deliver(QWidget& target, QEvent& event);
   QWidget* makePage(const QString& title);
   void findPopup();
 
@@ -85,10 +87,11 @@ class VrPanels : public QObject {
   std::array<Pointer, 2> m_pointers;
   std::array<vr::PanelView, vr::kPanels> m_painted;
   QElapsedTimer m_sincePaint;
-  bool m_touched = true;  ///< something was pressed or pointed at since it was painted
-  QElapsedTimer m_sincePress;
-  QPointer<QWidget> m_popup;  ///< that came of a press here
-  bool m_hadPopup = false;
+  bool m_touched = true;      ///< something was pressed or pointed at since it was painted
+  bool m_ticked = false;      ///< something is to be felt
+  QPointer<QWidget> m_popup;  ///< that came of what hands do here
+  int m_delivering = 0;       ///< events: a menu may wait in one until it closes
+  uint64_t m_acts = 0;
 };
 
 }  // namespace ps

@@ -11,6 +11,7 @@
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
 #include <QtGui/QWheelEvent>
+#include <QtWidgets/QApplication>
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +26,9 @@ constexpr double kReach = 0.03;  // m for each notch of the wheel
 constexpr double kNotch = 120;
 constexpr const char* kHints[] = {
     "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach",
-    "Right-drag: look    W A S D E Q: walk    Arrows: size, turn    N: material    U: undo    P: board    F: go there  "
-    "  Space: play  "
+    "Right-drag: look    W A S D E Q: walk    F: go there    Arrows: size, turn    N: material    P: board    U: undo  "
     "  "
-    "Esc: end"};
+    "Space: play    Esc: end"};
 
 }  // namespace
 
@@ -40,6 +40,7 @@ VrWithout::VrWithout(std::shared_ptr<vr::HeadsetLink> link, QWidget* parent)
   setMouseTracking(true);
   setCursor(Qt::BlankCursor);  // the hand is the pointer
   resize(960, 720);
+  qApp->installEventFilter(this);
   m_next.setSingleShot(true);
   connect(&m_next, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   m_clock.start();
@@ -128,6 +129,26 @@ void VrWithout::paintHints() {
   for (int i = 0; i < 2; ++i)
     paintText(painter, QRectF(box.left() + 12, box.top() + 4 + 18 * i, box.width() - 24, 18), Qt::AlignCenter,
               QString::fromUtf8(kHints[i]), font, theme[Token::Text]);
+}
+
+/// A menu that is open has all events of the mouse; here they are the hand's, which points at the menu's picture.
+bool VrWithout::eventFilter(QObject* watched, QEvent* event) {
+  const bool mouse = event->type() == QEvent::MouseMove || event->type() == QEvent::MouseButtonPress ||
+                     event->type() == QEvent::MouseButtonRelease;
+  if (!mouse || !event->spontaneous() || watched == this || !watched->isWidgetType() ||
+      !QApplication::activePopupWidget())
+    return false;
+  const auto* there = static_cast<QMouseEvent*>(event);
+  const QPointF at = mapFromGlobal(there->globalPosition());
+  if (!QRectF(rect()).contains(at)) return false;
+  QMouseEvent own(there->type(), at, there->globalPosition(), there->button(), there->buttons(), there->modifiers());
+  if (own.type() == QEvent::MouseMove)
+    mouseMoveEvent(&own);
+  else if (own.type() == QEvent::MouseButtonPress)
+    mousePressEvent(&own);
+  else
+    mouseReleaseEvent(&own);
+  return true;
 }
 
 void VrWithout::mouseMoveEvent(QMouseEvent* event) {

@@ -41,6 +41,7 @@ class VrWithout : public QOpenGLWidget {
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
   bool focusNextPrevChild(bool) override { return false; }  ///< Tab takes the other hand
 
  private:
