@@ -10,9 +10,11 @@
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
+#include "ui/window/dock.h"
 #include "ui/window/exportform.h"
 #include "ui/window/filmform.h"
 #include "ui/window/statusline.h"
+#include "ui/window/windowlayout.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>

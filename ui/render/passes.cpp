@@ -156,17 +156,18 @@ void Passes::drawSurfaces(const Job& job) {
     drawParticles(m_programs.sphere, plain, m_visible, {0, frame.visible.size()});
   else
     drawParticles(m_programs.sphere, plain, m_particles, prepared.instances.sphereRange(frame.amongSpheres));
-  const auto drawMesh = [this](GLint mark, const Buffer& buffer, const std::vector<MeshVertex>& mesh) {
+  const auto drawMesh = [this](GLint mark, const Buffer& buffer, const std::vector<MeshVertex>& mesh, float ofScene) {
     if (mesh.empty()) return;
     glStencilFunc(GL_ALWAYS, mark, 0xFF);
     m_programs.mesh.use();
+    glUniform1f(m_programs.mesh.at("ofScene"), ofScene);
     const VertexArray array;
     array.bind();
     meshAttributes(buffer.name());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
   };
-  drawMesh(kMatter, m_opaqueProps, prepared.props.opaque);
-  drawMesh(kMetal, m_opaque, prepared.furniture.opaque);
+  drawMesh(kMatter, m_opaqueProps, prepared.props.opaque, 0);
+  drawMesh(kMetal, m_opaque, prepared.furniture.opaque, 1);
   glDisable(GL_STENCIL_TEST);
 }
 
@@ -385,7 +386,7 @@ void Passes::drawFinal(const Job& job) {
     drawTiles(m_detailTiles, frame.detailTiles);
 }
 
-/// Over the smoothed picture: what is written on them stays sharp.
+/// Over the smoothed picture: what is written on them stays sharp. Matter does not hide them, only hands do.
 void Passes::drawPanels(const Job& job) {
   const auto& [prepared, frame, layers, plain] = job;
   const int scale = frame.still ? 2 : 1;
@@ -400,8 +401,7 @@ void Passes::drawPanels(const Job& job) {
   const Program& program = m_programs.panel;
   program.use();
   program.texture("distanceTexture", 1, layers.distance.name());
-  program.texture("fluidTexture", 2, layers.fluid.name());
-  glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
+  program.texture("normalTexture", 2, layers.normal.name());
   glUniform1i(program.at("scale"), scale);
   glUniform2i(program.at("origin"), frame.place.x, frame.place.y);
   const VertexArray array;

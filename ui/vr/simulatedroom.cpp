@@ -25,7 +25,7 @@ Quaternion along(const Vector3& way) {
 
 SimulatedRoom::SimulatedRoom() {
   const Quaternion level = along({0, 0, -1});
-  m_hands[kLeft].aim = m_hands[kLeft].grip = HandPose{{-0.35, 1.3, -0.4}, level};
+  m_hands[kLeft].aim = m_hands[kLeft].grip = HandPose{{-0.26, 1.2, -0.5}, level};
 }
 
 HandPose SimulatedRoom::head() const {

@@ -100,9 +100,11 @@ VrPanels::VrPanels(const Parts& parts)
   column->addLayout(header);
   column->addWidget(m_pages, 1);
   // Pages that nobody asks for go with the board.
-  for (ParameterPanel* panel :
-       {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(), m_inspector->solverPanel()})
+  for (ParameterPanel* panel : {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(),
+                                m_inspector->solverPanel()}) {
     panel->setParent(m_board.get());
+    panel->hide();
+  }
   connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
   showUnseen(*m_palette, kPaletteSize);
   showUnseen(*m_board, kBoardSize);
