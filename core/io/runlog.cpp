@@ -162,7 +162,8 @@ const FieldTable<RigidMove>& rigidMoveFields() {
 const FieldTable<MoveBody>& moveFields() {
   static const FieldTable<MoveBody> table{
       .rows = {field("body", &MoveBody::body, SketchedBody{}, "").required(),
-               field("move", &MoveBody::move, Object{rigidMoveFields()}, "").required()}};
+               field("move", &MoveBody::move, Object{rigidMoveFields()}, "").required(),
+               field("led", &MoveBody::led, Toggle{}, "")}};
   return table;
 }
 const FieldTable<NameMatter>& nameFields() {

@@ -87,6 +87,7 @@ struct PaintCells {
 struct MoveBody {
   std::shared_ptr<const Body> body;  ///< as it is there
   RigidMove move;                    ///< from where the engine's document has it
+  bool led = false;  ///< what is fixed goes there as time passes, through what is in its way: Solver::lead()
 };
 /// Names the matter of a body that stands in cells of a lattice; right after a reset, when nothing has moved.
 struct NameMatter {

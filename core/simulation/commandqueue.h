@@ -92,7 +92,8 @@ class CommandQueue {
       auto* waiting = command ? std::get_if<MoveBody>(command) : nullptr;
       if (!waiting) return false;
       if (waiting->body->id != next.body->id) continue;
-      *waiting = {next.body, next.move.after(waiting->move)};
+      if (waiting->led != next.led) return false;
+      *waiting = {next.body, next.move.after(waiting->move), next.led};
       return true;
     }
     return false;

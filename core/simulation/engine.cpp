@@ -156,6 +156,9 @@ void Engine::Impl::watchForces() {
     else
       watch(bodies, *bodyIds, [&](const std::string& id) { return id == probe.body; });
   }
+  for (const uint32_t index : tools.bodies()) {
+    if (std::find(bodies.begin(), bodies.end(), index) == bodies.end()) bodies.push_back(index);
+  }
   solver->watchForces(walls, bodies);
   solver->measureBalance(measuresBalance);
 }
@@ -301,6 +304,7 @@ StepReport Engine::step() {
   m->lastReport = m->solver->step();
   for (const PluginFault& fault : m->lastReport.faults) m->plugins.fault(fault.plugin, fault.what);
   if (m->solver->frame() > before) {  // not of a frame that was taken back
+    m->tools.measure(*m->solver, m->spacing);
     m->exchangeMatter();
     m->followTracks(m->solver->time());
   }
@@ -380,7 +384,7 @@ void Engine::apply(const Command& command) {
   } else if (const auto* animated = std::get_if<SetTracks>(&command)) {
     setTracks(animated->tracks);
   } else if (const auto* moved = std::get_if<MoveBody>(&command)) {
-    moveBody(*moved->body, moved->move);
+    moveBody(*moved->body, moved->move, moved->led);
   } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
     m->project.probes = measured->probes;
     m->nameProbes();
@@ -418,6 +422,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->spacing = m->spacing;
   snapshot->flags = m->lastReport.flags;
   snapshot->knowsStart = !m->start.empty();
+  snapshot->tools = m->tools.contacts(*m->bodyIds);
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->bodyIds = m->bodyIds;
   snapshot->heldBodies = m->heldBodies();

@@ -57,8 +57,9 @@ class Engine {
   void apply(const Command& command);
   /// A body is at another pose from now on, a move away from that of the project. Its matter, wherever it is by now, is
   /// turned by as much about its centre of mass, which goes as far as that of the form does: see Solver::carry().
-  /// Nothing happens where the project has no such body.
-  void moveBody(const Body& body, const RigidMove& move);
+  /// Nothing happens where the project has no such body. `led`: see MoveBody; what is not fixed is carried all the
+  /// same.
+  void moveBody(const Body& body, const RigidMove& move, bool led = false);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
   /// spacings stay free. Returns the ids of the new particles.
   std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);

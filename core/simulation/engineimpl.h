@@ -8,6 +8,7 @@
 #include "core/simulation/namedmatter.h"
 #include "core/simulation/particlefield.h"
 #include "core/simulation/scenestate.h"
+#include "core/simulation/toolmeter.h"
 #include "core/simulation/tracks.h"
 #include "core/simulation/truesurface.h"
 #include "core/solver/solver.h"
@@ -61,8 +62,8 @@ struct Engine::Impl {
   void holdFrozen();
   void setThermal();
   uint32_t constraintSet(const std::string& plugin);
-  /// The matter of a body that stood like this in the project.
-  void carry(const Body& from, const RigidMove& move);
+  /// The matter of a body that stood like this in the project. `led`: see MoveBody.
+  void carry(const Body& from, const RigidMove& move, bool led = false);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
   std::vector<uint32_t> born(Spawn spawn, const Body& body);
@@ -113,6 +114,7 @@ struct Engine::Impl {
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
   StepReport lastReport;
   MatterFlow flow;
+  ToolMeter tools;
   std::optional<Limit> fill;  ///< what whole layers make of the bodies' volumes
   double pouredBytes = 0;     ///< that a particle of an emitter takes
   double pouringRoom = 0;     ///< bytes that emitters may take before the memory is asked again

@@ -13,15 +13,18 @@
 
 namespace ps {
 
-void Engine::Impl::carry(const Body& from, const RigidMove& move) {
+void Engine::Impl::carry(const Body& from, const RigidMove& move, bool led) {
   const auto found = std::find(bodyIds->begin(), bodyIds->end(), from.id);
   if (found == bodyIds->end()) return;
   const Vector3 centre = centroidOf(from);
   const Vector3 way = move.turns() ? Vector3(move.of(centre) - centre) : move.shift;
-  solver->carry(static_cast<uint32_t>(found - bodyIds->begin()), move.turn, way);
+  const auto index = static_cast<uint32_t>(found - bodyIds->begin());
+  if (!led) return solver->carry(index, move.turn, way);
+  solver->lead(index, move.turn, way);
+  tools.add(index);
 }
 
-void Engine::moveBody(const Body& body, const RigidMove& move) {
+void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
   if (known == bodies.end()) return;
@@ -33,8 +36,15 @@ void Engine::moveBody(const Body& body, const RigidMove& move) {
   m->overlay.lift(m->project);
   const Body from = std::exchange(*known, std::move(placed));
   m->overlay.lay(m->project);
-  m->recompile({{Owner::Body}});
-  m->carry(from, move);
+  if (!led || !m->isFixed(body.id)) {
+    m->recompile({{Owner::Body}});
+    m->carry(from, move);
+    return;
+  }
+  // Hands move often, and what else is compiled of a body does not depend on where it is.
+  m->setShapes();
+  m->carry(from, move, true);
+  m->lead();
 }
 
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {

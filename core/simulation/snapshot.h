@@ -45,6 +45,17 @@ struct FrameStats {
   std::shared_ptr<const std::vector<Probe>> measured;  ///< as they were then
 };
 
+/// What a tool feels that a hand leads through matter (MoveBody::led), over the last frame.
+struct ToolContact {
+  std::string body;        ///< Body::id
+  Vector3 force{0, 0, 0};  ///< N, of all that presses on it or pulls, without its weight
+  double heat = 0;         ///< W of the thermal clock that it takes up; below 0: that it gives
+  double latent = 0;       ///< W that melting and boiling take up of the matter that touches it; below 0: give
+  double gradient = 0;     ///< K/m, by which that is warmer than its surface, on the average
+  uint32_t touching = 0;   ///< particles of other bodies within 1.5 spacings
+  double behind = 0;       ///< m that it still has to go
+};
+
 struct ParticleField;
 /// What one field is of each particle, in its unit.
 struct FieldValues {
@@ -60,6 +71,7 @@ struct Snapshot {
   StepFlags flags = 0;
   bool knowsStart = true;  ///< where particles stood at the start; noted only if a probe asks for it when they are made
   std::vector<Limit> limits;
+  std::vector<ToolContact> tools;         ///< bodies that hands have led in this run, the last one first
   std::vector<uint64_t> erasedOrPainted;  ///< keys of commands that did so after the start, and were not undone
   Period period;                          ///< positions lie within its box: one that jumps by it has crossed a face
   std::vector<api::Float4> position;      ///< m; w: radius of a sphere of the rest volume, m

@@ -71,6 +71,7 @@ void Solver::setSettings(const SolverSettings& settings) {
   if (!(settings.supportRatio > 1)) throw InputError("solver: support_ratio must be more than 1");
   requireRoomForImages(settings, m->bounds);
   m->settings = settings;
+  m->askedSubsteps = settings.substeps;
   m->configured = false;
 }
 
@@ -378,6 +379,15 @@ uint64_t Solver::frame() const { return m->frame; }
 const HeatLedger& Solver::heatLedger() const { return m->heat.ledger(); }
 double Solver::thermalEnergy() const { return m->heat.energy(m->store); }
 std::span<const double> Solver::thermalEnergies() const { return m->heat.energies(m->store); }
+double Solver::latentHeat(size_t particle) const { return m->heat.latentHeat(m->store, particle); }
+double Solver::heatOfFixed(uint32_t body) const {
+  const std::span<const double> energies = thermalEnergies();
+  double sum = 0;
+  for (size_t i = 0; i < energies.size(); ++i) {
+    if (m->store.body()[i] == body && m->store.motion()[i] == api::Motion::Static) sum += energies[i];
+  }
+  return sum;
+}
 double Solver::elasticEnergy() const { return m->constraints.energy(m->store); }
 
 std::vector<Limit> Solver::limits() const {
@@ -402,7 +412,7 @@ std::vector<Limit> Solver::limits() const {
   if (excess > kSqueezed && squeezes)
     result.push_back({kSqueezeLimit, 0, excess, ""});
   else if (m->denseSeconds >= kDenseTime)
-    result.push_back(denseLimit(m->settings.substeps, excess));
+    result.push_back(denseLimit(m->askedSubsteps, excess));
   return result;
 }
 

@@ -112,6 +112,17 @@ class Solver {
   /// (MechanicalRecord: the end of one and the start of the next).
   void carry(uint32_t body, const Quaternion& turn, const Vector3& way);
 
+  /// As carry() of what is fixed of a body, but through what is in its way, from the next frame on: matter is met,
+  /// pushed and scooped up as by any body that moves. In each frame it goes half of what is left of the way, at 20 m/s
+  /// at most, and so trails behind a hand; several calls add up. On top of how setMotion() has it move.
+  void lead(uint32_t body, const Quaternion& turn, const Vector3& way);
+  /// m that the particle of a body has still to go that lead() takes farthest.
+  double leadLeft(uint32_t body) const;
+  /// J that melting and boiling have taken up in a particle, by its index; 0 without a thermal model.
+  double latentHeat(size_t particle) const;
+  /// J in what is fixed of a body; 0 without a thermal model.
+  double heatOfFixed(uint32_t body) const;
+
   /// Gives particles heat between two frames, J each in the order of particles(); below 0 it is taken, as far as 1 K.
   /// Leaves what each got in `joules`, and books it as heaters. False without a thermal model: nobody got any.
   bool addHeat(std::span<double> joules);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A body is taken by hand to another place while the scene runs. Its velocities go on about their mean, which stays:
-// a thing that falls falls on downwards, however it is turned, and one that spins spins about its own axis.
+// a thing that falls falls on downwards, however it is turned, and one that spins spins about its own axis. A tool,
+// which is fixed, is led there through what is in its way.
 #include "core/solver/frame/solverimpl.h"
 #include "core/solver/truesurface.h"
 
@@ -39,6 +40,19 @@ Vector3 centreOf(const ParticleStore& store, std::span<const uint8_t> goes) {
 }
 
 }  // namespace
+
+void Solver::lead(uint32_t body, const Quaternion& turn, const Vector3& way) {
+  m->configure();
+  std::vector<uint8_t> goes(m->store.size());
+  bool any = false;
+  for (size_t i = 0; i < m->store.size(); ++i) {
+    goes[i] = m->store.body()[i] == body && m->store.motion()[i] == api::Motion::Static ? 1 : 0;
+    any = any || goes[i] != 0;
+  }
+  if (any) m->motion.follow(body, centreOf(m->store, goes), turn, way, m->store);
+}
+
+double Solver::leadLeft(uint32_t body) const { return m->motion.leftOf(body); }
 
 void Solver::carry(uint32_t body, const Quaternion& turn, const Vector3& way) {
   m->configure();

@@ -89,6 +89,8 @@ class HeatStage {
   double energy(const ParticleStore& store) const;
   /// Energy of each particle in J; valid until the next call of anything here. Empty without a model.
   std::span<const double> energies(const ParticleStore& store) const;
+  /// J that melting and boiling have taken up in a particle, above solid matter as warm; 0 without a model.
+  double latentHeat(const ParticleStore& store, size_t i) const;
   const HeatLedger& ledger() const { return m_ledger; }
   /// K; a finite lump of air is warmer than at the start by what matter gave it.
   double airTemperature() const { return m_settings.ambientTemperature + m_ledger.airWarming; }

@@ -34,6 +34,13 @@ double meltingHeatOf(const api::Caloric& c) {
 
 }  // namespace
 
+double HeatStage::latentHeat(const ParticleStore& store, size_t i) const {
+  if (!works()) return 0;
+  const api::Caloric& c = m_materials[store.material()[i]].caloric();
+  const double melted = c.melts && !c.sublimes ? 1 - double{store.solidFraction()[i]} : 0;
+  return double{store.mass()[i]} * melted * meltingHeatOf(c) + double{store.gasFraction()[i]} * latentContent(store, i);
+}
+
 HeatBody HeatStage::heatBody(const ParticleStore& store, size_t i) const {
   const api::Caloric& c = m_materials[store.material()[i]].caloric();
   const double mass = store.mass()[i], t = store.temperature()[i];
