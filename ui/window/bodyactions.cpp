@@ -56,9 +56,10 @@ struct UnitRow {
   const char *key, *name;
 };
 constexpr UnitRow kUnits[] = {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "millimetres"}, {"in", "inches"}};
-constexpr double kOfScene = 0.2;    ///< size of a new solid, of the scene's narrower side
-constexpr double kOverRoom = 1.25;  ///< of the scene's room, what a mesh whose unit is not known may be
-constexpr int kPatience = 300;      ///< ms until reading is told of
+constexpr double kOfScene = 0.2;      ///< size of a new solid, of the scene's narrower side
+constexpr double kToolOfScene = 0.4;  ///< length of a new tool, likewise
+constexpr double kOverRoom = 1.25;    ///< of the scene's room, what a mesh whose unit is not known may be
+constexpr int kPatience = 300;        ///< ms until reading is told of
 constexpr const char* kTopic = "mesh";
 constexpr const char* kMeshes =
     "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.blend);;All files (*)";
@@ -165,6 +166,7 @@ void BodyActions::makeMenu(QMenu* menu) {
     m_adding.push_back(action);
   }
   connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);
+  makeToolMenu(menu->addMenu(QStringLiteral("Tool")));
   menu->addSeparator();
   m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
                                    {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(MeshUse::Matter); }));
@@ -179,6 +181,17 @@ void BodyActions::addToWallMenu(QMenu* menu) {
   action->setToolTip(QStringLiteral("A body of the mesh's surface that is held in place: a tank, a ground, a mould."));
   action->setEnabled(m_session.isReady());
   m_adding.push_back(action);
+}
+
+void BodyActions::makeToolMenu(QMenu* menu) {
+  for (const ToolForm& form : toolForms()) {
+    QAction* action = m_actions.add(menu, QStringLiteral("add.tool.") + QString::fromLatin1(form.id),
+                                    QStringLiteral("Add tool: %1").arg(QString::fromLatin1(form.name).toLower()), {},
+                                    [this, &form] { addTool(form); });
+    action->setToolTip(QStringLiteral("%1 Take it in hand with A.").arg(QString::fromLatin1(form.use)));
+    m_adding.push_back(action);
+  }
+  menu->setToolTipsVisible(true);
 }
 
 bool BodyActions::isMesh(const QString& path) {
@@ -215,6 +228,18 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
       body.material = sceneMaterial(document, thin->second->material);
     }
   }
+  add(std::move(body));
+  document.undoStack().endMacro();
+}
+
+/// Of what melts last among the materials that are there: a tool stays one in a melt.
+void BodyActions::addTool(const ToolForm& form) {
+  Document& document = m_session.document();
+  const Room room = roomOf(document.project().environment);
+  const double wide = std::min(room.maximum[0] - room.minimum[0], room.maximum[2] - room.minimum[2]);
+  Body body = toolBody(form.kind, rounded(kToolOfScene * wide), spacingOf(document));
+  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromLatin1(form.name)));
+  body.material = sceneMaterial(document, wallMaterial(*document.plugins()));
   add(std::move(body));
   document.undoStack().endMacro();
 }

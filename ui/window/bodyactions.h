@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/base/progress.h"
+#include "core/geometry/toolbodies.h"
 #include "core/io/meshimport.h"
 #include "core/scene/solidform.h"
 #include "ui/session/worker.h"
@@ -47,6 +48,8 @@ class BodyActions : public QObject {
   void chooseMesh(MeshUse use);
   void showCounts();
   void addSolid(SolidForm::Kind kind, const QString& name);
+  void makeToolMenu(QMenu* menu);
+  void addTool(const ToolForm& form);
   Body newSolid(SolidForm::Kind kind, const QString& name) const;
   std::string add(Body body, const std::string& without = {});
   void onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
