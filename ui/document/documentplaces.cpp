@@ -65,9 +65,13 @@ void Document::place(Placement after, const QString& title) {
   for (Emitter& emitter : after.emitters) keepWithin(m_project.environment, emitter);
   for (Sink& sink : after.sinks) keepWithin(m_project.environment, sink);
   if (m_gestureDepth == 0) ++m_gesture;
-  Placement before{standing(m_project.bodies, after.bodies), standing(m_project.emitters, after.emitters),
-                   standing(m_project.sinks, after.sinks),   standing(m_project.environment.walls, after.walls),
-                   standing(m_project.probes, after.probes), standing(m_project.bodies, after.pins)};
+  Placement before{standing(m_project.bodies, after.bodies),
+                   standing(m_project.emitters, after.emitters),
+                   standing(m_project.sinks, after.sinks),
+                   standing(m_project.environment.walls, after.walls),
+                   standing(m_project.probes, after.probes),
+                   standing(m_project.bodies, after.pins),
+                   after.led};
   m_undo.push(new PlacementCommand(*this, std::move(before), std::move(after), m_gesture, title));
 }
 
@@ -88,7 +92,7 @@ void Document::applyPlacement(const Placement& to) {
       notify(ParameterChanged{address, valueOf(std::get<SolidShape>(here.shape).parameters, declared),
                               valueOf(std::get<SolidShape>(before.shape).parameters, declared)});
     }
-    if (move || keys.empty()) notify(BodyChanged{body.id, {}, move});
+    if (move || keys.empty()) notify(BodyChanged{body.id, {}, move, {}, false, to.led});
   }
   for (const BodyPins& pins : to.pins) {
     at(m_project.bodies, pins.id)->pins = pins.boxes;

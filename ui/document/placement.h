@@ -23,6 +23,7 @@ struct Placement {
   std::vector<SceneWall> walls;
   std::vector<Probe> probes;
   std::vector<BodyPins> pins{};  ///< of bodies that are not among those above
+  bool led = false;              ///< bodies go there by a hand, as time passes, and meet what is in their way
   bool empty() const {
     return bodies.empty() && emitters.empty() && sinks.empty() && walls.empty() && probes.empty() && pins.empty();
   }

@@ -145,7 +145,8 @@ void SceneLink::onBody(const BodyChanged& event) {
   }
   const Body* body = m_document.body(event.id);
   if (event.move && body) {
-    m_engine.apply(MoveBody{std::make_shared<const Body>(*body), *event.move});
+    // While no time passes nothing is led anywhere, and one wants to see it where it goes.
+    m_engine.apply(MoveBody{std::make_shared<const Body>(*body), *event.move, event.led && runs()});
     return;
   }
   if (event.matter && !body) m_engine.apply(TakeBody{event.id, keyOf(event.matter)});

@@ -6,6 +6,7 @@
 #include "ui/tools/placedrain.h"
 #include "ui/tools/placetap.h"
 #include "ui/tools/selecttool.h"
+#include "ui/tools/takeinhand.h"
 
 #include <algorithm>
 
@@ -27,6 +28,8 @@ const std::vector<ToolRow>& toolTable() {
        make<RotateTool>},
       {"scale", "scale", "Scale", "Scale what is selected", "S", "In the scene with the handles to scale",
        make<ScaleTool>},
+      {"hand", "hand", "Take in hand", "Lead a tool through matter", "A", "In the scene with a tool in hand",
+       make<TakeInHand>},
       {kBrushTool, "brush", "Brush", "Draw matter", "B", "In the scene with the brush", make<DrawTool>},
       {kEraseTool, "erase", "Erase", "Erase matter", "E", "In the scene with the eraser", make<EraseTool>},
       {"tap", "tap", "Place a tap", "Place a tap that pours matter", "T", "In the scene with a tap", make<PlaceTap>},

@@ -25,10 +25,12 @@
 namespace ps {
 namespace {
 constexpr int kHeight = 24;
-constexpr int kSaying = 30'000;   // ms
-constexpr double kSilent = 5;     // s without a frame while playing, after which that is said
-constexpr double kClearly = 1.2;  // times as slow as the stage that is named, to be named instead
-constexpr double kSmooth = 0.08;  // share of a new frame in the shown mean, so that digits can be read
+constexpr int kSaying = 30'000;       // ms
+constexpr double kSilent = 5;         // s without a frame while playing, after which that is said
+constexpr double kClearly = 1.2;      // times as slow as the stage that is named, to be named instead
+constexpr double kSmooth = 0.08;      // share of a new frame in the shown mean, so that digits can be read
+constexpr double kSmoothTool = 0.25;  // the same of what a tool feels, which one wants to see at once
+constexpr double kBehind = 2;         // spacings behind its hand from which a tool is said to be
 
 /// That whose name takes most room.
 size_t widestStage() {
@@ -161,6 +163,7 @@ void StatusLine::setState(const State& state) {
     // Matter drawn before the first step belongs to the start.
     if (!m_started) m_startEnergy = stats.thermalEnergy - stats.heat.net();
     m_started = stats.frame > 0;
+    followTool();
     const double share = fresh ? 1 : kSmooth;
     m_milliseconds += share * (stats.totalMilliseconds - m_milliseconds);
     for (size_t i = 0; i < m_stages.size(); ++i) m_stages[i] += share * (stats.milliseconds[i] - m_stages[i]);
@@ -170,6 +173,40 @@ void StatusLine::setState(const State& state) {
   }
   setAccessibleDescription(parts().join(QStringLiteral(", ")));
   update();
+}
+
+void StatusLine::followTool() {
+  const std::vector<ToolContact>& tools = m_state.snapshot->tools;
+  if (tools.empty() || !m_session.document().body(tools.front().body)) {
+    m_tool = {};
+    return;
+  }
+  const ToolContact& now = tools.front();
+  const double share = m_tool.body == now.body ? kSmoothTool : 1;
+  const auto follow = [share](auto& mean, const auto& value) { mean += share * (value - mean); };
+  m_tool.body = now.body;
+  follow(m_tool.force, now.force);
+  follow(m_tool.heat, now.heat);
+  follow(m_tool.latent, now.latent);
+  follow(m_tool.gradient, now.gradient);
+  m_tool.behind = now.behind;
+}
+
+/// "3.2 N on Spoon · takes 12 W · 4 W melt and boil · 850 K/m".
+StatusLine::Part StatusLine::toolPart() const {
+  const Body* body = m_session.document().body(m_tool.body);
+  QStringList weak{QStringLiteral("on %1").arg(body ? nameOf(*body) : QString())};
+  const auto watts = [](double value) { return formatPrefixed(std::abs(value), QStringLiteral("W"), 2); };
+  if (m_tool.heat != 0)
+    weak << (m_tool.heat > 0 ? QStringLiteral("takes %1") : QStringLiteral("gives %1")).arg(watts(m_tool.heat));
+  if (m_tool.latent != 0) {
+    weak << (m_tool.latent > 0 ? QStringLiteral("latent %1 taken up") : QStringLiteral("latent %1 given off"))
+                .arg(watts(m_tool.latent));
+  }
+  if (m_tool.gradient != 0) weak << formatPrefixed(m_tool.gradient, QStringLiteral("K/m"), 2);
+  if (m_tool.behind > kBehind * m_state.snapshot->spacing)
+    weak << QStringLiteral("%1 behind").arg(formatPrefixed(m_tool.behind, QStringLiteral("m"), 2));
+  return {formatPrefixed(m_tool.force.norm(), QStringLiteral("N"), 2), weak.join(QStringLiteral(" · ")), {}, {}};
 }
 
 double StatusLine::drift() const {
@@ -197,6 +234,7 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   const FrameStats& stats = m_state.snapshot->stats;
   parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
                    m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")});
+  if (!m_tool.body.empty()) parts.push_back(toolPart());
   parts.push_back({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail(m_slowest),
                    QStringLiteral("000.0 ms"), detail(widestStage())});
   parts.push_back(

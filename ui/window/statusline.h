@@ -16,8 +16,8 @@ class Session;
 class Viewport;
 
 /// The line at the bottom: state, particles, milliseconds per frame with the slowest stage, real-time factor, density
-/// error, energy drift; notes and files on the right. One painted widget, so that running numbers never push each
-/// other.
+/// error, energy drift; what a tool feels that a hand leads; notes and files on the right. One painted widget, so that
+/// running numbers never push each other.
 class StatusLine : public QWidget {
   Q_OBJECT
  public:
@@ -63,6 +63,8 @@ class StatusLine : public QWidget {
   void refresh();
   void addNote(State& state);
   std::vector<Part> leftParts() const;
+  void followTool();
+  Part toolPart() const;
   QString detail(size_t stage) const;
   Session& m_session;
   Viewport* m_view;
@@ -73,6 +75,7 @@ class StatusLine : public QWidget {
   uint64_t m_revision = 0;
   bool m_started = false;
   double m_startEnergy = 0, m_milliseconds = 0;
+  ToolContact m_tool;  ///< that a hand has led last, smoothed; without a body: none
   std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
   QRectF m_noteRect;
   QTimer m_watch;
