@@ -19,7 +19,7 @@ void Engine::Impl::carry(const Body& from, const RigidMove& move, bool led) {
   const Vector3 centre = centroidOf(from);
   const Vector3 way = move.turns() ? Vector3(move.of(centre) - centre) : move.shift;
   const auto index = static_cast<uint32_t>(found - bodyIds->begin());
-  if (!led || !isFixed(from.id)) return solver->carry(index, move.turn, way);
+  if (!led) return solver->carry(index, move.turn, way);
   solver->lead(index, move.turn, way);
   tools.add(index);
 }
@@ -36,8 +36,15 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   m->overlay.lift(m->project);
   const Body from = std::exchange(*known, std::move(placed));
   m->overlay.lay(m->project);
-  m->recompile({{Owner::Body}});
-  m->carry(from, move, led);
+  if (!led || !m->isFixed(body.id)) {
+    m->recompile({{Owner::Body}});
+    m->carry(from, move);
+    return;
+  }
+  // Hands move often, and what else is compiled of a body does not depend on where it is.
+  m->setShapes();
+  m->carry(from, move, true);
+  m->lead();
 }
 
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {

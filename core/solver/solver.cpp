@@ -71,6 +71,7 @@ void Solver::setSettings(const SolverSettings& settings) {
   if (!(settings.supportRatio > 1)) throw InputError("solver: support_ratio must be more than 1");
   requireRoomForImages(settings, m->bounds);
   m->settings = settings;
+  m->askedSubsteps = settings.substeps;
   m->configured = false;
 }
 
@@ -411,7 +412,7 @@ std::vector<Limit> Solver::limits() const {
   if (excess > kSqueezed && squeezes)
     result.push_back({kSqueezeLimit, 0, excess, ""});
   else if (m->denseSeconds >= kDenseTime)
-    result.push_back(denseLimit(m->settings.substeps, excess));
+    result.push_back(denseLimit(m->askedSubsteps, excess));
   return result;
 }
 

@@ -35,10 +35,10 @@ Project tub() {
 
 /// Stirred there and back, and turned meanwhile.
 void stir(Engine& engine, int frame) {
-  const double way = (frame / 10) % 2 == 0 ? 0.03 : -0.03;
+  const double fast = frame % 4 == 0 ? 0.1 : 0.015, way = (frame / 4) % 2 == 0 ? fast : -fast;
   RigidMove move{Quaternion::Identity(), {way, 0, 0}};
   if (frame % 3 == 0) {
-    move = RigidMove::about(pivotOf(engine.project().bodies[0]), Quaternion(Eigen::AngleAxisd(0.2, Vector3(0, 1, 0))));
+    move = RigidMove::about(pivotOf(engine.project().bodies[0]), Quaternion(Eigen::AngleAxisd(0.6, Vector3(0, 1, 0))));
     move.shift += Vector3(way, 0, 0.002);
   }
   lead(engine, move);
@@ -206,8 +206,8 @@ void TestLeading::whatIsStruckStaysWhole_data() {
       QTest::addRow("%s at %g m/s", name, speed) << name << speed;
 }
 
-/// A brick, or a rope, flies ahead of the plate that struck it, at twice its speed at most, as a ball does that
-/// bounces.
+/// A brick, or a rope, is taken along by the plate that strikes it, and flies on ahead of it: no faster, but for what
+/// a soft one swings.
 void TestLeading::whatIsStruckStaysWhole() {
   QFETCH(QString, structure);
   QFETCH(double, speed);
@@ -228,7 +228,7 @@ void TestLeading::whatIsStruckStaysWhole() {
     QVERIFY(brick.low.x() > seen(engine, "tool").high.x());
   }
   qInfo("fastest %.2f m/s", fastest);
-  QVERIFY(fastest > 0.9 * std::min(speed, 20.0) && fastest < 2.2 * std::min(speed, 20.0));
+  QVERIFY(fastest > 0.9 * std::min(speed, 20.0) && fastest < 1.3 * std::min(speed, 20.0));
   QVERIFY(seen(engine, "brick").high.x() < 2.9);
   const Seen brick = seen(engine, "brick");
   QVERIFY((brick.high - brick.low).norm() < 1.5 * Vector3(thick, 0.2, thick).norm());
@@ -325,11 +325,11 @@ void TestLeading::oneHash() {
   });
 }
 
-/// Left half way, in a turn.
+/// Left half way, in a turn, and so fast that frames have more substeps.
 void TestLeading::aStateOnTheWayGoesOn() {
   const Project project = tub();
   Engine engine(project, m_plugins);
-  for (int frame = 0; frame < 8; ++frame) {
+  for (int frame = 0; frame < 9; ++frame) {
     stir(engine, frame);
     play(engine, 1);
   }
@@ -340,7 +340,7 @@ void TestLeading::aStateOnTheWayGoesOn() {
   writer.finish();
   Engine again(engine.document(), m_plugins, StateReader(buffer.bytes()));
   QCOMPARE(again.stateHash(), engine.stateHash());
-  for (int frame = 8; frame < 20; ++frame) {
+  for (int frame = 9; frame < 20; ++frame) {
     for (Engine* one : {&engine, &again}) {
       stir(*one, frame);
       play(*one, 1);

@@ -58,7 +58,7 @@ class TestHandWindow : public SampleWindowTest {
     QFETCH(QString, name);
     const size_t particles = session().snapshot()->id.size();
     const std::string id = added(name);
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->id.size() > particles + 20, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot()->id.size() > particles + 20, kLong);
     picture(QStringLiteral("tool-%1.png").arg(name));
     document().undoStack().undo();
     QVERIFY(!document().body(id));

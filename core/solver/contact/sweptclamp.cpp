@@ -132,6 +132,18 @@ bool SweptClamp::maySkip(const ParticleStore& store, const Neighbours& neighbour
   return true;
 }
 
+/// The box that a way must meet to meet an obstacle; all of space where it repeats itself.
+SweptClamp::Reach SweptClamp::reachOfAll() const {
+  Reach reach;
+  if (m_period.any()) return reach;
+  const double wide = m_contact + m_longest;
+  for (size_t a = 0; a < 3; ++a) {  // a float more, for its rounding
+    reach.low[a] = std::nextafter(static_cast<float>(m_low[a] - wide), -kFarAway);
+    reach.high[a] = std::nextafter(static_cast<float>(m_high[a] + wide), kFarAway);
+  }
+  return reach;
+}
+
 void SweptClamp::test(const Sweep& sweep, const Obstacle& obstacle, Hit& hit) const {
   if (sweep.fluid && obstacle.shaped) return;
   const Vector3 center = obstacle.center + sweep.begin * obstacle.way, theirs = sweep.span * obstacle.way;
@@ -283,17 +295,22 @@ void SweptClamp::placeMoving(const ParticleStore& store, const SolidContact& con
 
 void SweptClamp::apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls,
                        const SolidContact& contact, const StructureGraph& graph, std::span<const uint8_t> rigid) {
-  m_held.clear();
-  if (m_static.empty()) return;
+  if (m_static.empty()) {
+    m_held.clear();
+    return;
+  }
   if (m_longest > 0) placeMoving(store, contact);
   measureReach(store, neighbours);
-  m_held.resize(store.size(), {0, 0, 0, 0});
+  m_held.resize(store.size());
   m_heldBy.resize(store.size());
   api::Float4* position = store.position();
+  const Reach reach = reachOfAll();
   m_moved.start(chunkCount(store.size(), grain::kParticles));
   m_reactions->start(chunkCount(store.size(), grain::kParticles));
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
+      if (rigid[i] != 0) m_held[i] = {0, 0, 0, 0};
+      if (reach.misses(store.previous()[i], position[i])) continue;  // most do, of a tool in a tank
       const bool solid = store.motion()[i] == api::Motion::Solid, tied = !graph.isFree(static_cast<uint32_t>(i));
       if (store.velocity()[i].w == 0 || maySkip(store, neighbours, i, solid && !tied)) continue;
       const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(position[i]);

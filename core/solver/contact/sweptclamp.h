@@ -9,6 +9,9 @@
 #include "core/solver/contact/walls.h"
 #include "core/solver/structure/constraintsystem.h"
 
+#include <algorithm>
+#include <array>
+
 namespace ps {
 
 /// The last word on positions: nothing passes a layer of static particles, however fast it or the layer is. Each moving
@@ -30,8 +33,8 @@ class SweptClamp {
   /// it is tied to than contact allows.
   void apply(ParticleStore& store, const Neighbours& neighbours, const WallStage& walls, const SolidContact& contact,
              const StructureGraph& graph, std::span<const uint8_t> rigid);
-  /// For each particle the way back (m) by which a member of a rigid body would have to be moved; empty when there is
-  /// nothing static.
+  /// For members of rigid bodies, by particle, the way back (m) by which each would have to be moved; empty when there
+  /// is nothing static.
   std::span<const api::Float4> held() const { return m_held; }
   /// Body of the static particle that it met last, by particle.
   std::span<const uint32_t> heldBy() const { return m_heldBy; }
@@ -63,8 +66,17 @@ class SweptClamp {
     bool soft = false;           ///< a solid that is tied, but not as a rigid body
     bool fluid = false;
   };
+  /// Of all obstacles together, in a substep.
+  struct Reach {
+    std::array<float, 3> low{-1e30f, -1e30f, -1e30f}, high{1e30f, 1e30f, 1e30f};  ///< m
+    bool misses(const api::Float4& from, const api::Float4& to) const {
+      return std::max(from.x, to.x) < low[0] || std::min(from.x, to.x) > high[0] || std::max(from.y, to.y) < low[1] ||
+             std::min(from.y, to.y) > high[1] || std::max(from.z, to.z) < low[2] || std::min(from.z, to.z) > high[2];
+    }
+  };
   void sortIntoCells();
   void measureReach(const ParticleStore& store, const Neighbours& neighbours);
+  Reach reachOfAll() const;
   bool maySkip(const ParticleStore& store, const Neighbours& neighbours, size_t i, bool single) const;
   Hit firstHit(const Sweep& sweep) const;
   void imagesHit(const Sweep& sweep, Hit& hit) const;

@@ -15,6 +15,7 @@ constexpr size_t kLeadNumbers = 8;                  // of the way that a hand le
 constexpr double kFollowed = 0.5;                   // of that way in a frame
 constexpr double kFastestHand = 20;                 // m/s
 constexpr double kArrived = 1e-4;                   // of its size, that a body goes at once
+constexpr double kNothing = 1e-7;                   // m, likewise
 constexpr const char* kPlace = "prescribed_place";  // w: 1 when it has been taken
 constexpr const char* kLeads = "motion/leads";      // where a hand leads one
 
@@ -144,13 +145,25 @@ double PrescribedMotion::leftOf(uint32_t body) const {
   return body < m_frames.size() && m_frames[body].exists ? m_frames[body].lead.longest() : 0;
 }
 
-void PrescribedMotion::startFrame(int substeps, double dt) {
+double PrescribedMotion::wayOf(const Frame& frame, double dt) {
+  const double longest = frame.exists ? frame.lead.longest() : 0;
+  return longest <= std::max(kArrived * frame.lead.radius, kNothing) ? longest
+                                                                     : std::min(kFollowed * longest, kFastestHand * dt);
+}
+
+double PrescribedMotion::nextWay(double dt) const {
+  double most = 0;
+  for (const Frame& frame : m_frames) most = std::max(most, wayOf(frame, dt));
+  return most;
+}
+
+void PrescribedMotion::startFrame(int substeps, double dt, double most) {
   for (Frame& frame : m_frames) {
     frame.part = {};
     if (!frame.exists || !frame.lead.any()) continue;
-    const double longest = frame.lead.longest();
-    frame.part.arrives = longest <= kArrived * frame.lead.radius || longest < 1e-7;
-    const double share = frame.part.arrives ? 1 : std::min(kFollowed, kFastestHand * dt / longest);
+    const double longest = frame.lead.longest(), way = std::min(wayOf(frame, dt), most);
+    frame.part.arrives = !(way < longest);
+    const double share = frame.part.arrives ? 1 : way / longest;
     frame.part.way = share / substeps * frame.lead.way;
     frame.part.turn = shareOf(frame.lead.turn, share);
     frame.part.substeps = substeps;
@@ -212,7 +225,9 @@ void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) con
     const double length = period.length(axis);
     return static_cast<float>(length > 0 ? to - length * std::floor((to - double{from}) / length + 0.5) : to);
   };
+  const uint32_t* body = store.body();
   for (size_t i = first; i < last; ++i) {
+    if (body[i] >= m_frames.size()) continue;  // most, at once
     const Frame* frame = frameOf(store, i);
     if (!frame) continue;
     const Vector3 arm = frame->axes * vectorOf(places[i]), to = frame->centre + arm;

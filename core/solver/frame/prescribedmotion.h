@@ -36,10 +36,12 @@ class PrescribedMotion {
   /// A hand leads the body farther than it was to go until now: turned about its centre of mass, which is at `centre`
   /// m now, and which goes by `way` m. That comes on top of its own motion. See startFrame().
   void follow(uint32_t body, const Vector3& centre, const Quaternion& turn, const Vector3& way, ParticleStore& store);
-  /// When a frame of `dt` s begins, cut into substeps: what is led by a hand goes kFollowed of what is left of its way
-  /// in it, at an even speed, but none of it faster than kFastestHand. The speed of a hand is known from where it was
-  /// at a few times only, and this smooths it.
-  void startFrame(int substeps, double dt);
+  /// m that what is led by a hand goes in the next frame, of all its particles the one that goes farthest: half of what
+  /// is left of its way, or as much as a hand goes at kFastestHand in `dt` s. The speed of a hand is known from where
+  /// it was at a few times only; this smooths it.
+  double nextWay(double dt) const;
+  /// When a frame begins: it goes so far, at an even speed, and no farther than `most` m.
+  void startFrame(int substeps, double dt, double most);
   /// m that are left of the way that a hand leads the body, at most of all its particles.
   double leftOf(uint32_t body) const;
   void save(StateWriter& writer) const;
@@ -73,6 +75,7 @@ class PrescribedMotion {
     bool exists = false;
   };
   void makeFrame(uint32_t body, const BodyMotion& motion, ParticleStore& store);
+  static double wayOf(const Frame& frame, double dt);
   static void stepLead(Frame& frame, double dt);
   template <class Frames, class Visit>
   static void eachNumber(Frames& frames, Visit&& visit);

@@ -109,6 +109,7 @@ bool Solver::Impl::rejectIfNotFinite() {
 std::string Solver::Impl::whoMovedIt() {
   if (!lastGoodValid || (constraints.count() == 0 && !constraints.gathers())) return {};
   constraints.watch(kFarthestLeap * settings.spacing);
+  startLeads();
   freshLists();
   gas.measure(store, neighbours);
   viscosity.refresh(store, neighbours, density);

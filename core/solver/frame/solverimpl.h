@@ -50,7 +50,8 @@ class StageClock {
 /// What a solver holds, and one frame cut into its parts. Indices of particles change only in freshLists(), at the
 /// start of a frame: whatever is kept by index within a frame stays true.
 struct Solver::Impl {
-  SolverSettings settings;
+  SolverSettings settings;  ///< with the substeps of the present frame
+  int askedSubsteps = SolverSettings().substeps;
   ThermalSettings thermal;
   const api::ThermalPlugin* model = nullptr;
   std::string modelName;
@@ -119,6 +120,8 @@ struct Solver::Impl {
   /// from their temperatures. `mass` in kg, one each; 0: as the room takes that it fills.
   void startAnew(std::span<const uint32_t> indices, std::span<const float> mass);
 
+  void chooseSubsteps();
+  void startLeads();
   void runFrame();
   bool advance();
   void freshLists();

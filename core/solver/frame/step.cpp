@@ -15,6 +15,10 @@ constexpr uint64_t kSortInterval = 60;
 /// Liquid on a sheet outweighs it many times, and must not press it apart before its springs have answered.
 constexpr int kSheetPasses = 4;
 constexpr double kLeastLiquid = 0.01;  ///< share of what moves, below which the mean says nothing of the solver
+/// Spacings that a tool may go in a substep, and how many times the substeps that were asked for a frame may take so
+/// that it goes no farther: beyond that it goes more slowly.
+constexpr double kLeadStep = 1;
+constexpr int kMostTimes = 8;
 /// How far the heat balance may be open: a share of what was exchanged, and of the whole for rounding.
 constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
@@ -85,9 +89,25 @@ void Solver::Impl::raise(StepFlag flag, const std::string& message) {
   report.message += message;
 }
 
+/// A tool that a hand leads fast takes more of them in a frame: where it went farther in one, what it strikes would be
+/// pressed through itself before its ties have answered, and fly apart.
+void Solver::Impl::chooseSubsteps() {
+  const double way = motion.nextWay(settings.dt);
+  int times = 1;
+  while (times < kMostTimes && way > times * askedSubsteps * kLeadStep * settings.spacing) times *= 2;
+  if (settings.substeps == times * askedSubsteps) return;
+  settings.substeps = times * askedSubsteps;
+  configured = false;
+}
+
+void Solver::Impl::startLeads() {
+  motion.startFrame(settings.substeps, settings.dt, settings.substeps * kLeadStep * settings.spacing);
+}
+
 void Solver::Impl::runFrame() {
   report = {};
   const StageClock clock;
+  chooseSubsteps();
   configure();
   const bool good = store.size() == 0 || (!rejectIfNotFinite() && advance());
   if (good) {
@@ -107,7 +127,7 @@ void Solver::Impl::runFrame() {
 bool Solver::Impl::advance() {
   keepLastGood();
   constraints.setTime(time);
-  motion.startFrame(settings.substeps, settings.dt);
+  startLeads();
   heat.setClock(time, thermalTime);
   timed(Stage::Neighbours, [&] { freshLists(); });
   constraints.setPasses(static_cast<uint32_t>(settings.iterations * structurePasses()));
