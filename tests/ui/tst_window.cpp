@@ -333,8 +333,8 @@ class TestWindow : public QObject {
                                << "Conductivity, solid";
     QTest::newRow("wall") << "hot plate temperature"
                           << "Hot plate temperature";
-    QTest::newRow("own things before what replaces the scene") << "plate"
-                                                               << "Hot plate shape";
+    QTest::newRow("own things before what replaces the scene") << "hot pl"
+                                                               << "Hot plate";
     QTest::newRow("what replaces the scene by its name") << "new sc"
                                                          << "New scene";
     QTest::newRow("solver") << "substeps"

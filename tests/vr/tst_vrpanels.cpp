@@ -259,7 +259,7 @@ void VrPanelsTest::theNearerPanelIsMeant() {
   QVERIFY(order(vr::kPopup) > order(vr::kBoard));
 }
 
-/// UI.md: letters of 0.85 degrees and targets of 2.5 at the distances that panels have.
+/// Letters of 0.85 degrees and targets of 2.5 at the distances that panels have.
 void VrPanelsTest::letteringAndTargetsAreLargeEnough() {
   enterWithout();
   panels().showPage(QStringLiteral("Body"));

@@ -227,7 +227,7 @@ void MaterialsPanel::paintEvent(QPaintEvent* event) {
     paintText(painter, place, Qt::AlignLeft | Qt::AlignVCenter, text, Theme::font(TextRole::Small),
               theme[Token::Muted]);
   };
-  if (m_own > 0) line(heading.translated(0, -kHint), QStringLiteral("Press B to draw with it"));
+  if (m_own > 0) line(heading.translated(0, -kHint), QStringLiteral("B draws it; drag it onto a body"));
   if (m_own < m_tiles.size()) line(heading, QStringLiteral("Add"));
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
 }

@@ -322,6 +322,10 @@ bool ParameterRow::Private::editKey(int key) {
 
 bool ParameterRow::eventFilter(QObject* watched, QEvent* event) {
   if (watched != d->edit) return QWidget::eventFilter(watched, event);
+  if (event->type() == QEvent::MouseButtonDblClick) {
+    d->edit->selectAll();  // a number is one word, also where it has a point
+    return true;
+  }
   if (event->type() == QEvent::KeyPress) return d->editKey(static_cast<QKeyEvent*>(event)->key());
   if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
     event->accept();

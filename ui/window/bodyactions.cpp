@@ -322,7 +322,7 @@ std::string BodyActions::add(Body body, const std::string& without) {
   const std::string id = document.addBody(std::move(body));
   document.undoStack().endMacro();
   m_selection.selectBody(id);
-  Q_EMIT rowWanted({Owner::Shape, id, "kind"});
+  Q_EMIT rowWanted({Owner::Body, id, kBodyMaterialKey});  // the first row: what it is made of, then its shape
   return id;
 }
 

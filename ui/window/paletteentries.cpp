@@ -64,10 +64,12 @@ QString whyNot(const QAction& action, bool ready) {
   return QStringLiteral("Not possible at present");
 }
 
-void addActions(Entries& entries, MainWindow& window, const Actions& actions) {
+/// Help has all words, so that it comes behind what is called by some of them.
+void addActions(Entries& entries, MainWindow& window, const Actions& actions, bool help) {
   const bool ready = window.session().isReady();
   for (QAction* action : actions.all()) {
     if (!action->objectName().contains(QLatin1Char('.')) || action->text().isEmpty()) continue;
+    if (action->objectName().startsWith(QLatin1String("help.")) != help) continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
     entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText),
@@ -180,12 +182,13 @@ void addMaterials(Entries& entries, MainWindow& window) {
 
 std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& actions) {
   Entries entries;
-  addActions(entries, window, actions);
+  addActions(entries, window, actions, false);
   addParameters(entries, window);
   addMaterials(entries, window);
   addThings(entries, window);
   addBrush(entries, window);
   addDialogs(entries, window);
+  addActions(entries, window, actions, true);
   return entries;
 }
 

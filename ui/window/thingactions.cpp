@@ -253,10 +253,12 @@ void ThingActions::duplicate() {
   Copies copies{thingsOf(things), {}, false};
   if (m_copies) {
     const Placement now = standing(document, m_copies->made);
-    copies.goOn = m_copies->goOn || standElsewhere(m_copies->made, now);
+    const Placement next = continued(m_copies->from, now);
+    // Where the way on leads out of the scene it begins anew.
+    copies.goOn = (m_copies->goOn || standElsewhere(m_copies->made, now)) && wayTo(next, Where::Here);
     if (copies.goOn) {
       copies.from = now;
-      place(things, continued(m_copies->from, now));
+      place(things, next);
     }
   }
   copies.made = insert(std::move(things), QStringLiteral("copy of %1"), QStringLiteral("Nothing was copied."),
