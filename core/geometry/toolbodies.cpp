@@ -125,7 +125,7 @@ class Builder {
     box({half + kApart, kRim, -kWall}, {half + kApart + 0.6 * m_long, kWall + kRim, kWall});
   }
   void comb() {
-    const int teeth = std::clamp(static_cast<int>(std::lround(m_long / (kWall + kOpening))), 3, 12);
+    const int teeth = std::clamp(static_cast<int>(std::lround(m_long / (kWall + kOpening))), 4, 12);
     const double pitch = kWall + kOpening, half = 0.5 * (teeth * pitch - kOpening);
     box({-half, 0, -0.5 * kWall}, {half, 2 * kWall, 0.5 * kWall});
     const double down = std::max(kLeastTooth, m_long / 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a hand costs that leads a tool through a large scene: the command, the contact of the tool while it moves, and
 // what measures it for the status line.
-//   leading [PARTICLES [FRAMES]]       80000 of water, 60 frames
+//   leading [PARTICLES [FRAMES [COURSE]]]       80000 of water, 60 frames, all courses: "none", "stands", "1 m/s" ...
 #include "core/experiments/benchscenes.h"
 #include "core/geometry/toolbodies.h"
 #include "core/plugin_host/registry.h"
@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 using namespace ps;
@@ -60,6 +61,7 @@ struct Course {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string only = argc > 3 ? argv[3] : "";
   const int particles = argc > 1 ? std::atoi(argv[1]) : 80000, frames = argc > 2 ? std::atoi(argv[2]) : 60;
   PluginRegistry plugins;
   Project project = tank(particles);
@@ -70,13 +72,17 @@ int main(int argc, char** argv) {
   const BodyBounds water = boundsOf(project.bodies[0]);
   project.bodies.insert(project.bodies.begin(), moved(hand, {Quaternion::Identity(), water.middle()}));
   std::vector<Course> courses;
-  courses.push_back({"stands", 0, std::make_unique<Engine>(project, plugins)});
-  courses.push_back({"0.2 m/s", 0.2, std::make_unique<Engine>(project, plugins)});
-  courses.push_back({"1 m/s", 1, std::make_unique<Engine>(project, plugins)});
-  courses.push_back({"10 m/s", 10, std::make_unique<Engine>(project, plugins)});
+  const auto add = [&](const char* what, double speed) {
+    if (only.empty() || only == what) courses.push_back({what, speed, std::make_unique<Engine>(project, plugins)});
+  };
+  add("stands", 0);
+  add("0.2 m/s", 0.2);
+  add("1 m/s", 1);
+  add("10 m/s", 10);
   project.bodies.erase(project.bodies.begin());
-  courses.insert(courses.begin(), {"none", 0, std::make_unique<Engine>(project, plugins)});
-  std::printf("%zu particles\n", courses.back().engine->particles().size());
+  add("none", 0);
+  if (courses.empty()) return 2;
+  std::printf("%zu particles\n", courses.front().engine->particles().size());
   for (int frame = 0; frame < frames; ++frame) {
     for (Course& course : courses) course.step(hand.id, frame);  // in turns: the machine is not always as fast
   }
@@ -85,10 +91,11 @@ int main(int argc, char** argv) {
     if (course.speed > 0) std::printf(", command %.3f ms", quartile(course.command));
     std::printf("\n");
   }
-  const Engine& last = *courses.back().engine;
+  const Engine& first = *courses.front().engine;
   ToolMeter meter;
   meter.add(0);
   std::vector<double> measured;
-  for (int k = 0; k < 20; ++k) measured.push_back(millisecondsOf([&] { meter.measure(last.solver(), spacing); }));
+  measured.reserve(20);
+  for (int k = 0; k < 20; ++k) measured.push_back(millisecondsOf([&] { meter.measure(first.solver(), spacing); }));
   std::printf("measuring it: %.3f ms\n", quartile(measured));
 }
