@@ -113,9 +113,8 @@ class Solver {
   void carry(uint32_t body, const Quaternion& turn, const Vector3& way);
 
   /// As carry() of what is fixed of a body, but through what is in its way, from the next frame on: matter is met,
-  /// pushed and scooped up as by any body that moves. In each frame it goes half of what is left of the way, and so
-  /// trails behind a hand; several calls add up. It goes 20 m/s at most, and a spacing in a substep, of which frames
-  /// have up to eight times as many as the settings say for that. On top of how setMotion() has it move.
+  /// pushed and scooped up as by any body that moves. In each frame it goes half of what is left of the way, at 20 m/s
+  /// at most, and so trails behind a hand; several calls add up. On top of how setMotion() has it move.
   void lead(uint32_t body, const Quaternion& turn, const Vector3& way);
   /// m that the particle of a body has still to go that lead() takes farthest.
   double leadLeft(uint32_t body) const;
