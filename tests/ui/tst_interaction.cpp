@@ -27,6 +27,7 @@
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
@@ -242,8 +243,12 @@ class TestInteraction : public SampleWindowTest {
       const QByteArray name = stop->metaObject()->className() + QByteArray(" ") + stop->accessibleName().toUtf8();
       stop->setFocus(Qt::TabFocusReason);
       QTRY_VERIFY2(stop->hasFocus(), name.constData());
-      const QImage focused = stop->grab().toImage();
+      QImage focused = stop->grab().toImage();
       QTest::keyClick(stop, Qt::Key_Tab);
+      if (qobject_cast<QLabel*>(stop) && stop->hasFocus()) {  // it stops at its links first
+        focused = stop->grab().toImage();
+        QTest::keyClick(stop, Qt::Key_Tab);
+      }
       QWidget* next = QApplication::focusWidget();
       QVERIFY2(next && next != stop, name.constData());
       QVERIFY2(differing(focused, stop->grab().toImage()) >= kRing, name.constData());

@@ -209,7 +209,7 @@ class TestPanelPictures : public SampleWindowTest {
     QTest::addColumn<QString>("scale");
     QTest::addColumn<QStringList>("what");
     QTest::newRow("125 %") << "1.25" << QStringList{"everyPage:small"};
-    QTest::newRow("200 %") << "2" << QStringList();
+    QTest::newRow("200 %") << "2" << QStringList{"everyPage:dark", "everyPage:light", "dialogs:dark"};
     QTest::newRow("300 %") << "3" << QStringList{"everyPage:small"};
   }
   void theSameAtOtherScales() {

@@ -100,6 +100,7 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
 QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
                              const QString& icon) {
   auto* item = new QStandardItem(name);
+  item->setToolTip(name);  // there may be no room for it
   item->setData(static_cast<int>(kind), outline::kKind);
   item->setData(QString::fromStdString(id), outline::kId);
   item->setData(icon, outline::kIcon);
@@ -148,7 +149,7 @@ void Outliner::mark(QStandardItem* item, const std::vector<Address>& things) con
   if (things.empty()) return;
   item->setData(visible, outline::kVisible);
   item->setData(locked, outline::kLocked);
-  QStringList tip;
+  QStringList tip{item->text()};
   if (!visible) tip << QStringLiteral("Hidden: the view does not draw it. It acts all the same.");
   if (locked) tip << QStringLiteral("Locked: hands neither move nor delete it.");
   item->setToolTip(tip.join(QLatin1Char('\n')));
