@@ -243,13 +243,13 @@ void TestRenderViews::propsAreShownBesides() {
   };
   Renderer renderer;
   const Image without = renderImage(renderer, block(api::Motion::Solid), RenderScene{}, shot);
-  renderer.show({square(0.3f, 0), {}});
+  renderer.show({square(0.3f, 0), {}, {}});
   QVERIFY(redness(ps::renderImage(renderer, shot.eye(), shot.size)) > 80);
   QVERIFY(redness(renderImage(renderer, block(api::Motion::Solid), RenderScene{}, shot)) > 80);
-  renderer.show({{}, square(0.3f, 0.4f)});
+  renderer.show({{}, square(0.3f, 0.4f), {}});
   const int clear = redness(ps::renderImage(renderer, shot.eye(), shot.size));
   QVERIFY2(clear > redness(without) + 20 && clear < 160, qPrintable(QString::number(clear)));
-  renderer.show({square(-0.3f, 0), square(-0.3f, 0.4f)});  // behind the block
+  renderer.show({square(-0.3f, 0), square(-0.3f, 0.4f), {}});  // behind the block
   QVERIFY(redness(ps::renderImage(renderer, shot.eye(), shot.size)) == redness(without));
   renderer.show({});
   QVERIFY(ps::renderImage(renderer, shot.eye(), shot.size) == without);
