@@ -104,6 +104,7 @@ class TestRenderViews : public QObject {
   void aWindowBesideTheAxisShowsTheSame();
   void preparedInOneContextDrawnInAnother();
   void propsAreShownBesides();
+  void panelsAreShownOverTheScene();
   void nothingPreparedIsAnError();
   void sizesTakeTurnsWithoutNewStorage();
   void picturesKeepTheirBackground();
@@ -252,6 +253,35 @@ void TestRenderViews::propsAreShownBesides() {
   renderer.show({square(-0.3f, 0), square(-0.3f, 0.4f), {}});  // behind the block
   QVERIFY(redness(ps::renderImage(renderer, shot.eye(), shot.size)) == redness(without));
   renderer.show({});
+  QVERIFY(ps::renderImage(renderer, shot.eye(), shot.size) == without);
+}
+
+/// A blue panel in the world's middle: over matter that is nearer, behind a red square in a hand, and not from behind.
+void TestRenderViews::panelsAreShownOverTheScene() {
+  Shot shot;
+  shot.camera = {{0, 0, 0}, 1, 0, 0, 35};
+  const auto image = std::make_shared<PanelImage>();
+  image->width = image->height = 2;
+  for (int k = 0; k < 4; ++k) image->pixels.insert(image->pixels.end(), {0, 0, 255, 255});
+  const auto panel = [&](float z, double side) {
+    const double s = 0.1;
+    return Panel{{Vector3(-s * side, -s, z), {s * side, -s, z}, {s * side, s, z}, {-s * side, s, z}}, image};
+  };
+  const auto blueness = [&](const Props& props, Renderer& renderer) {
+    renderer.show(props);
+    const Image seen = ps::renderImage(renderer, shot.eye(), shot.size);
+    const size_t middle = (kHeight / 2 * kWidth + kWidth / 2) * 4;
+    return int{seen[middle + 2]} - int{seen[middle]};
+  };
+  Renderer renderer;
+  const Image without = renderImage(renderer, block(api::Motion::Solid), RenderScene{}, shot);
+  const auto corner = [](float x, float y) { return MeshVertex{{x, y, 0.3f}, {0, 0, 1}, {0.9f, 0.1f, 0.1f, 0}}; };
+  const std::vector<MeshVertex> hand{corner(-0.1f, -0.1f), corner(0.1f, -0.1f), corner(0.1f, 0.1f),
+                                     corner(-0.1f, -0.1f), corner(0.1f, 0.1f),  corner(-0.1f, 0.1f)};
+  QVERIFY(blueness({{}, {}, {panel(0.2f, 1)}}, renderer) > 200);
+  QVERIFY(blueness({{}, {}, {panel(-0.3f, 1)}}, renderer) > 200);  // the block is nearer
+  QVERIFY(blueness({hand, {}, {panel(0.2f, 1)}}, renderer) < -80);
+  renderer.show({{}, {}, {panel(0.2f, -1)}});  // its back
   QVERIFY(ps::renderImage(renderer, shot.eye(), shot.size) == without);
 }
 
