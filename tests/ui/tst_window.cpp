@@ -334,7 +334,7 @@ class TestWindow : public QObject {
     QTest::newRow("wall") << "hot plate temperature"
                           << "Hot plate temperature";
     QTest::newRow("own things before what replaces the scene") << "hot pl"
-                                                               << "Hot plate";
+                                                               << "Hot plate shape";
     QTest::newRow("what replaces the scene by its name") << "new sc"
                                                          << "New scene";
     QTest::newRow("solver") << "substeps"
