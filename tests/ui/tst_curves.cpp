@@ -210,6 +210,9 @@ class TestCurves : public CurveWindowTest {
     QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
     QVERIFY(!shown("dock.curve") && shown("dock.inspector") && m_window->tools().tool().usesBrush());
     QTest::keyClick(m_window.get(), Qt::Key_Tab, Qt::ControlModifier);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kFilmTab);
+    QVERIFY(shown("dock.film") && !shown("dock.inspector") && !shown("dock.graphs"));
+    QTest::keyClick(m_window.get(), Qt::Key_Tab, Qt::ControlModifier);
     QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
     m_window->layoutOfDocks().dock(QStringLiteral("dock.graphs"))->hide();
     m_window->showWorkspace(MainWindow::kTuneTab);
