@@ -4,9 +4,7 @@
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/rows/parameterrow.h"
-#include "ui/session/recordedview.h"
 #include "ui/theme/theme.h"
-#include "ui/timeline/transport.h"
 #include "ui/vr/panels.h"
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
@@ -375,7 +373,7 @@ void VrPanelsTest::aSliderOfTheBoardIsDragged() {
   m_window->tools().setBrush(brush);
 }
 
-/// A graph is zoomed, the timeline scrubbed, a body's value dragged as one step.
+/// A graph is zoomed, a body's value dragged as one step.
 void VrPanelsTest::pagesAreTheWindowsOwn() {
   session().step();
   session().step();
@@ -390,15 +388,6 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   const double whole = width();
   at(vr::kBoard, *graph, graph->plotRect().center(), false, 1);
   QTRY_VERIFY(width() < 0.95 * whole);
-  panels().showPage(QStringLiteral("Transport"));
-  QTest::qWait(100);
-  auto* transport = panels().widget(vr::kBoard)->findChild<Transport*>();
-  QVERIFY(transport && transport->isVisible());
-  const QPointF early = transport->placeOf(session().newest()->stats.time / 3);
-  at(vr::kBoard, *transport, early, true);
-  at(vr::kBoard, *transport, early, false);
-  QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
-  session().recorded().showNewest();
   m_window->selection().selectBody(document().project().bodies.front().id);
   panels().showPage(QStringLiteral("Body"));
   QTest::qWait(100);
@@ -417,10 +406,14 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
 /// What opens at a press there is seen and pressed like a panel.
 void VrPanelsTest::menusComeAlong() {
   enterWithout();
-  panels().showPage(QStringLiteral("Transport"));
+  panels().showPage(QStringLiteral("Brush"));
   QTest::qWait(100);
-  auto* speed = panels().widget(vr::kBoard)->findChild<Transport*>()->speedButton();
-  QTimer::singleShot(0, this, [&] { click(vr::kBoard, *speed); });  // a menu may wait until it closes
+  ParameterRow* row = rowOf(QStringLiteral("draw_on"));
+  QVERIFY(row);
+  const QPointF choices = QRectF(row->sliderRect()).center();
+  QTimer::singleShot(0, this, [&] {  // a menu waits until it closes
+    for (const bool pressed : {false, true, false}) at(vr::kBoard, *row, choices, pressed);
+  });
   QTRY_VERIFY_WITH_TIMEOUT(QApplication::activePopupWidget(), kLong);
   const auto isSeen = [&] {
     panels().paint();

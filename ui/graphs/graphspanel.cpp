@@ -103,6 +103,7 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
         shown.overTime->setDuration(m_session.document().project().duration);
     }
   });
+  if (session.isReady()) rebuild();  // made later than the project came
 }
 
 /// Whose owners may come, go and be called something else.

@@ -38,6 +38,7 @@ BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent) : ParameterPanel(parent)
     if (std::holds_alternative<ProjectOpened>(event)) refresh();
     if (std::holds_alternative<MaterialsChanged>(event)) showMaterial();
   });
+  if (tools.document().plugins()) refresh();  // made later than they came
 }
 
 const char* BrushPanel::keep(const QString& text) const { return m_texts.insert(text.toStdString()).first->c_str(); }

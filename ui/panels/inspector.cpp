@@ -56,6 +56,10 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   connect(&session.swatches(), &Swatches::arrived, this, &Inspector::showMaterialHeader);
   connect(&selection, &Selection::changed, this, &Inspector::showSelected);
   connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
+  if (!session.isReady()) return;
+  onChanged(ProjectOpened{});  // made later than the project came
+  showSelected();
+  if (!selection.material().empty()) setMaterial(selection.material());
 }
 
 void Inspector::connectPanel(ParameterPanel* panel) {

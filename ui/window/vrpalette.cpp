@@ -27,7 +27,7 @@
 namespace ps {
 namespace {
 
-constexpr int kColumns = 6, kButton = 34, kEdge = 12, kGap = 6, kIcon = 20;
+constexpr int kColumns = 6, kButton = 30, kEdge = 10, kGap = 5, kIcon = 20;
 constexpr double kDegrees = 10;  // K, that a button adds to a temperature
 
 /// The one `by` places on in a ring, or the first.

@@ -30,11 +30,11 @@ namespace ps {
 namespace {
 
 /// Pages that the board can show, as their docks call them.
-constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve", "Transport"};
+constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve"};
 /// m of the room for each logical pixel: rows of 26 are 34 mm on the board, where the eyes are 0.75 m away, and letters
 /// of 12 are 16 mm; the palette is held at half that.
 constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.75e-3;
-constexpr QSize kBoardSize{385, 308}, kPaletteSize{400, 360};
+constexpr QSize kBoardSize{385, 308}, kPaletteSize{400, 366};
 constexpr double kSharpness = 2.5;               // pixels painted for each logical one
 constexpr int kOpacity = 237;                    // 93 % of 255
 constexpr int kPaint = 100, kPaintTouched = 30;  // ms between pictures
@@ -78,7 +78,6 @@ std::shared_ptr<const PanelImage> pictureOf(QWidget& widget, const std::shared_p
 
 VrPanels::VrPanels(const Parts& parts)
     : m_parts(parts),
-      m_inspector(std::make_unique<Inspector>(parts.session, parts.tools.selection())),
       m_palette(std::make_unique<VrPalette>(parts.session, parts.tools, parts.actions,
                                             std::vector<const char*>(std::begin(kPages), std::end(kPages)))),
       m_board(std::make_unique<QWidget>()) {
@@ -99,12 +98,6 @@ VrPanels::VrPanels(const Parts& parts)
   m_pages = new QStackedWidget;
   column->addLayout(header);
   column->addWidget(m_pages, 1);
-  // Pages that nobody asks for go with the board.
-  for (ParameterPanel* panel : {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(),
-                                m_inspector->solverPanel()}) {
-    panel->setParent(m_board.get());
-    panel->hide();
-  }
   connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
   showUnseen(*m_palette, kPaletteSize);
   showUnseen(*m_board, kBoardSize);
@@ -116,6 +109,15 @@ VrPanels::~VrPanels() { letGo(); }
 QWidget* VrPanels::makePage(const QString& title) {
   QWidget*& page = m_made[title];
   if (page) return page;
+  if (!m_inspector) {
+    m_inspector = std::make_unique<Inspector>(m_parts.session, m_parts.tools.selection());
+    // Pages of it that nobody asks for go with the board.
+    for (ParameterPanel* panel : {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(),
+                                  m_inspector->solverPanel()}) {
+      panel->setParent(m_board.get());
+      panel->hide();
+    }
+  }
   const PanelContext context{m_parts.session, m_parts.tools.selection(), m_parts.tools, *m_inspector, m_parts.curves,
                              m_parts.view};
   for (const PanelRow& row : panelTable()) {

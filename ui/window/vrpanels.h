@@ -76,7 +76,7 @@ class VrPanels : public QObject {
   void findPopup();
 
   const Parts m_parts;
-  std::unique_ptr<Inspector> m_inspector;  ///< of the board alone
+  std::unique_ptr<Inspector> m_inspector;  ///< of the board alone, once a page is asked for
   std::unique_ptr<VrPalette> m_palette;
   std::unique_ptr<QWidget> m_board;
   QLabel* m_title = nullptr;
