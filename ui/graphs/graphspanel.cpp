@@ -103,7 +103,9 @@ GraphsPanel::GraphsPanel(Session& session, QWidget* parent)
         shown.overTime->setDuration(m_session.document().project().duration);
     }
   });
-  if (session.isReady()) rebuild();  // made later than the project came
+  if (!session.isReady()) return;
+  rebuild();  // made later than the project came
+  readHistory();
 }
 
 /// Whose owners may come, go and be called something else.

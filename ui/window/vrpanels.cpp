@@ -33,8 +33,8 @@ namespace {
 constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve"};
 /// m of the room for each logical pixel: rows of 26 are 34 mm on the board, where the eyes are 0.75 m away, and letters
 /// of 12 are 16 mm; the palette is held at half that.
-constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.75e-3;
-constexpr QSize kBoardSize{385, 308}, kPaletteSize{400, 366};
+constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.85e-3;
+constexpr QSize kBoardSize{385, 308}, kPaletteSize{360, 332};
 constexpr double kSharpness = 2.5;               // pixels painted for each logical one
 constexpr int kOpacity = 237;                    // 93 % of 255
 constexpr int kPaint = 100, kPaintTouched = 30;  // ms between pictures
