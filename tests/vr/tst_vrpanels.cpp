@@ -408,12 +408,15 @@ void VrPanelsTest::menusComeAlong() {
   enterWithout();
   panels().showPage(QStringLiteral("Brush"));
   QTest::qWait(100);
-  ParameterRow* row = rowOf(QStringLiteral("draw_on"));
-  QVERIFY(row);
-  const QPointF choices = QRectF(row->sliderRect()).center();
-  QTimer::singleShot(0, this, [&] {  // a menu waits until it closes
-    for (const bool pressed : {false, true, false}) at(vr::kBoard, *row, choices, pressed);
-  });
+  QMenu offered;
+  for (const char* name : {"One", "Two"}) offered.addAction(QString::fromLatin1(name));
+  QToolButton opens(panels().widget(vr::kBoard));
+  opens.setPopupMode(QToolButton::InstantPopup);
+  opens.setMenu(&offered);
+  opens.setGeometry(150, 120, 80, 30);
+  opens.show();
+  opens.raise();
+  QTimer::singleShot(0, this, [&] { click(vr::kBoard, opens); });  // a menu waits until it closes
   QTRY_VERIFY_WITH_TIMEOUT(QApplication::activePopupWidget(), kLong);
   const auto isSeen = [&] {
     panels().paint();
