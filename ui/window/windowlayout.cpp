@@ -28,6 +28,7 @@ constexpr std::pair<Workspace, const char*> kStates[] = {
     {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
 constexpr int kStateVersion = 4;
 constexpr int kSplitters = 8;  // pixels between docks
+constexpr size_t kFilm = 8;    // in the table
 
 /// A column of the layout table: pixels of docks in windows of at least a width.
 struct Column {
@@ -144,6 +145,7 @@ void WindowLayout::putAway() {
     dock->setFloating(false);
     dock->hide();
   }
+  m_window.removeDockWidget(m_docks[kFilm]);  // alone in its workspace: elsewhere its place would ask for room
 }
 
 void WindowLayout::showDocks() {
@@ -156,7 +158,7 @@ void WindowLayout::layScene() {
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   // All have a place, so that a saved state says of each that it is hidden.
   for (size_t i = 0; i < m_docks.size(); ++i) {
-    if (!shows(i)) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
+    if (!shows(i) && i != kFilm) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
   }
   putAway();
   m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
@@ -184,7 +186,7 @@ void WindowLayout::layTune() {
 void WindowLayout::layFilm() {
   putAway();
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
-  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[8]);
+  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[kFilm]);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[4]);
   showDocks();
 }
@@ -200,7 +202,7 @@ void WindowLayout::sizeDocks() {
     m_window.resizeDocks({m_docks[7]}, {column.points}, Qt::Vertical);
     return;
   }
-  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[8]}, {column.right}, Qt::Horizontal);
+  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[kFilm]}, {column.right}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[2]}, {column.left, column.right}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
   m_window.resizeDocks({m_docks[3], m_docks[4]}, {column.graphs, 40}, Qt::Vertical);
