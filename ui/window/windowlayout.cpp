@@ -27,8 +27,7 @@ constexpr const char* kHint = "view/hint";
 constexpr std::pair<Workspace, const char*> kStates[] = {
     {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
 constexpr int kStateVersion = 4;
-constexpr int kSplitters = 8;  // pixels between docks
-constexpr size_t kFilm = 8;    // in the table
+constexpr size_t kFilm = 8;  // in the table
 
 /// A column of the layout table: pixels of docks in windows of at least a width.
 struct Column {
@@ -194,9 +193,8 @@ void WindowLayout::layFilm() {
 void WindowLayout::sizeDocks() {
   const Column& column = columnOf(m_window.width());
   if (m_workspace == Workspace::Tune) {
-    // No less than the view needs with its buttons: the window would grow by what is missing.
-    const QWidget* middle = m_window.centralWidget();
-    const int list = column.left, preview = std::max(480, middle ? middle->minimumSizeHint().width() + kSplitters : 0);
+    // As much as the view needs with all its buttons: the window would grow by what is missing.
+    const int list = column.left, preview = 536;
     m_window.resizeDocks({m_docks[5], m_docks[6]}, {list, m_window.width() - list - preview}, Qt::Horizontal);
     m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {column.curve, column.curveGraphs, 40}, Qt::Vertical);
     m_window.resizeDocks({m_docks[7]}, {column.points}, Qt::Vertical);
