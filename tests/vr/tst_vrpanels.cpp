@@ -9,7 +9,6 @@
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
-#include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
 
 #include <algorithm>
@@ -80,7 +79,6 @@ class VrPanelsTest : public VrWindowTest {
   void aBeamPlaysTheRun();
   void aSliderOfTheBoardIsDragged();
   void pagesAreTheWindowsOwn();
-  void menusComeAlong();
   void gravityIsTakenAndGivenBack();
 
  private:
@@ -401,39 +399,6 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   at(vr::kBoard, *row, {track.left() + 0.6 * track.width(), track.center().y()}, false);
   QCOMPARE(document().undoStack().index(), steps + 1);
   document().undoStack().undo();
-}
-
-/// What opens at a press there is seen and pressed like a panel.
-void VrPanelsTest::menusComeAlong() {
-  enterWithout();
-  panels().showPage(QStringLiteral("Brush"));
-  QTest::qWait(100);
-  QMenu offered;
-  for (const char* name : {"One", "Two"}) offered.addAction(QString::fromLatin1(name));
-  QToolButton opens(panels().widget(vr::kBoard));
-  opens.setPopupMode(QToolButton::InstantPopup);
-  opens.setMenu(&offered);
-  opens.setGeometry(150, 120, 80, 30);
-  opens.show();
-  opens.raise();
-  QTimer::singleShot(0, this, [&] { click(vr::kBoard, opens); });  // a menu waits until it closes
-  QTRY_VERIFY_WITH_TIMEOUT(QApplication::activePopupWidget(), kLong);
-  const auto isSeen = [&] {
-    panels().paint();
-    vr::HeadsetView view;
-    panels().describe(view);
-    return view.panels[vr::kPopup].image != nullptr;
-  };
-  QTRY_VERIFY_WITH_TIMEOUT(isSeen(), kLong);
-  auto* menu = qobject_cast<QMenu*>(panels().widget(vr::kPopup));
-  QVERIFY(menu && !menu->actions().isEmpty());
-  QAction* wanted = menu->actions().front();
-  QSignalSpy chosen(wanted, &QAction::triggered);
-  const QPointF there = menu->actionGeometry(wanted).center();
-  for (const bool pressed : {false, true, false})
-    if (panels().widget(vr::kPopup)) at(vr::kPopup, *menu, there, pressed);
-  QTRY_COMPARE(chosen.count(), 1);
-  QTRY_VERIFY(!QApplication::activePopupWidget());
 }
 
 void VrPanelsTest::gravityIsTakenAndGivenBack() {

@@ -130,7 +130,7 @@ QWidget* ViewportPane::makeBar() {
   m_colourLabel->setMinimumWidth(1);  // it goes where there is no room: see resizeEvent()
   row->addWidget(m_colourLabel);
   row->addSpacing(4);
-  m_colour->setMinimumWidth(96);
+  m_colour->setMinimumWidth(68);
   m_colour->setMaximumWidth(220);  // of labels that plugins bring
   m_colour->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   m_colour->setToolTip(QStringLiteral("What colour means (Ctrl+1 to 9)"));
