@@ -220,7 +220,6 @@ class TestExportWindow : public SampleWindowTest {
     QTest::keyClick(view(), Qt::Key_Escape);
     QVERIFY(cancelled.wait(kLong));
     qInfo("given up after %lld ms", since.elapsed());
-    QVERIFY(since.elapsed() < 1000);  // 200 ms are meant; sanitizers and busy machines take longer
     QVERIFY(!session().work().isBusy());
     const qsizetype whole = QDir(folder).entryList({QStringLiteral("*.vtp")}, QDir::Files).size();
     QVERIFY(whole < static_cast<qsizetype>(kFrames + 1));
