@@ -112,7 +112,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
   const long frames = frameCount(arguments, project, begin->stats.time), first = static_cast<long>(begin->stats.frame);
   const long every = everyFor(arguments, isFilm(arguments.text("--out")) ? 1 : 60, frames);
   FilmPainter painter(project, plugins, choicesOf(arguments, project, plugins, colour, every));
-  painter.draw(*begin, first);
+  painter.draw(begin, first);
   StepFlags flags = 0;
   std::string message;
   {
@@ -122,7 +122,7 @@ int renderProject(const Arguments& arguments, const std::string& path) {
       if (step.flags && !flags) message = step.message;
       flags |= step.flags;
       if (step.flags & kTakenBack) break;  // nothing moves any more
-      if (frame % every == 0) painter.draw(*engine.snapshot(), first + frame);
+      if (frame % every == 0) painter.draw(engine.snapshot(), first + frame);
       progress.show(frame, engine.stats());
     }
   }
@@ -151,7 +151,7 @@ int renderRecording(const Arguments& arguments, const std::string& path) {
   for (const RangeFrame& frame : framesIn(
            recording.content().present, {first, first + static_cast<uint64_t>(frames), static_cast<uint64_t>(every)})) {
     if (interrupted()) break;
-    painter.draw(*unpacker.snapshot(*kept.at(frame.kept), 1), static_cast<long>(frame.wanted - first));
+    painter.draw(unpacker.snapshot(*kept.at(frame.kept), 1), static_cast<long>(frame.wanted - first));
   }
   const size_t pictures = painter.finish();
   if (!arguments.has("--quiet"))

@@ -2,6 +2,7 @@
 #include "ui/film/filmpainter.h"
 
 #include "core/simulation/tracks.h"
+#include "ui/film/hiddenbodies.h"
 #include "ui/render/framing.h"
 
 #include <algorithm>
@@ -10,7 +11,11 @@
 namespace ps {
 
 FilmPainter::FilmPainter(const Project& project, const PluginRegistry& plugins, FilmChoices choices)
-    : m_project(project), m_plugins(plugins), m_choices(std::move(choices)), m_scene{project.environment} {
+    : m_project(project),
+      m_plugins(plugins),
+      m_choices(std::move(choices)),
+      m_hidden(hiddenBodies(project)),
+      m_scene{project.environment} {
   if (const auto& own = project.view.camera; own && !m_choices.camera)
     m_choices.camera = Camera{own->target, own->distance, own->azimuth, own->elevation};
   m_context.makeCurrent();
@@ -20,7 +25,9 @@ FilmPainter::FilmPainter(const Project& project, const PluginRegistry& plugins, 
                          std::clamp(m_choices.framesPerSecond, 1e-3, 1000.0));
 }
 
-void FilmPainter::draw(const Snapshot& snapshot, long frame) {
+void FilmPainter::draw(const SnapshotPtr& whole, long frame) {
+  const SnapshotPtr shown = withoutBodies(whole, m_hidden);
+  const Snapshot& snapshot = *shown;
   const auto [width, height, still] = m_choices.size;
   // One view for the whole film: what it begins with.
   if (!m_choices.camera) m_choices.camera = cameraShowing(snapshot, m_scene.environment, width, height);

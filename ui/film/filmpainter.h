@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace ps {
@@ -26,8 +27,9 @@ class FilmPainter {
  public:
   /// Both must outlive it. Throws as makeFrameSink(), and Error where nothing can be drawn.
   FilmPainter(const Project& project, const PluginRegistry& plugins, FilmChoices choices);
-  /// `frame` numbers the picture. Walls and air are as the project's tracks have them then.
-  void draw(const Snapshot& snapshot, long frame);
+  /// `frame` numbers the picture. Walls and air are as the project's tracks have them then; its hidden bodies are left
+  /// out.
+  void draw(const SnapshotPtr& snapshot, long frame);
   /// Of pictures.
   size_t finish();
 
@@ -35,6 +37,7 @@ class FilmPainter {
   const Project& m_project;
   const PluginRegistry& m_plugins;
   FilmChoices m_choices;
+  std::set<std::string> m_hidden;
   RenderScene m_scene;
   HeadlessContext m_context;
   std::unique_ptr<Renderer> m_renderer;

@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
+#include "ui/film/hiddenbodies.h"
 #include "ui/render/framing.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
@@ -18,7 +19,6 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/gizmopainter.h"
-#include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/portpainter.h"
 #include "ui/viewport/viewportaccess.h"
 #include "ui/viewport/wirepainter.h"
@@ -74,20 +74,15 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
   connect(&session, &Session::playingChanged, this, qOverload<>(&QWidget::update));  // a hint names what Space does
   connect(&session.recorded(), &RecordedView::ghostChanged, this, &Viewport::ghostChanged);
   connect(&session.transitions(), &Transitions::changed, this, qOverload<>(&QWidget::update));
-  connect(&selection, &Selection::changed, this, [this] {
+  const auto show = [this] {
     update();
     announce();
-  });
+  };
+  connect(&selection, &Selection::changed, this, show);
   connect(&tools, &Toolbox::toolChanged, this, &Viewport::onTool);
-  connect(&tools, &Toolbox::mouseChanged, this, [this] { update(); });
-  connect(&tools, &Toolbox::handlesChanged, this, [this] {
-    update();
-    announce();
-  });
-  connect(&tools, &Toolbox::brushChanged, this, [this] {
-    update();
-    announce();
-  });
+  connect(&tools, &Toolbox::mouseChanged, this, qOverload<>(&QWidget::update));
+  connect(&tools, &Toolbox::handlesChanged, this, show);
+  connect(&tools, &Toolbox::brushChanged, this, show);
 }
 
 Viewport::~Viewport() {
@@ -335,10 +330,7 @@ void Viewport::bodiesChanged() {
   m_scene.environment = m_session.surroundings();
   m_box.reset();
   m_shown.reset();
-  m_hidden.clear();
-  for (const Body& body : m_document.project().bodies) {
-    if (!body.visible) m_hidden.insert(body.id);
-  }
+  m_hidden = hiddenBodies(m_document.project());
   if (m_session.engine()) {
     m_now = withoutBodies(m_session.snapshot(), m_hidden);
     m_previous = nullptr;
@@ -362,8 +354,9 @@ std::optional<Box> Viewport::boxOfSelection() const {
     all->first = all->first.cwiseMin(box->first);
     all->second = all->second.cwiseMax(box->second);
   };
-  for (uint32_t k = 0; m_now && m_now->bodyIds && k < m_now->bodyIds->size(); ++k) {
-    if (m_selection.has(OutlineKind::Body, (*m_now->bodyIds)[k])) add(boxOf(*m_now, k));
+  const std::vector<std::optional<Box>> bodies = m_now ? boxesOfBodies(*m_now) : std::vector<std::optional<Box>>{};
+  for (size_t k = 0; k < bodies.size(); ++k) {
+    if (m_selection.has(OutlineKind::Body, (*m_now->bodyIds)[k])) add(bodies[k]);
   }
   for (const SelectedItem& item : m_selection.items()) {
     if (item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink)

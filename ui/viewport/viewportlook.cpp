@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the renderer is told of the picture: colours, the line around the selected body, the ghost of another run.
 #include "ui/document/document.h"
+#include "ui/film/hiddenbodies.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
@@ -9,7 +10,6 @@
 #include "ui/theme/theme.h"
 #include "ui/tools/guides.h"
 #include "ui/tools/toolbox.h"
-#include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/viewport.h"
 
 #include <algorithm>

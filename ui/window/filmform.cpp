@@ -11,7 +11,6 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
-#include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/filenames.h"
 
@@ -20,7 +19,6 @@
 #include <QtCore/QStandardPaths>
 #include <QtWidgets/QComboBox>
 
-#include <set>
 #include <utility>
 
 namespace ps {
@@ -29,13 +27,12 @@ namespace {
 constexpr std::pair<int, int> kSizes[] = {{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {1080, 1080}};
 
 /// Draws each frame that is meant, one that is not kept as the one before it.
-size_t draw(const KeptRun& run, const FrameRange& range, const std::set<std::string>& hidden, FilmPainter& painter) {
+size_t draw(const KeptRun& run, const FrameRange& range, FilmPainter& painter) {
   const std::vector<RangeFrame> frames = framesIn(run, range);
   beginStage("Drawing", 1, static_cast<double>(frames.size()));
   const FrameUnpacker unpacker;
   for (const RangeFrame& frame : frames) {
-    painter.draw(*withoutBodies(unpacker.snapshot(*run.frames.at(frame.kept), 1), hidden),
-                 static_cast<long>(frame.wanted));
+    painter.draw(unpacker.snapshot(*run.frames.at(frame.kept), 1), static_cast<long>(frame.wanted));
     advance(1);
   }
   return painter.finish();
@@ -105,14 +102,12 @@ void FilmForm::begin() {
     choices.camera = m_view->navigator().camera();
   else
     choices.section = project.view.section;
-  std::set<std::string> hidden;
-  if (m_view) hidden = m_view->hiddenBodies();
-  session().work().start({film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
-                          [choices, project, hidden, asked = range(), where = place(),
-                           plugins = session().registry()](const KeptRun& run) {
-                            FilmPainter painter(project, *plugins, choices);
-                            return RunWork::Result{writtenText(draw(run, asked, hidden, painter), where)};
-                          }});
+  session().work().start(
+      {film() ? QStringLiteral("Film") : QStringLiteral("Pictures"), place(),
+       [choices, project, asked = range(), where = place(), plugins = session().registry()](const KeptRun& run) {
+         FilmPainter painter(project, *plugins, choices);
+         return RunWork::Result{writtenText(draw(run, asked, painter), where)};
+       }});
 }
 
 }  // namespace ps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/viewport/hiddenbodies.h"
+#include "ui/film/hiddenbodies.h"
 
 namespace ps {
 namespace {
@@ -14,6 +14,14 @@ void keep(std::vector<T>& values, const std::vector<size_t>& rows) {
 }
 
 }  // namespace
+
+std::set<std::string> hiddenBodies(const Project& project) {
+  std::set<std::string> hidden;
+  for (const Body& body : project.bodies) {
+    if (!body.visible) hidden.insert(body.id);
+  }
+  return hidden;
+}
 
 SnapshotPtr withoutBodies(const SnapshotPtr& snapshot, const std::set<std::string>& hidden) {
   if (!snapshot || hidden.empty() || !snapshot->bodyIds) return snapshot;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/project.h"
 #include "core/simulation/snapshot.h"
 
 #include <set>
@@ -7,6 +8,8 @@
 
 namespace ps {
 
+/// By their ids.
+std::set<std::string> hiddenBodies(const Project& project);
 /// The snapshot without the particles of some bodies; the same one when none is hidden.
 SnapshotPtr withoutBodies(const SnapshotPtr& snapshot, const std::set<std::string>& hidden);
 
