@@ -93,7 +93,7 @@ class TestTools : public ToolTest {
     QVERIFY(tool.cancel());
     QCOMPARE(pivotOf(*m_document->body("ice")), before);
     QCOMPARE(m_document->undoStack().count(), 0);
-    m_document->setBodiesLocked({"ice"}, true);
+    m_document->setLocked({{Owner::Body, "ice", ""}}, true);
     QVERIFY(!tool.picture().gizmo->gizmo && tool.picture().gizmo->note.contains(QStringLiteral("locked")));
   }
 
@@ -275,7 +275,7 @@ class TestTools : public ToolTest {
     std::set<std::string> seen;
     for (size_t i = 0; i < m_plugins->ids(PluginKind::Brush).size(); ++i) {
       seen.insert(m_tools->brush().shape);
-      m_tools->nextShape();
+      m_tools->stepShape(1);
     }
     QCOMPARE(seen.size(), m_plugins->ids(PluginKind::Brush).size());
     QCOMPARE(m_tools->brush().shape, m_plugins->standard(PluginKind::Brush));

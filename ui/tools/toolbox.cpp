@@ -118,12 +118,26 @@ void Toolbox::stepBrush(int direction) {
   setBrush(brush);
 }
 
-void Toolbox::nextShape() {
+const std::string* further(const std::vector<std::string>& ring, const std::string& now, int by) {
+  if (ring.empty()) return nullptr;
+  const auto found = std::find(ring.begin(), ring.end(), now);
+  if (found == ring.end()) return &ring.front();
+  const auto count = static_cast<std::ptrdiff_t>(ring.size());
+  return &ring[static_cast<size_t>((found - ring.begin() + by + count) % count)];
+}
+
+void Toolbox::stepShape(int by) {
   if (!m_document.plugins()) return;
   const std::vector<std::string> shapes = m_document.plugins()->ids(PluginKind::Brush);
-  if (shapes.empty()) return;
-  const auto present = std::find(shapes.begin(), shapes.end(), m_brush.shape);
-  takeBrush(present == shapes.end() || present + 1 == shapes.end() ? shapes.front() : *(present + 1));
+  if (const std::string* shape = further(shapes, m_brush.shape, by)) takeBrush(*shape);
+}
+
+void Toolbox::stepMaterial(int by) {
+  std::vector<std::string> materials;
+  for (const SceneMaterial& one : m_document.project().materials) materials.push_back(one.id);
+  if (materials.empty()) return;
+  const std::string& now = m_brush.material.empty() ? materials.front() : m_brush.material;
+  if (const std::string* material = further(materials, now, by)) m_selection.setMaterial(*material);
 }
 
 double Toolbox::spacing() const {

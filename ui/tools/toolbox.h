@@ -19,6 +19,9 @@ class Document;
 class SceneLink;
 class Selection;
 
+/// The one that stands so many places on, or back, in a ring; the first where `now` is none of it, nullptr without any.
+const std::string* further(const std::vector<std::string>& ring, const std::string& now, int by);
+
 /// The tools of one editor, which of them is in hand, and the brush that several share. Views feed the tool in hand;
 /// panels and buttons follow the signals.
 class Toolbox : public QObject {
@@ -45,7 +48,8 @@ class Toolbox : public QObject {
   const BrushSettings& brush() const { return m_brush; }
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
-  void nextShape();               ///< of those installed, by id
+  void stepShape(int by);         ///< so many brushes on, or back, among those installed by id
+  void stepMaterial(int by);      ///< likewise of what is drawn with, among the scene's materials
   /// Takes a brush in hand; one that does not draw puts the eraser aside.
   void takeBrush(const std::string& id);
   /// Whether the brush in hand works on the matter that is there, instead of drawing.

@@ -33,7 +33,7 @@ void SketchActions::makeMenu(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("sketch.larger"), QStringLiteral("Larger brush"),
                 {QKeySequence(QStringLiteral("]"))}, [this] { m_tools.stepBrush(1); });
   m_actions.add(menu, QStringLiteral("sketch.shape"), QStringLiteral("Next brush shape"),
-                {QKeySequence(QStringLiteral("N"))}, [this] { m_tools.nextShape(); });
+                {QKeySequence(QStringLiteral("N"))}, [this] { m_tools.stepShape(1); });
   m_actions.add(menu, QStringLiteral("sketch.mirror"), QStringLiteral("Mirror"), {QKeySequence(QStringLiteral("M"))},
                 [this] {
                   BrushSettings brush = m_tools.brush();

@@ -88,9 +88,9 @@ void VrHands::choose(const vr::HandInput& now, double seconds) {
   if (pushed && upright && (!now.pad || now.steerPressed)) {
     step(now.steerY > 0 ? 1 : -1, seconds);
   } else if (pressed && now.pad && pushed) {
-    m_tools.nextShape();
+    m_tools.stepShape(1);
   } else if (pressed && !pushed) {
-    nextMaterial();
+    m_tools.stepMaterial(1);
   }
 }
 
@@ -98,14 +98,6 @@ void VrHands::step(int direction, double seconds) {
   if (seconds < m_stepped + kRepeats && seconds >= m_stepped) return;
   m_stepped = seconds;
   m_tools.stepBrush(direction);
-}
-
-void VrHands::nextMaterial() {
-  const std::vector<SceneMaterial>& all = m_session.document().project().materials;
-  if (all.empty()) return;
-  const std::string& now = m_tools.brush().material;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& one) { return one.id == now; });
-  m_tools.selection().setMaterial(found == all.end() || found + 1 == all.end() ? all.front().id : (found + 1)->id);
 }
 
 void VrHands::letGo() {

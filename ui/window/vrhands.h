@@ -37,7 +37,6 @@ class VrHands : public QObject {
   std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
   void choose(const vr::HandInput& now, double seconds);
   void step(int direction, double seconds);
-  void nextMaterial();
   std::array<float, 3> colour(size_t hand, const Snapshot* scene) const;
 
   Session& m_session;

@@ -30,16 +30,6 @@ namespace {
 constexpr int kColumns = 6, kButton = 30, kEdge = 10, kGap = 5, kIcon = 20;
 constexpr double kDegrees = 10;  // K, that a button adds to a temperature
 
-/// The one `by` places on in a ring, or the first.
-template <class Item>
-const Item* next(const std::vector<Item>& all, const Item& now, int by) {
-  if (all.empty()) return nullptr;
-  const auto found = std::find(all.begin(), all.end(), now);
-  if (found == all.end()) return &all.front();
-  const auto count = static_cast<std::ptrdiff_t>(all.size());
-  return &all[static_cast<size_t>((found - all.begin() + by + count) % count)];
-}
-
 QToolButton* button(const QString& name, const QString& iconName) {
   auto* one = new QToolButton;
   one->setIcon(icon(iconName));
@@ -67,10 +57,10 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
                      {"edit.redo", "redo"},
                      {"sketch.real", "check"}});
   addChoice(
-      *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { stepMaterial(by); });
+      *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { m_tools.stepMaterial(by); });
   addChoice(
       *grid, QStringLiteral("Brush"), [this] { return pluginLabel(m_session.plugins(), m_tools.brush().shape); },
-      [this](int by) { stepBrush(by); });
+      [this](int by) { m_tools.stepShape(by); });
   addChoice(
       *grid, QStringLiteral("Size"), [this] { return lengthText(m_tools.brush().radius); },
       [this](int by) { m_tools.stepBrush(by); });
@@ -166,18 +156,6 @@ QString VrPalette::material() const {
   return ownerLabel(project, {Owner::Material, now.empty() ? project.materials.front().id : now, ""});
 }
 
-void VrPalette::stepMaterial(int by) {
-  std::vector<std::string> ids;
-  for (const SceneMaterial& one : m_session.document().project().materials) ids.push_back(one.id);
-  if (const std::string* id = next(ids, m_tools.brush().material, by)) m_tools.selection().setMaterial(*id);
-}
-
-void VrPalette::stepBrush(int by) {
-  if (!m_session.plugins()) return;
-  const std::vector<std::string> ids = m_session.plugins()->ids(PluginKind::Brush);
-  if (const std::string* id = next(ids, m_tools.brush().shape, by)) m_tools.takeBrush(*id);
-}
-
 void VrPalette::stepTemperature(int by) {
   BrushSettings brush = m_tools.brush();
   setValueOf(brush, "temperature", std::max(0.0, brush.temperature + kDegrees * by));
@@ -193,7 +171,7 @@ QString VrPalette::colour() const {
 void VrPalette::stepColour(int by) {
   std::vector<std::string> names{kMatterColour};
   for (const FieldPtr& field : m_session.fields().all()) names.push_back(field->name);
-  if (const std::string* name = next(names, m_session.document().project().view.colour, by))
+  if (const std::string* name = further(names, m_session.document().project().view.colour, by))
     m_session.document().setColour(*name);
 }
 

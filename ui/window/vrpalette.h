@@ -40,8 +40,6 @@ class VrPalette : public QWidget {
   void addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
                  const std::function<void(int)>& step);
   void addPages(QGridLayout& grid, const std::vector<const char*>& pages);
-  void stepMaterial(int by);
-  void stepBrush(int by);
   void stepTemperature(int by);
   void stepColour(int by);
   QString material() const;
