@@ -234,7 +234,7 @@ class TestLibrary : public SampleWindowTest {
     drop(beside, data);
     QCOMPARE(document().project().materials.size(), size_t{1});
     QVERIFY(enters(on, data));
-    document().setBodiesLocked({body}, true);
+    document().setLocked({{Owner::Body, body, ""}}, true);
     QCOMPARE(target(on, data), std::pair(false, std::string()));
     QVERIFY2(view()->dropNote().contains(QStringLiteral("is locked. Unlock it")), qPrintable(view()->dropNote()));
     pictureOf("material_refused");
@@ -267,7 +267,7 @@ class TestLibrary : public SampleWindowTest {
       std::get<BoxShape>(body.shape).center.x() = x;
       ids.push_back(document().addBody(std::move(body)));
     }
-    document().setBodiesLocked({ids[2]}, true);
+    document().setLocked({{Owner::Body, ids[2], ""}}, true);
     selection().selectAll({{OutlineKind::Body, ids[0]}, {OutlineKind::Body, ids[1]}, {OutlineKind::Body, ids[2]}});
     QCOMPARE(takersOf(document(), selection(), ids[0]), (std::vector<std::string>{ids[0], ids[1]}));
     QCOMPARE(takersOf(document(), selection(), ids[3]), std::vector<std::string>{ids[3]});

@@ -127,8 +127,7 @@ class TestSwatches : public QObject {
     tidyCache(folder(), {250, 180});
     QCOMPARE(left(), QStringList({QStringLiteral("new.png"), QStringLiteral("used.png")}));
     put(QStringLiteral("old.png"), 1, 200);
-    Swatches swatches;
-    swatches.tidy();
+    const Swatches swatches;
     QTRY_VERIFY(!QFile::exists(folder() + QStringLiteral("/old.png")));
   }
 

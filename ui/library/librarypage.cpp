@@ -123,7 +123,6 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_save(new QPushButton(QStringLiteral("Save as preset"))),
       m_mixture(new QPushButton(QStringLiteral("Change the mixture…"))),
       m_phases(new PhaseView) {
-  session.swatches().tidy();
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(16, 12, 16, 12);
@@ -227,6 +226,15 @@ QWidget* LibraryPage::makeRight() {
   column->addLayout(keep);
   connect(import, &QPushButton::clicked, this, &LibraryPage::importWanted);
   connect(back, &QPushButton::clicked, this, &LibraryPage::closeRequested);
+  connect(mix, &QPushButton::clicked, this, [this] {
+    const QStringList labels = compared();
+    Q_EMIT mixWanted(labels.value(0), labels.value(1));
+  });
+  connectChosen();
+  return right;
+}
+
+void LibraryPage::connectChosen() {
   connect(m_add, &QPushButton::clicked, this, &LibraryPage::addToScene);
   connect(m_export, &QPushButton::clicked, this, [this] {
     if (const auto some = chosen(); !some.empty()) Q_EMIT exportWanted(*some.front());
@@ -239,10 +247,6 @@ QWidget* LibraryPage::makeRight() {
       m_library.setTags(*some.front(), m_words->text());
     m_words->setModified(false);
   });
-  connect(mix, &QPushButton::clicked, this, [this] {
-    const QStringList labels = compared();
-    Q_EMIT mixWanted(labels.value(0), labels.value(1));
-  });
   connect(m_mixture, &QPushButton::clicked, this, [this] { Q_EMIT mixtureWanted(m_selection.material()); });
   const auto save = [this] {
     for (const SceneMaterial& material : m_session.document().project().materials)
@@ -250,7 +254,6 @@ QWidget* LibraryPage::makeRight() {
   };
   connect(m_save, &QPushButton::clicked, this, save);
   connect(m_name, &QLineEdit::returnPressed, this, save);
-  return right;
 }
 
 /// Cards anew; what was chosen stays chosen.

@@ -52,6 +52,7 @@ class LibraryPage : public QWidget {
  private:
   QWidget* makeLeft();
   QWidget* makeRight();
+  void connectChosen();  ///< what acts on the chosen cards, and on the scene's material
   void filter();
   void showChosen();
   void showTags();

@@ -91,13 +91,11 @@ QString aboutOf(const PluginRegistry& plugins, const SceneMaterial& material) {
   return QString::fromStdString(infoOf(plugins, material).help);
 }
 
-}  // namespace
-
-namespace {
 QString folderMeant(const QString& asked) {
   const QString preferred = preferences::folder(preferences::Folder::Presets);
   return !asked.isEmpty() ? asked : preferred.isEmpty() ? MaterialLibrary::usualFolder() : preferred;
 }
+
 }  // namespace
 
 /// A file of presets as it was read, before its materials are looked into.

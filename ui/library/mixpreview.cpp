@@ -16,9 +16,8 @@
 namespace ps {
 namespace {
 
-constexpr double kPressure = 101325;  // Pa
-constexpr double kAround = 40;        // K on either side of the first and the last change of phase
-constexpr float kShades = 24;         // a share that is dragged asks for few pictures
+constexpr double kAround = 40;  // K on either side of the first and the last change of phase
+constexpr float kShades = 24;   // a share that is dragged asks for few pictures
 constexpr int kBar = 13, kSwatch = 32, kLine = 36, kGap = 8, kNames = 132, kLeft = 64, kBelow = 18, kInset = 4;
 
 struct Range {
@@ -54,7 +53,7 @@ void MixPreview::showMaterials(const Material& first, const Material& second, co
     if (k == Mixed) {
       for (float& part : m_looks[k]->look) part = std::round(part * kShades) / kShades;
     }
-    calorics[k] = BakedMaterial(*all[k], kPressure).caloric();
+    calorics[k] = BakedMaterial(*all[k], kAir).caloric();
     const Range own = rangeOf(calorics[k]);
     range = {std::min(range.cold, own.cold), std::max(range.hot, own.hot)};
   }

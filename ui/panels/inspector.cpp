@@ -53,7 +53,7 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     m_notes.setNothingWaits(m_session.appliesAtOnce());
     m_notes.hear(event);
   });
-  connect(&session.swatches(), &Swatches::arrived, this, &Inspector::showMaterialHeader);
+  connect(&session.swatches(), &Swatches::arrived, m_material, &ParameterPanel::updateHeader);
   connect(&selection, &Selection::changed, this, &Inspector::showSelected);
   connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
   if (!session.isReady()) return;

@@ -86,11 +86,21 @@ MaterialsPanel::MaterialsPanel(Session& session, Selection& selection, QWidget* 
       const std::vector<std::string> before = ownIds();
       rebuild();
       revealJoined(before);
-    } else if (std::holds_alternative<ProjectOpened>(event) ||
-               (parameter && parameter->address.owner == Owner::Material)) {
+    } else if (std::holds_alternative<ProjectOpened>(event)) {
       rebuild();
+    } else if (parameter && parameter->address.owner == Owner::Material) {
+      showLook(parameter->address.id);
     }
   });
+}
+
+/// A slider that is dragged looks into one material alone.
+void MaterialsPanel::showLook(const std::string& material) {
+  for (size_t i = 0; i < m_own; ++i) {
+    if (m_tiles[i].id != material) continue;
+    m_tiles[i].swatch = swatchOf(m_document.project(), m_document.plugins(), material);
+    update(tileRect(i));
+  }
 }
 
 std::vector<std::string> MaterialsPanel::ownIds() const {

@@ -54,6 +54,7 @@ class MaterialsPanel : public QWidget {
   void revealJoined(const std::vector<std::string>& before);
   void revealSoon(const std::string& id);
   std::vector<std::string> ownIds() const;
+  void showLook(const std::string& material);
   struct Tile {
     std::string id;  ///< of one that can be added: its base
     QString label;

@@ -170,6 +170,8 @@ void ParameterPanel::setHeader(const QString& name, const QString& subtitle, con
 
 void ParameterPanel::setHeaderDetail(const QString& detail) { d->header->setDetail(detail); }
 
+void ParameterPanel::updateHeader() { d->header->update(); }
+
 void ParameterPanel::setEmptyText(const QString& text) {
   d->emptyText = text;
   d->show();

@@ -28,6 +28,7 @@ class ParameterPanel : public QWidget {
   /// Block at the top: name, line below it, small line below that. A nullptr swatch draws none.
   void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, SwatchPainter swatch = {});
   void setHeaderDetail(const QString& detail);
+  void updateHeader();  ///< paints its swatch again
   /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
   /// in which groups first appear. Keeps scroll position, folded groups and the filter. Gestures still open end first;
   /// a row may ask for this from its own menu or signal.

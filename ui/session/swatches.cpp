@@ -66,7 +66,7 @@ QString swatchPath(const Swatch& swatch, int side) {
   return swatchFolder() + QLatin1Char('/') + QString::fromLatin1(hash) + QStringLiteral(".png");
 }
 
-void Swatches::tidy() {
+Swatches::Swatches(QObject* parent) : QObject(parent) {
   m_worker.run([folder = swatchFolder()] { tidyCache(folder); });
 }
 

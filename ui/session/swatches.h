@@ -32,9 +32,9 @@ QString swatchPath(const Swatch& swatch, int side);
 class Swatches : public QObject {
   Q_OBJECT
  public:
-  explicit Swatches(QObject* parent = nullptr) : QObject(parent) {}
+  /// Pictures of before that nobody asks for any more go: see tidyCache().
+  explicit Swatches(QObject* parent = nullptr);
   ~Swatches() override;
-  void tidy();  ///< pictures of before that nobody asks for any more go: see tidyCache()
   /// `side` in device pixels. Null while it is not there: it is read or drawn, and arrived() follows.
   QImage of(const Swatch& swatch, int side);
   /// Paints a sample by paintSwatch(), as long as this lasts.
