@@ -333,8 +333,8 @@ class TestWindow : public QObject {
                                << "Conductivity, solid";
     QTest::newRow("wall") << "hot plate temperature"
                           << "Hot plate temperature";
-    QTest::newRow("own things before what replaces the scene") << "hot pl"
-                                                               << "Hot plate shape";
+    QTest::newRow("property of a wall") << "hot pl"
+                                        << "Hot plate shape";
     QTest::newRow("what replaces the scene by its name") << "new sc"
                                                          << "New scene";
     QTest::newRow("solver") << "substeps"
@@ -388,6 +388,18 @@ class TestWindow : public QObject {
     some[0].whyNot = QStringLiteral("Nothing to undo");
     some[1].title = QStringLiteral("What undo does");
     QVERIFY(paletteMatches(some, QStringLiteral("undo")) == (std::vector<size_t>{1, 0}));
+  }
+
+  /// Own things first, unless it is called as one types.
+  void whatReplacesTheSceneComesLater() {
+    std::vector<PaletteEntry> some(2);
+    some[0].title = QStringLiteral("Ice on a hot plate");
+    some[0].replaces = true;
+    some[1].title = QStringLiteral("Water on a hot plate");
+    QVERIFY(paletteMatches(some, QStringLiteral("plate")) == (std::vector<size_t>{1, 0}));
+    QVERIFY(paletteMatches(some, QStringLiteral("ice on")) == (std::vector<size_t>{0}));
+    some[1].title = QStringLiteral("Cold ice on a plate");
+    QVERIFY(paletteMatches(some, QStringLiteral("ice on")) == (std::vector<size_t>{0, 1}));
   }
 
   void thePaletteSaysThatNothingIsFound() {

@@ -9,6 +9,8 @@
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
+#include <QtCore/QTimer>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
 
 #include <algorithm>
@@ -79,6 +81,7 @@ class VrPanelsTest : public VrWindowTest {
   void aBeamPlaysTheRun();
   void aSliderOfTheBoardIsDragged();
   void pagesAreTheWindowsOwn();
+  void menusComeAlong();
   void gravityIsTakenAndGivenBack();
 
  private:
@@ -399,6 +402,43 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   at(vr::kBoard, *row, {track.left() + 0.6 * track.width(), track.center().y()}, false);
   QCOMPARE(document().undoStack().index(), steps + 1);
   document().undoStack().undo();
+}
+
+/// What opens at a press there is seen and pressed like a panel; the press itself lasts until the menu closes.
+void VrPanelsTest::menusComeAlong() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  QWidget& board = *panels().widget(vr::kBoard);
+  QMenu offered;
+  for (const char* name : {"One", "Two"}) offered.addAction(QString::fromLatin1(name));
+  QToolButton opens(&board);
+  opens.setPopupMode(QToolButton::InstantPopup);
+  opens.setMenu(&offered);
+  opens.setGeometry(150, 120, 80, 30);
+  opens.show();
+  opens.raise();
+  QSignalSpy chosen(offered.actions().back(), &QAction::triggered);
+  bool seen = false;
+  QTimer patience, watch;
+  patience.setSingleShot(true);
+  connect(&patience, &QTimer::timeout, &offered, &QMenu::close);
+  connect(&watch, &QTimer::timeout, this, [&] {
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    if (seen || !view.panels[vr::kPopup].image) return;
+    seen = true;
+    const QPointF there = offered.actionGeometry(offered.actions().back()).center();
+    for (const bool pressed : {false, true, false})
+      if (panels().widget(vr::kPopup)) at(vr::kPopup, offered, there, pressed);
+  });
+  patience.start(kLong);
+  watch.start(50);
+  click(vr::kBoard, opens);
+  QTRY_VERIFY_WITH_TIMEOUT(!offered.isVisible(), 2 * kLong);
+  QVERIFY(seen);
+  QCOMPARE(chosen.count(), 1);
 }
 
 void VrPanelsTest::gravityIsTakenAndGivenBack() {
