@@ -31,7 +31,7 @@ constexpr double kWall = 2, kOpening = 4, kRim = 4;  // spacings
 constexpr int kAround = 32, kDown = 8;               // faces of a spoon
 constexpr double kLeastBowl = 5, kLeastTooth = 8;    // spacings
 
-/// Lengths below in spacings, but for these two.
+/// Lengths in spacings, but for those of its making, m.
 class Builder {
  public:
   Builder(double length, double spacing) : m_long(length / spacing), m_spacing(spacing) {}

@@ -42,7 +42,7 @@ std::string sceneHash(const Project& project) {
   for (const char* key : {"description", "end", "generator", "graphs", "groups", "markers", "minVersion",
                           "pluginsRequired", "pluginsUsed", "probes", "thumbnail", "title", "toTry", "version", "view"})
     out.erase(key);
-  // What only the view and lists go by.
+  // What only the view and lists go by; of bodies it counts, since stamps of earlier versions have it.
   const auto leave = [](json& owner, const char* list, std::initializer_list<const char*> keys) {
     if (!owner.contains(list)) return;
     for (json& item : owner[list])

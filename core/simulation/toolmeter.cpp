@@ -5,6 +5,7 @@
 #include "core/solver/solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ps {
@@ -15,36 +16,23 @@ constexpr double kTouch = 1.5;  // spacings between centres
 }  // namespace
 
 void ToolMeter::add(uint32_t body) {
-  const auto known = std::find_if(m_tools.begin(), m_tools.end(), [&](const Tool& tool) { return tool.body == body; });
-  if (known == m_tools.end()) {
-    m_tools.insert(m_tools.begin(), Tool{body, {}, {}, {}});
-  } else {
-    std::rotate(m_tools.begin(), known, known + 1);
-  }
+  if (!m_tool || m_tool->body != body) m_tool = Tool{body, {}, {}, {}};
 }
 
-std::vector<uint32_t> ToolMeter::bodies() const {
-  std::vector<uint32_t> list;
-  list.reserve(m_tools.size());
-  for (const Tool& tool : m_tools) list.push_back(tool.body);
-  return list;
-}
+std::vector<uint32_t> ToolMeter::bodies() const { return m_tool ? std::vector{m_tool->body} : std::vector<uint32_t>{}; }
 
 std::vector<ToolContact> ToolMeter::contacts(const std::vector<std::string>& bodyIds) const {
-  std::vector<ToolContact> list;
-  for (const Tool& tool : m_tools) {
-    if (tool.body >= bodyIds.size()) continue;
-    list.push_back(tool.contact);
-    list.back().body = bodyIds[tool.body];
-  }
+  if (!m_tool || m_tool->body >= bodyIds.size()) return {};
+  std::vector<ToolContact> list{m_tool->contact};
+  list.back().body = bodyIds[m_tool->body];
   return list;
 }
 
 void ToolMeter::measure(const Solver& solver, double spacing) {
-  if (m_tools.empty()) return;
+  if (!m_tool) return;
   const double seconds = solver.thermalTime() - m_thermalTime;
   m_thermalTime = solver.thermalTime();
-  for (Tool& tool : m_tools) measure(solver, spacing, seconds, tool);
+  measure(solver, spacing, seconds, *m_tool);
 }
 
 /// Each particle of others that is within reach of one of the tool's, with the nearest of these.

@@ -13,8 +13,8 @@ namespace ps {
 
 class Solver;
 
-/// Measures what the tools feel that hands lead through matter, in each frame, for who holds them. It moves nothing,
-/// and is no state: after a return to one, tools are known again when they are led again.
+/// Measures what the tool feels that a hand leads through matter, or has led last, in each frame, for who holds it. It
+/// moves nothing, and is no state: after a return to one, a tool is known again when it is led again.
 ///
 /// It cannot do: tell the heat that a tool takes from what it gives to the air or gets from a heater; see matter that
 /// touches it across a face of a periodic box.
@@ -22,7 +22,7 @@ class ToolMeter {
  public:
   /// A hand leads this body, by the index that particles carry.
   void add(uint32_t body);
-  /// Those that hands have led, the last one first.
+  /// That one.
   std::vector<uint32_t> bodies() const;
   /// After a frame; `spacing` of the particles in m.
   void measure(const Solver& solver, double spacing);
@@ -41,7 +41,7 @@ class ToolMeter {
   void measure(const Solver& solver, double spacing, double seconds, Tool& tool);
   void findTouching(const Solver& solver, double reach, uint32_t body);
 
-  std::vector<Tool> m_tools;
+  std::optional<Tool> m_tool;
   double m_thermalTime = 0;  ///< s, when the last frame ended
   struct Touching {
     uint32_t particle = 0, of = 0;  ///< by index: of another body, and the nearest of the tool

@@ -171,10 +171,7 @@ void TestLeading::nothingPassesIt() {
   project.bodies.push_back(tool({0.16, 0.04, 0.16}, {0, 1.3, 0}));
   Body sheet = solid("sheet", "sheet", {0.4, kSpacing, 0.4}, {0, 1, 0}, 260);
   std::get<SolidShape>(sheet.shape).parameters.values["held"] = held.toStdString();
-  if (structure == "water")
-    sheet.parameters.values["temperature"] = 300.0;
-  else if (!structure.isEmpty())
-    sheet.constraints.push_back({structure.toStdString(), {}, {}});
+  if (!structure.isEmpty()) sheet.constraints.push_back({structure.toStdString(), {}, {}});
   project.bodies.push_back(sheet);
   Engine engine(project, m_plugins);
   const Seen start = seen(engine, "sheet");

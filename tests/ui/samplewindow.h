@@ -60,6 +60,12 @@ class SampleWindowTest : public QObject {
     m_window->tools().activate("select");
     view()->show(StandardView::Scene);
   }
+  /// The same, with the keys going to the view.
+  void beginInTheView() {
+    backToTheStart();
+    QApplication::setActiveWindow(m_window.get());
+    view()->setFocus();
+  }
   /// The view shows the scene after a reset: the brush stands on what it shows.
   void toTheStart() {
     const uint64_t revision = session().snapshot()->revision;

@@ -181,7 +181,7 @@ class TestContent : public QObject {
   }
 
   void aLockedBodyStays() {
-    m_document->setBodiesLocked({"ice"}, true);
+    m_document->setLocked({{Owner::Body, "ice", ""}}, true);
     const int steps = m_document->undoStack().count();
     QVERIFY(m_document->removeBody("ice").contains(QStringLiteral("is locked")));
     QVERIFY(m_document->body("ice"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A spoon from the menu is led through the scene with the mouse, and the status line tells what it feels.
+#include "core/geometry/toolbodies.h"
 #include "core/scene/pose.h"
 #include "samplewindow.h"
 #include "ui/render/camera.h"
@@ -15,16 +16,13 @@ class TestHandWindow : public SampleWindowTest {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() { open(); }
-  void init() {
-    backToTheStart();
-    QApplication::setActiveWindow(m_window.get());
-    view()->setFocus();
-  }
+  void init() { beginInTheView(); }
   void cleanupTestCase() { m_window.reset(); }
 
   void aSpoonIsAddedAndLed() {
     const std::string id = added("spoon");
     const Body before = *document().body(id);
+    const Vector3 stood = matterOf(id);
     QVERIFY(std::get<bool>(document().value({Owner::Body, id, "fixed"})));
     QVERIFY(!before.material.empty());
     const int steps = document().undoStack().count();
@@ -45,14 +43,15 @@ class TestHandWindow : public SampleWindowTest {
     const auto move = moveBetween(before, *document().body(id));
     QVERIFY(move && move->turns());
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->tools.at(0).behind == 0, kLong);
+    QVERIFY((matterOf(id) - stood).norm() > 0.01);
     document().undoStack().undo();
     QVERIFY(document().body(id)->shape == before.shape);
-    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->tools.at(0).behind == 0, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT((matterOf(id) - stood).norm() < 1e-4, kLong);  // single precision, after two ways
   }
 
   void eachToolHasAnEntry_data() {
     QTest::addColumn<QString>("name");
-    for (const char* name : {"rod", "tool-plate", "spoon", "sieve", "comb", "hand"}) QTest::newRow(name) << name;
+    for (const ToolForm& form : toolForms()) QTest::newRow(form.id) << QString::fromLatin1(form.id);
   }
   void eachToolHasAnEntry() {
     QFETCH(QString, name);
@@ -71,6 +70,21 @@ class TestHandWindow : public SampleWindowTest {
     m_window->action(QStringLiteral("add.tool.") + name)->trigger();
     if (document().project().bodies.size() != bodies + 1) return {};
     return document().project().bodies.back().id;
+  }
+  /// m, the mean of its particles.
+  Vector3 matterOf(const std::string& id) {
+    return onEngine<Vector3>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.solver().particles();
+      const std::vector<std::string>& ids = engine.bodyIds();
+      Vector3 sum(0, 0, 0);
+      double count = 0;
+      for (size_t i = 0; i < store.size(); ++i) {
+        if (ids[store.body()[i]] != id) continue;
+        sum += vectorOf(store.position()[i]);
+        ++count;
+      }
+      return Vector3(sum / count);
+    });
   }
   /// A pixel of the view under which matter of a body lies, once it is shown.
   QPoint seenAt(const std::string& id) {

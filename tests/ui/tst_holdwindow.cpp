@@ -17,9 +17,7 @@ class TestHoldWindow : public SampleWindowTest {
  private Q_SLOTS:
   void initTestCase() { open(); }
   void init() {
-    backToTheStart();
-    QApplication::setActiveWindow(m_window.get());
-    view()->setFocus();
+    beginInTheView();
     BrushSettings brush = m_window->tools().brush();
     brush.drawOn = DrawOn::Level;
     brush.planeAt = 0.45;

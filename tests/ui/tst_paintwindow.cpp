@@ -18,12 +18,10 @@ class TestPaintWindow : public SampleWindowTest {
     document().addMaterial("iron");
     document().undoStack().clear();
   }
-  void init() { backToTheStart(); }
+  void init() { beginInTheView(); }
   void cleanupTestCase() { m_window.reset(); }
 
   void itsKeyAndItsButtonTakeIt() {
-    QApplication::setActiveWindow(m_window.get());
-    view()->setFocus();
     QTest::keyClick(view(), Qt::Key_P);
     QCOMPARE(m_window->tools().active(), std::string(kBrushTool));
     QVERIFY(m_window->tools().paints());

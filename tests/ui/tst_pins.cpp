@@ -75,7 +75,7 @@ class TestPins : public SampleWindowTest {
     QCOMPARE(pins(), std::vector<Region>{second});
     document().undoStack().undo();
     // A locked body keeps its pins.
-    document().setBodiesLocked({kIce}, true);
+    document().setLocked({{Owner::Body, kIce, ""}}, true);
     m_window->selection().selectAll({{OutlineKind::Pin, "ice/1"}});
     QTest::keyClick(view(), Qt::Key_Delete);
     QCOMPARE(pins().size(), size_t{3});

@@ -128,7 +128,7 @@ class TestTakeInHand : public ToolTest {
   /// Not water, and nothing that is locked.
   void whatCannotBeTakenIsLeft() {
     QVERIFY(!tool().press(at({0.1, 0.3, 0})));
-    m_document->setBodiesLocked({"plate"}, true);
+    m_document->setLocked({{Owner::Body, "plate", ""}}, true);
     QVERIFY(!tool().press(at(grip())));
     QCOMPARE(m_document->undoStack().count(), 1);
   }

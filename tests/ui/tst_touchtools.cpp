@@ -89,7 +89,7 @@ class TestTouchTools : public ToolTest {
   }
 
   void lockedBodiesAreSpared() {
-    m_document->setBodiesLocked({"ice"}, true);
+    m_document->setLocked({{Owner::Body, "ice", ""}}, true);
     take("heat");
     m_engine->play();
     QVERIFY(m_tools->tool().press(at(kTop)));
@@ -407,7 +407,7 @@ class TestTouchTools : public ToolTest {
 
   void whatIsLockedIsNotPainted() {
     takePaint();
-    m_document->setBodiesLocked({"ice"}, true);
+    m_document->setLocked({{Owner::Body, "ice", ""}}, true);
     const std::string before = writeProject(m_document->project());
     paintAt(kTop);
     QCOMPARE(iron(), size_t{0});

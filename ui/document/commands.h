@@ -41,8 +41,7 @@ class ParameterCommand : public QUndoCommand {
   int m_gesture;
 };
 
-/// Bodies replaced as values: names, structure. With `matter`: added or removed with their
-/// particles.
+/// Bodies replaced as values: names, structure. With `matter`: added or removed with their particles.
 class BodiesCommand : public QUndoCommand {
  public:
   BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text, MatterRef matter = nullptr);

@@ -130,7 +130,6 @@ class Document : public QObject {
   void setVisible(const std::vector<Address>& things, bool visible);
   void setLocked(const std::vector<Address>& things, bool locked);
   void setBodiesVisible(const std::vector<std::string>& ids, bool visible);
-  void setBodiesLocked(const std::vector<std::string>& ids, bool locked);
   /// Bodies, emitters, sinks, walls and probes of a project come into this one, as one step, with their tracks, groups
   /// and materials, but for materials that the scene has already; what they refer to among themselves follows their new
   /// ids. A copy of some of a group's members joins that group, one of all of them is a group more. Returns them as

@@ -91,8 +91,6 @@ void Document::setBodiesVisible(const std::vector<std::string>& ids, bool visibl
   setVisible(bodiesOf(ids), visible);
 }
 
-void Document::setBodiesLocked(const std::vector<std::string>& ids, bool locked) { setLocked(bodiesOf(ids), locked); }
-
 void Document::applyMarks(const std::vector<ThingMarks>& marks) {
   bool walls = false;
   for (const ThingMarks& one : marks) {

@@ -13,9 +13,9 @@
 namespace ps {
 
 void Inspector::showThingsHeader() {
+  if (showCount()) return;
   const Address& thing = shown().back();
   const Probe* probe = thing.owner == Owner::Probe ? m_document.probe(thing.id) : nullptr;
-  if (showCount()) return;
   const QString name = ownerLabel(m_document.project(), thing);
   const Quantity* quantity = probe ? m_session.fields().quantity(probe->quantity) : nullptr;
   const QString what = QString::fromStdString(quantity ? quantity->label : probe ? probe->quantity : std::string());

@@ -134,19 +134,18 @@ void Outliner::addGroups(QStandardItem* scene) {
     QStandardItem* item =
         add(scene, OutlineKind::Group, group.id, QString::fromStdString(group.name), QStringLiteral("folder"));
     item->setData(QString::number(group.members.size()), outline::kDetail);
-    mark(item, thingsOf(static_cast<int>(OutlineKind::Group), group.id));
+    const std::vector<Address> things = thingsOf(static_cast<int>(OutlineKind::Group), group.id);
+    const auto is = [&](bool ThingMarks::*mark) {
+      return [this, mark](const Address& thing) { return (*m_document.marks(thing)).*mark; };
+    };
+    // Of what is shown in part the eye is open, of what is locked in part the lock is.
+    mark(item, std::any_of(things.begin(), things.end(), is(&ThingMarks::visible)),
+         std::all_of(things.begin(), things.end(), is(&ThingMarks::locked)));
   }
 }
 
-/// Eye and lock: of what is shown in part the eye is open, of what is locked in part the lock is.
-void Outliner::mark(QStandardItem* item, const std::vector<Address>& things) const {
-  bool visible = false, locked = true;
-  for (const Address& thing : things) {
-    const ThingMarks marks = *m_document.marks(thing);
-    visible = visible || marks.visible;
-    locked = locked && marks.locked;
-  }
-  if (things.empty()) return;
+/// Eye and lock.
+void Outliner::mark(QStandardItem* item, bool visible, bool locked) {
   item->setData(visible, outline::kVisible);
   item->setData(locked, outline::kLocked);
   QStringList tip{item->text()};
@@ -165,7 +164,7 @@ void Outliner::addBodies(QStandardItem* scene) {
     QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(QString::fromStdString(body.material), outline::kMaterial);
-    mark(item, {{Owner::Body, body.id, ""}});
+    mark(item, body.visible, body.locked);
     item->setData(plugins && isPlaceholder(project, body, *plugins), outline::kPlaceholder);
     addPins(item, body);
   }
@@ -185,11 +184,11 @@ void Outliner::addPorts(QStandardItem* scene) {
                               nameOf(emitter), QStringLiteral("tap"));
     item->setData(colourOf(project, m_document.plugins(), emitter.material), outline::kSwatch);
     item->setData(QString::fromStdString(emitter.material), outline::kMaterial);
-    mark(item, {{Owner::Emitter, emitter.id, ""}});
+    mark(item, emitter.visible, emitter.locked);
   }
   for (const Sink& sink : project.sinks) {
     mark(add(parentOf(scene, Owner::Sink, sink.id), OutlineKind::Sink, sink.id, nameOf(sink), QStringLiteral("drain")),
-         {{Owner::Sink, sink.id, ""}});
+         sink.visible, sink.locked);
   }
 }
 
@@ -198,8 +197,8 @@ void Outliner::addProbes(QStandardItem* scene) {
   if (project.probes.empty()) return;
   QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
   for (const Probe& probe : project.probes) {
-    mark(add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe")),
-         {{Owner::Probe, probe.id, ""}});
+    mark(add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe")), probe.visible,
+         probe.locked);
   }
 }
 
@@ -214,7 +213,7 @@ void Outliner::rebuild() {
   for (const SceneWall& wall : project.environment.walls) {
     mark(add(parentOf(scene, Owner::Wall, wall.id), OutlineKind::Wall, wall.id, nameOf(wall),
              hasTemperature(wall) ? QStringLiteral("plate") : QStringLiteral("wall")),
-         {{Owner::Wall, wall.id, ""}});
+         wall.visible, wall.locked);
   }
   add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
   addProbes(scene);

@@ -61,7 +61,7 @@ class Outliner : public QWidget {
   void addPins(QStandardItem* row, const Body& body);
   void addPorts(QStandardItem* scene);
   void addProbes(QStandardItem* scene);
-  void mark(QStandardItem* item, const std::vector<Address>& things) const;
+  static void mark(QStandardItem* item, bool visible, bool locked);
   QStandardItem* parentOf(QStandardItem* scene, Owner owner, const std::string& id) const;
   void onChanged(const ChangeEvent& event);
   void showSelection();

@@ -14,18 +14,19 @@ void join(std::optional<Box>& box, const Vector3& low, const Vector3& high) {
   box = box ? Box{box->first.cwiseMin(low), box->second.cwiseMax(high)} : Box{low, high};
 }
 
-}  // namespace
-
-std::optional<Box> boxOf(const Snapshot& snapshot, std::optional<uint32_t> body) {
+/// Around the spheres of all particles. Nothing when there are none.
+std::optional<Box> boxOfMatter(const Snapshot& snapshot) {
   std::optional<Box> box;
   for (size_t i = 0; i < snapshot.position.size(); ++i) {
     const api::Float4& p = snapshot.position[i];
-    if ((body && snapshot.body[i] != *body) || !std::isfinite(p.x + p.y + p.z + p.w)) continue;
+    if (!std::isfinite(p.x + p.y + p.z + p.w)) continue;
     const Vector3 centre = vectorOf(p), radius = Vector3::Constant(static_cast<double>(p.w));
     join(box, centre - radius, centre + radius);
   }
   return box;
 }
+
+}  // namespace
 
 std::vector<std::optional<Box>> boxesOfBodies(const Snapshot& snapshot) {
   std::vector<std::optional<Box>> boxes(snapshot.bodyIds ? snapshot.bodyIds->size() : 0);
@@ -39,7 +40,7 @@ std::vector<std::optional<Box>> boxesOfBodies(const Snapshot& snapshot) {
 }
 
 Box boxOf(const Snapshot& snapshot, const Environment& environment) {
-  std::optional<Box> box = boxOf(snapshot);
+  std::optional<Box> box = boxOfMatter(snapshot);
   for (size_t i = 0; i < environment.walls.size(); ++i) {
     const WallFace round = faceOf(environment.walls[i]);
     if (round.form() == WallForm::Sphere && round.isInside()) {

@@ -10,9 +10,7 @@ namespace ps {
 
 using Box = std::pair<Vector3, Vector3>;  ///< lowest and highest corner, m
 
-/// Around the spheres of a body's particles, or of all without one. Nothing when there are none.
-std::optional<Box> boxOf(const Snapshot& snapshot, std::optional<uint32_t> body = std::nullopt);
-/// Of each body by its index, as far as it has matter.
+/// Around the spheres of each body, by its index; nothing for one without matter.
 std::vector<std::optional<Box>> boxesOfBodies(const Snapshot& snapshot);
 /// Around all matter and the walls that close the scene in; around its bounds where there is neither.
 Box boxOf(const Snapshot& snapshot, const Environment& environment);

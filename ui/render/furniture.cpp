@@ -4,6 +4,7 @@
 #include "core/math/plane.h"
 #include "core/scene/scenewall.h"
 #include "ui/render/colourmap.h"
+#include "ui/render/uniforms.h"
 
 #include <Eigen/Geometry>
 
@@ -16,9 +17,6 @@
 namespace ps::render {
 namespace {
 
-std::array<float, 3> floats(const Vector3& a) {
-  return {static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(a.z())};
-}
 std::array<float, 4> with(const Colour& c, double last) { return {c[0], c[1], c[2], static_cast<float>(last)}; }
 std::array<float, 4> with(const Colour& c, Kind kind) { return with(c, static_cast<double>(kind)); }
 

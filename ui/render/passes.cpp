@@ -31,10 +31,6 @@ void meshAttributes(GLuint buffer) {
 static_assert(sizeof(MeshVertex) == 40 && sizeof(EdgeVertex) == 40 && sizeof(Instance) == 32);
 static_assert(sizeof(FrameUniforms) == 4 * 64 + 9 * 16);
 
-std::array<float, 3> floats(const Vector3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 void drawEverywhere(const VertexArray& plain) {
   plain.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -59,7 +59,7 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
   double line = kReach, depth = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < environment.walls.size(); ++k) {
     const SceneWall& wall = environment.walls[k];
-    if (!wall.visible || wall.locked) continue;
+    if (!canPick(wall)) continue;
     const render::Face face = render::leftOf(environment, k, pointer.section);
     const Lines lines = faceOf(wall).isCurved() ? leftOf(wallLines(environment, k), pointer.section) : edgesOf(face);
     const double near = distanceOf(pointer, lines);
@@ -116,7 +116,7 @@ std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedIte
   for (const SelectedItem& pin : shownPins(project, selected)) look(pin, *findPin(project, pin.id));
   if (found) return found;
   for (const Probe& probe : project.probes) {
-    if (probe.visible && !probe.locked && probe.region) look({OutlineKind::Probe, probe.id}, *probe.region);
+    if (canPick(probe) && probe.region) look({OutlineKind::Probe, probe.id}, *probe.region);
   }
   return found ? found : wallAt(project.environment, pointer);
 }

@@ -15,6 +15,9 @@ namespace ps {
 
 using Lines = std::vector<std::pair<Vector3, Vector3>>;
 
+/// Whether hands may take something of the scene.
+bool canPick(const auto& thing) { return thing.visible && !thing.locked; }
+
 /// The edges of a wall as it is seen, m; none where nothing of it is. `whole`: those of a sphere behind planes too.
 Lines wallLines(const Environment& environment, size_t wall, bool whole = false);
 Lines boxLines(const Region& box);

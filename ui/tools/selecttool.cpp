@@ -12,11 +12,7 @@
 #include <algorithm>
 
 namespace ps {
-namespace {
-
-bool canPick(const auto& port) { return port.visible && !port.locked; }
-
-}  // namespace
+namespace {}  // namespace
 
 void SelectTool::hover(const Pointer& pointer) {
   m_handles.hover(pointer);

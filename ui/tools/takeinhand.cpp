@@ -2,12 +2,12 @@
 #include "ui/tools/takeinhand.h"
 
 #include "core/scene/pose.h"
+#include "core/sketch/drawingplane.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
-#include "ui/tools/aim.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
@@ -180,7 +180,8 @@ std::vector<Gesture> TakeInHand::gestures() const {
            QStringLiteral("lead it")},
           {QStringLiteral("Shift"), QStringLiteral("Leads it along the level instead"), QStringLiteral("level")},
           {QStringLiteral("W A S D Q E"), QStringLiteral("While dragging: turn it by 15°"), QStringLiteral("turn it")},
-          {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")}};
+          {QStringLiteral("Click"), QStringLiteral("Selects; with Shift one more"), QStringLiteral("select")},
+          {QStringLiteral("Ctrl+Drag"), QStringLiteral("Selects what lies in the frame"), {}}};
 }
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #include "ui/vr/handmodel.h"
 
 #include "ui/render/colourmap.h"
+#include "ui/render/uniforms.h"
 
 #include <cmath>
 #include <numbers>
@@ -15,12 +16,8 @@ using Colour = std::array<float, 3>;
 constexpr int kSides = 20;
 constexpr float kOpacity = 0.22f;  // of a brush's volume, seen straight on
 
-std::array<float, 3> floats(const Vector3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 MeshVertex corner(const Vector3& place, const Vector3& normal, const Colour& c, float fourth) {
-  return {floats(place), floats(normal), {c[0], c[1], c[2], fourth}};
+  return {render::floats(place), render::floats(normal), {c[0], c[1], c[2], fourth}};
 }
 
 /// Of a body turned about its axis.

@@ -100,8 +100,9 @@ std::string sceneMaterial(Document& document, const std::string& base) {
   return document.plugins()->material(base) ? document.addMaterial(base) : std::string();
 }
 
-/// Id of the installed material that melts last: of it a wall stays one at any temperature that scenes have.
-std::string wallMaterial(const PluginRegistry& plugins) {
+/// Id of the installed material that melts last: walls and tools of it stay what they are at any temperature that
+/// scenes have.
+std::string lastToMelt(const PluginRegistry& plugins) {
   std::string last;
   double highest = 0;
   for (const std::string& id : plugins.ids(PluginKind::Material)) {
@@ -129,6 +130,13 @@ void scale(SolidShape& solid, double factor) {
 
 QString sizeText(const Vector3& size) {
   return QStringLiteral("%1 × %2 × %3 m").arg(formatNumber(size[0]), formatNumber(size[1]), formatNumber(size[2]));
+}
+
+/// m, level, of the room that the scene gives.
+double narrowSide(const Document& document) {
+  const Room room = roomOf(document.project().environment);
+  const Vector3 wide = room.maximum - room.minimum;
+  return std::min(wide.x(), wide.z());
 }
 
 double spacingOf(const Document& document) {
@@ -234,23 +242,18 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
   document.undoStack().endMacro();
 }
 
-/// Of what melts last among the materials that are there: a tool stays one in a melt.
 void BodyActions::addTool(const ToolForm& form) {
   Document& document = m_session.document();
-  const Room room = roomOf(document.project().environment);
-  const double wide = std::min(room.maximum[0] - room.minimum[0], room.maximum[2] - room.minimum[2]);
-  Body body = toolBody(form.kind, rounded(kToolOfScene * wide), spacingOf(document));
+  Body body = toolBody(form.kind, rounded(kToolOfScene * narrowSide(document)), spacingOf(document));
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromLatin1(form.name)));
-  body.material = sceneMaterial(document, wallMaterial(*document.plugins()));
+  body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
   add(std::move(body));
   document.undoStack().endMacro();
 }
 
 /// A fifth of the scene wide; a bowl is half a ball and twice as wide, sheets and ropes lie, and are longer.
 Body BodyActions::newSolid(Kind kind, const QString& name) const {
-  const Room room = roomOf(m_session.document().project().environment);
-  const Vector3 wide = room.maximum - room.minimum;
-  const double size = rounded(kOfScene * std::min(wide[0], wide[2]));
+  const double size = rounded(kOfScene * narrowSide(m_session.document()));
   Body body;
   body.id = nameOf(kind);
   body.name = name.toStdString();
@@ -398,7 +401,7 @@ void BodyActions::onImported(const QString& path, MeshUse use, const std::shared
   Body body = wall ? wallOf(*imported) : bodyOf(*imported);
   const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
-  if (wall) body.material = sceneMaterial(document, wallMaterial(*document.plugins()));
+  if (wall) body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
   const std::string id = add(std::move(body));
   document.undoStack().endMacro();
   m_session.log().add(MessageLevel::Ok, name,

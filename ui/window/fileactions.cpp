@@ -244,8 +244,7 @@ QString FileActions::chooseFile() {
   const Document& document = m_session.document();
   QString suggestion = document.path();
   if (suggestion.isEmpty() || m_session.files().isSample(suggestion)) {
-    suggestion =
-        preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) + QStringLiteral(".json");
+    suggestion = besideProject(fileNameFor(document.title()) + QStringLiteral(".json"));
   }
   return fileToWrite(&m_actions.window(), QStringLiteral("Save the project"), suggestion, kFilter);
 }

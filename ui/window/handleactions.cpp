@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/handleactions.h"
 
+#include "core/scene/declare.h"
+#include "ui/rows/rowvalue.h"
 #include "ui/session/preferences.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
@@ -39,32 +41,14 @@ struct StepRow {
   double Snapping::*member;
 };
 constexpr api::ParameterDeclaration step(const char* label, const char* unit, double usual, double least, double most,
-                                         const char* help, const char* word) {
-  return {"step",
-          label,
-          "",
-          unit,
-          api::ParameterKind::Number,
-          api::Scale::Linear,
-          usual,
-          least,
-          most,
-          least,
-          most,
-          "",
-          1,
-          0,
-          "",
-          "",
-          help,
-          "",
-          "",
-          word};
+                                         const char* help) {
+  return declare::number({"step", label, "", unit}, {usual, least, most, least, most}, {"", help, "", ""});
 }
 constexpr StepRow kSteps[] = {
-    {step("Moves by", "m", 0, 0, 1e3, "A length; “spacing” is that of the particles.", "spacing"), &Snapping::move},
-    {step("Turns by", "°", 15, 0.01, 180, "An angle.", nullptr), &Snapping::turn},
-    {step("Scales by", "", 0.1, 0.001, 10, "A share of the size.", nullptr), &Snapping::scale},
+    {declare::leastMeans("spacing", step("Moves by", "m", 0, 0, 1e3, "A length; “spacing” is that of the particles.")),
+     &Snapping::move},
+    {step("Turns by", "°", 15, 0.01, 180, "An angle."), &Snapping::turn},
+    {step("Scales by", "", 0.1, 0.001, 10, "A share of the size."), &Snapping::scale},
 };
 QString textOf(const api::ParameterDeclaration& amount, double value) {
   const QString unit = QString::fromUtf8(amount.unit);
@@ -124,6 +108,7 @@ void HandleActions::addSnapping(QMenu* edit) {
       toggle("edit.snap", "Snap the handles to steps", {QKeySequence(QString::fromLatin1(kSnapKey))}, &Snapping::on);
   m_snap->setToolTip(QStringLiteral("The handles go by steps; with Ctrl or Alt held, freely (%1)")
                          .arg(m_snap->shortcut().toString(QKeySequence::NativeText)));
+  m_snap->setProperty(kWords, QStringLiteral("steps grid moves turns scales by angle"));
   m_snap->setIcon(icon(QStringLiteral("snap")));
   m_snap->setIconVisibleInMenu(false);
   m_surfaces = toggle("edit.snap.surfaces", "Snap to surfaces", {}, &Snapping::surfaces);
@@ -158,10 +143,7 @@ void HandleActions::take(size_t step) {
   HandleSettings settings = m_tools.handles();
   double& value = settings.snap.*kSteps[step].member;
   const Typed typed = parseTyped(field.text(), amount, value);
-  QString problem = typed.problem;
-  if (problem.isEmpty() && !(typed.value >= amount.hardMinimum && typed.value <= amount.hardMaximum))
-    problem = QStringLiteral("It must be between %1 and %2")
-                  .arg(formatBound(amount, amount.hardMinimum), formatBound(amount, amount.hardMaximum));
+  const QString problem = typed.problem.isEmpty() ? refusal(amount, typed.value) : typed.problem;
   if (problem.isEmpty()) value = typed.value;
   m_notices.refuse(QStringLiteral("The step stays as it is."), problem);
   choose(settings);

@@ -2,6 +2,7 @@
 #include "ui/window/paletteentries.h"
 
 #include "core/matter/material.h"
+#include "core/matter/phasebands.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -42,7 +43,7 @@ QString valueText(Document& document, const Address& address, const api::Paramet
     const auto index = choiceNames(declaration).indexOf(QString::fromStdString(*choice));
     return index < 0 || labels.isEmpty() ? choiceLabel(QString::fromStdString(*choice)) : labels[index];
   }
-  return formatValue(declaration, std::get<Response>(value).at(293.15));
+  return formatValue(declaration, std::get<Response>(value).at(kRoom));
 }
 
 /// Why an action that is disabled is so.

@@ -107,15 +107,18 @@ ProjectProperties::ProjectProperties(MainWindow& window)
 
 void ProjectProperties::addPicture(QVBoxLayout& column) {
   column.addWidget(new QLabel(QStringLiteral("Picture")));
-  auto* row = new QHBoxLayout;
+  auto* parts = new QWidget;
+  parts->setAccessibleName(QStringLiteral("Picture"));
+  auto* row = new QHBoxLayout(parts);
+  row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kGap);
   m_picture->setFixedSize(kPicture);
   m_picture->setAlignment(Qt::AlignCenter);
-  m_picture->setAccessibleName(QStringLiteral("Picture"));
   m_picture->setProperty("role", "muted");
   row->addWidget(m_picture);
   const auto button = [&](const QString& text, const QString& tip) {
     auto* push = new QPushButton(text);
+    push->setAccessibleName(QStringLiteral("Picture: ") + text);
     push->setAutoDefault(false);  // Enter ends what is typed above
     push->setToolTip(tip);
     row->addWidget(push, 0, Qt::AlignTop);
@@ -125,7 +128,7 @@ void ProjectProperties::addPicture(QVBoxLayout& column) {
                                  QStringLiteral("What the view shows now: the project's picture in lists and copies."));
   m_remove = button(QStringLiteral("Remove"), QStringLiteral("Lists then show how the project was last seen."));
   row->addStretch(1);
-  column.addLayout(row);
+  column.addWidget(parts);
   connect(fromView, &QPushButton::clicked, this, [this] { m_pictures.takeOwn(); });
   connect(&m_pictures, &Thumbnails::ownTaken, this, &ProjectProperties::tell);
   connect(m_remove, &QPushButton::clicked, this, [this] {
@@ -236,7 +239,8 @@ std::vector<DialogRow> projectRows() {
   return {{QStringLiteral("Title"), QStringLiteral("name of the project")},
           {QStringLiteral("Description"), QStringLiteral("what the scene shows")},
           {QStringLiteral("To try"), QStringLiteral("what to change first")},
-          {QStringLiteral("Duration"), QStringLiteral("length of the run, end")}};
+          {QStringLiteral("Duration"), QStringLiteral("length of the run, end")},
+          {QStringLiteral("Picture"), QStringLiteral("thumbnail in lists and copies")}};
 }
 
 }  // namespace ps

@@ -79,8 +79,8 @@ void RecordingActions::chooseSave() {
   const Document& document = m_session.document();
   QString suggestion = RecordingFiles::beside(document.path());
   if (suggestion.isEmpty() || m_session.files().isSample(document.path())) {
-    suggestion = preferences::projectFolder() + QLatin1Char('/') + fileNameFor(document.title()) +
-                 QLatin1String(kRecordingEnding);
+    suggestion =
+        folderBeside(m_session) + QLatin1Char('/') + fileNameFor(document.title()) + QLatin1String(kRecordingEnding);
   }
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save the recording"), suggestion, kFilter);
   if (!path.isEmpty()) m_session.recordings().save(path);

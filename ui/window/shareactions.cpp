@@ -95,10 +95,9 @@ void ShareActions::chooseCopy() {
   const Document& document = m_session.document();
   const QString& own = document.path();
   const bool hasFile = !own.isEmpty() && !m_session.files().isSample(own);
-  const QString folder = hasFile ? QFileInfo(own).absolutePath() : preferences::projectFolder();
   const QString name = hasFile ? QFileInfo(own).completeBaseName() : fileNameFor(document.title());
   const QString path = fileToWrite(&m_actions.window(), QStringLiteral("Save a copy for sharing"),
-                                   folder + QLatin1Char('/') + name + QStringLiteral("-shared.json"),
+                                   folderBeside(m_session) + QLatin1Char('/') + name + QStringLiteral("-shared.json"),
                                    QStringLiteral("PhaseSketch projects (*.json)"));
   if (!path.isEmpty()) writeCopy(path);
 }

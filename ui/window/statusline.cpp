@@ -30,6 +30,7 @@ constexpr double kSilent = 5;         // s without a frame while playing, after 
 constexpr double kClearly = 1.2;      // times as slow as the stage that is named, to be named instead
 constexpr double kSmooth = 0.08;      // share of a new frame in the shown mean, so that digits can be read
 constexpr double kSmoothTool = 0.25;  // the same of what a tool feels, which one wants to see at once
+constexpr double kLeastTold = 0.01;   // W, K/m: what fades from there on is gone
 constexpr double kBehind = 2;         // spacings behind its hand from which a tool is said to be
 
 /// That whose name takes most room.
@@ -199,18 +200,19 @@ void StatusLine::followTool() {
   m_tool.behind = now.behind;
 }
 
-/// "3.2 N on Spoon · takes 12 W · 4 W melt and boil · 850 K/m".
+/// "3.2 N on Spoon · takes 12 W · latent 4 W taken up · 850 K/m · 12 cm behind".
 StatusLine::Part StatusLine::toolPart() const {
   const Body* body = m_session.document().body(m_tool.body);
   QStringList weak{QStringLiteral("on %1").arg(body ? nameOf(*body) : QString())};
   const auto watts = [](double value) { return formatPrefixed(std::abs(value), QStringLiteral("W"), 2); };
-  if (m_tool.heat != 0)
+  const auto shows = [](double value) { return std::abs(value) >= kLeastTold; };
+  if (shows(m_tool.heat))
     weak << (m_tool.heat > 0 ? QStringLiteral("takes %1") : QStringLiteral("gives %1")).arg(watts(m_tool.heat));
-  if (m_tool.latent != 0) {
+  if (shows(m_tool.latent)) {
     weak << (m_tool.latent > 0 ? QStringLiteral("latent %1 taken up") : QStringLiteral("latent %1 given off"))
                 .arg(watts(m_tool.latent));
   }
-  if (m_tool.gradient != 0) weak << formatPrefixed(m_tool.gradient, QStringLiteral("K/m"), 2);
+  if (shows(m_tool.gradient)) weak << formatPrefixed(m_tool.gradient, QStringLiteral("K/m"), 2);
   if (m_tool.behind > kBehind * m_state.snapshot->spacing)
     weak << QStringLiteral("%1 behind").arg(formatPrefixed(m_tool.behind, QStringLiteral("m"), 2));
   return {formatPrefixed(m_tool.force.norm(), QStringLiteral("N"), 2), weak.join(QStringLiteral(" · ")), {}, {}};

@@ -44,11 +44,11 @@ QString whatOf(const Project& things) {
                                  : nameOf(all.probes[0]);
 }
 
-Owner ownerOf(OutlineKind kind) {
-  return kind == OutlineKind::Body      ? Owner::Body
-         : kind == OutlineKind::Emitter ? Owner::Emitter
-         : kind == OutlineKind::Sink    ? Owner::Sink
-                                        : Owner::Wall;
+/// As a group names it; "" for what is in none.
+std::string memberOf(const SelectedItem& item) {
+  const auto thing = thingOf(item);
+  const bool canBe = thing && item.kind != OutlineKind::Pin && item.kind != OutlineKind::Probe;
+  return canBe ? ps::memberOf(thing->owner, item.id) : std::string();
 }
 
 /// None is called as another one is.
@@ -342,9 +342,7 @@ void ThingActions::remove(const char* title) {
 void ThingActions::group() {
   std::vector<std::string> members;
   for (const SelectedItem& item : m_selection.items()) {
-    if (item.kind == OutlineKind::Body || item.kind == OutlineKind::Emitter || item.kind == OutlineKind::Sink ||
-        item.kind == OutlineKind::Wall)
-      members.push_back(memberOf(ownerOf(item.kind), item.id));
+    if (const std::string member = memberOf(item); !member.empty()) members.push_back(member);
   }
   if (members.empty()) {
     m_notices.refuse(QStringLiteral("Nothing was grouped."),
@@ -359,8 +357,7 @@ void ThingActions::ungroup() {
   std::vector<std::string> ids;
   for (const SceneGroup& group : livingGroups(m_session.document().project())) {
     const bool any = std::any_of(m_selection.items().begin(), m_selection.items().end(), [&](const SelectedItem& item) {
-      return std::find(group.members.begin(), group.members.end(), memberOf(ownerOf(item.kind), item.id)) !=
-             group.members.end();
+      return std::find(group.members.begin(), group.members.end(), memberOf(item)) != group.members.end();
     });
     if (any) ids.push_back(group.id);
   }

@@ -2,12 +2,12 @@
 #include "ui/window/welcome.h"
 
 #include "ui/document/document.h"
+#include "ui/film/hiddenbodies.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"
 #include "ui/theme/plaintext.h"
-#include "ui/viewport/hiddenbodies.h"
 #include "ui/viewport/viewport.h"
 #include "ui/welcome/cardgrid.h"
 #include "ui/welcome/welcomepage.h"

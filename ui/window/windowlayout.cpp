@@ -27,7 +27,6 @@ constexpr const char* kHint = "view/hint";
 constexpr std::pair<Workspace, const char*> kStates[] = {
     {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
 constexpr int kStateVersion = 4;
-constexpr size_t kFilm = 8;  // in the table
 
 /// A column of the layout table: pixels of docks in windows of at least a width.
 struct Column {
@@ -144,7 +143,6 @@ void WindowLayout::putAway() {
     dock->setFloating(false);
     dock->hide();
   }
-  m_window.removeDockWidget(m_docks[kFilm]);  // alone in its workspace: elsewhere its place would ask for room
 }
 
 void WindowLayout::showDocks() {
@@ -157,7 +155,7 @@ void WindowLayout::layScene() {
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   // All have a place, so that a saved state says of each that it is hidden.
   for (size_t i = 0; i < m_docks.size(); ++i) {
-    if (!shows(i) && i != kFilm) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
+    if (!shows(i)) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
   }
   putAway();
   m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
@@ -185,7 +183,7 @@ void WindowLayout::layTune() {
 void WindowLayout::layFilm() {
   putAway();
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
-  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[kFilm]);
+  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[8]);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[4]);
   showDocks();
 }
@@ -193,14 +191,13 @@ void WindowLayout::layFilm() {
 void WindowLayout::sizeDocks() {
   const Column& column = columnOf(m_window.width());
   if (m_workspace == Workspace::Tune) {
-    // As much as the view needs with all its buttons: the window would grow by what is missing.
-    const int list = column.left, preview = 536;
+    const int list = column.left, preview = 480;
     m_window.resizeDocks({m_docks[5], m_docks[6]}, {list, m_window.width() - list - preview}, Qt::Horizontal);
     m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {column.curve, column.curveGraphs, 40}, Qt::Vertical);
     m_window.resizeDocks({m_docks[7]}, {column.points}, Qt::Vertical);
     return;
   }
-  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[kFilm]}, {column.right}, Qt::Horizontal);
+  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[8]}, {column.right}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[2]}, {column.left, column.right}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
   m_window.resizeDocks({m_docks[3], m_docks[4]}, {column.graphs, 40}, Qt::Vertical);

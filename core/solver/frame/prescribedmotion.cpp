@@ -132,7 +132,6 @@ void PrescribedMotion::follow(uint32_t body, const Vector3& centre, const Quater
   const Vector3 about = -(lead.turn * vectorOf(arm));
   lead.way += way + turn * about - about;
   lead.turn = (turn * lead.turn).normalized();
-  if (turn.vec() == Vector3::Zero() && lead.turn.vec() == Vector3::Zero()) lead.turn = Quaternion::Identity();
   const api::Float4* places = placesIn(store);
   double farthest = 0;
   for (size_t i = 0; i < store.size(); ++i) {
@@ -225,9 +224,7 @@ void PrescribedMotion::lead(ParticleStore& store, size_t first, size_t last) con
     const double length = period.length(axis);
     return static_cast<float>(length > 0 ? to - length * std::floor((to - double{from}) / length + 0.5) : to);
   };
-  const uint32_t* body = store.body();
   for (size_t i = first; i < last; ++i) {
-    if (body[i] >= m_frames.size()) continue;  // most, at once
     const Frame* frame = frameOf(store, i);
     if (!frame) continue;
     const Vector3 arm = frame->axes * vectorOf(places[i]), to = frame->centre + arm;
