@@ -23,7 +23,7 @@ void join(Extent& into, const Extent& other) {
 
 const Vector3 kKeyLight = Vector3(-0.34, 0.86, 0.40).normalized();
 
-FrameUniforms::Matrix floats(const Matrix4& a) {
+FrameUniforms::Matrix uniformOf(const Matrix4& a) {
   FrameUniforms::Matrix out;
   std::transform(a.data(), a.data() + 16, out.begin(), [](double v) { return static_cast<float>(v); });
   return out;
@@ -107,8 +107,8 @@ void Prepared::fitShadow() {
   clip.topRightCorner<3, 1>() = -scale.cwiseProduct(high + low) / 2;
   half.col(3) << 0.5, 0.5, 0.5, 1;
   shadowScale = {static_cast<float>(scale.x()), static_cast<float>(scale.y())};
-  toLight = floats(clip);
-  shadow = floats(half * clip);
+  toLight = uniformOf(clip);
+  shadow = uniformOf(half * clip);
 }
 
 }  // namespace ps::render

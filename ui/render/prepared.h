@@ -39,6 +39,6 @@ struct Prepared {
   std::optional<Section> m_section;
 };
 
-FrameUniforms::Matrix floats(const Matrix4& a);
+FrameUniforms::Matrix uniformOf(const Matrix4& a);
 
 }  // namespace ps::render

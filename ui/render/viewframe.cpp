@@ -90,9 +90,9 @@ void ViewFrame::fillUniforms(const Prepared& prepared, const Eye& eye) {
   const Matrix4& projection = eye.projection;
   const Vector3 from = placeOf(eye);
   const auto f = [](double v) { return static_cast<float>(v); };
-  u.view = floats(eye.view);
-  u.projection = floats(projection);
-  u.inverseView = floats(eye.view.inverse());
+  u.view = uniformOf(eye.view);
+  u.projection = uniformOf(projection);
+  u.inverseView = uniformOf(eye.view.inverse());
   u.shadow = prepared.shadow;
   u.eye = {f(from.x()), f(from.y()), f(from.z()), 0};
   u.size = {f(width), f(height), 1 / f(width), 1 / f(height)};
