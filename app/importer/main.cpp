@@ -14,11 +14,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ps {
 namespace {
@@ -85,22 +88,36 @@ double metresPerUnit(const aiScene& scene, std::string extension) {
   return extension == ".3mf" ? 0.001 : 0;
 }
 
+void addPart(SceneMesh& mesh, const aiMesh& part, const aiMatrix4x4& pose) {
+  const auto first = static_cast<uint32_t>(mesh.points.size());
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D p = pose * part.mVertices[i];
+    mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  const bool mirrored = pose.Determinant() < 0;
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) continue;
+    std::array<uint32_t, 3> corners{first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]};
+    if (mirrored) std::swap(corners[1], corners[2]);  // its outside would face inwards
+    mesh.triangles.push_back(corners);
+  }
+  if (mesh.triangles.size() > kMostTriangles)
+    throw InputError("has more than 10 million triangles; reduce it in the program that made it");
+}
+
+/// All parts of the file where its nodes place them. Not by assimp's own step for that: it leaves mirrored parts inside
+/// out, and takes minutes for some files.
 SceneMesh trianglesOf(const aiScene& scene) {
   SceneMesh mesh;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    const auto first = static_cast<uint32_t>(mesh.points.size());
-    for (unsigned i = 0; i < part.mNumVertices; ++i) {
-      const aiVector3D& p = part.mVertices[i];
-      mesh.points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    }
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices == 3)
-        mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-    }
-    if (mesh.triangles.size() > kMostTriangles)
-      throw InputError("has more than 10 million triangles; reduce it in the program that made it");
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> left;
+  if (scene.mRootNode) left.emplace_back(scene.mRootNode, scene.mRootNode->mTransformation);
+  while (!left.empty()) {
+    const auto [node, pose] = left.back();
+    left.pop_back();
+    for (unsigned m = 0; m < node->mNumMeshes; ++m) addPart(mesh, *scene.mMeshes[node->mMeshes[m]], pose);
+    for (unsigned c = node->mNumChildren; c-- > 0;)
+      left.emplace_back(node->mChildren[c], pose * node->mChildren[c]->mTransformation);
   }
   return mesh;
 }
@@ -115,8 +132,8 @@ MeshFile readMesh(const std::string& path) {
       static_cast<int>(aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                        aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
                        aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS));
-  const aiScene* scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent | aiProcess_PreTransformVertices);
+  const aiScene* scene =
+      importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent);
   if (!scene) throw InputError(std::string("cannot be read as a mesh: ") + importer.GetErrorString());
   return {trianglesOf(*scene), metresPerUnit(*scene, fs::path(path).extension())};
 }

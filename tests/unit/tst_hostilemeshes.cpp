@@ -228,6 +228,7 @@ class TstHostileMeshes : public QObject {
     }
     for (const char* one :
          {"3MF/box.3mf", "Collada/duck.dae", "Collada/cube_tristrips.dae", "FBX/box.fbx", "FBX/spider.fbx",
+          "FBX/cubes_with_mirroring_and_pivot.fbx", "FBX/close_to_identity_transforms.fbx",
           "glTF/BoxTextured-glTF/BoxTextured.gltf", "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb"})
       paths << models + one;
     for (const QString& path : paths) {

@@ -28,6 +28,16 @@ const QByteArray kCube =
     "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
 
+/// A part, and its mirror image beside it, of one buffer.
+const QByteArray kMirrored = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"mesh": 0}, {"mesh": 0, "scale": [-1, 1, 1], "translation": [-1, 0, 0]}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [3, 2, 1]},
+    {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+  "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+  "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,DATA"}]})";
+
 }  // namespace
 
 class TstMeshImport : public QObject {
@@ -47,6 +57,20 @@ class TstMeshImport : public QObject {
     const SolidForm form(std::get<SolidShape>(body.shape));
     QVERIFY((form.middle() - Vector3(0, 1, 0)).norm() < 1e-6);
     QVERIFY((form.size() - Vector3(2, 2, 2)).norm() < 1e-6);
+  }
+
+  /// Of a part that its node mirrors the outside stays outside.
+  void mirroredPartsAreWhole() {
+    QByteArray data;
+    for (const float x : {0.f, 0.f, 0.f, 3.f, 0.f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f, 1.f})
+      data.append(reinterpret_cast<const char*>(&x), sizeof x);
+    for (const uint16_t k : {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3})
+      data.append(reinterpret_cast<const char*>(&k), sizeof k);
+    QByteArray text = kMirrored;
+    text.replace("DATA", data.toBase64());
+    const ImportedMesh imported = importMesh(file("two.gltf", text));
+    QVERIFY(imported.facts.closed());
+    QVERIFY2(std::abs(imported.facts.volume - 2) < 1e-6, qPrintable(QString::number(imported.facts.volume)));
   }
 
   void theCommandFillsAMesh() {
