@@ -7,7 +7,24 @@
 
 namespace ps {
 
-VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf) {
+namespace {
+
+/// What the sketch holds already stops it as others do.
+CellSet floodedIn(const VoxelCanvas& canvas, const SketchGrid& grid, const CellSet& seeds, const Vector3& gravity,
+                  const FreeOf& freeOf) {
+  const CellSet own = canvas.cells();
+  const FreeOf free = [&](const SketchGrid& lattice, const CellSet& cells) {
+    CellSet outside = cells;
+    outside.remove(own.cells());
+    return freeOf(lattice, outside);
+  };
+  return flooded(grid, seeds, {}, gravity, free, kMaxStrokeCells);
+}
+
+}  // namespace
+
+VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf,
+                   const Vector3& gravity) {
   VoxelShape out = shape;
   if (out.spacing != spacing) out.origin = Vector3::Constant(spacing / 2);
   out.spacing = spacing;
@@ -15,10 +32,11 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf
   for (const VoxelShape::Stroke& stroke : shape.strokes) {
     const api::BrushPlugin* brush = brushOf(stroke.brush);
     if (!brush) throw InputError("the brush \"" + stroke.brush + "\" is not installed");
-    const SketchGrid grid{out.origin, spacing};
+    const SketchGrid grid = gridOf(out);
     const StrokeEdits edits = replayStroke(*brush, stroke, grid);
     canvas.erase(edits.removed);
     canvas.paint(freeOf(grid, edits.added), stroke.palette);
+    if (!edits.filled.empty()) canvas.paint(floodedIn(canvas, grid, edits.filled, gravity, freeOf), stroke.palette);
     const Smoothed smooth = edits.smoothed.empty() ? Smoothed{} : smoothed(canvas, edits.smoothed);
     canvas.erase(smooth.emptied);
     for (const auto& [palette, cells] : smooth.filled) canvas.paint(freeOf(grid, cells), palette);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/sketch/cellset.h"
+#include "core/sketch/flooding.h"
 
 #include <phasesketch/brush.h>
 
@@ -12,13 +13,12 @@ namespace ps {
 /// A brush by its id; nullptr: there is none of that name.
 using BrushOf = std::function<const api::BrushPlugin*(const std::string& id)>;
 
-/// Those of some cells of a lattice that may be filled: not where others are, nor outside of the scene.
-using FreeOf = std::function<CellSet(const SketchGrid& grid, const CellSet& cells)>;
-
 /// A sketch drawn again from its strokes alone, in their order, on a lattice of `spacing` m: an adding stroke fills the
 /// cells that are free, an erasing one empties them, one that paints makes those that are filled of its material, one
-/// that smooths rounds what is there by then. What cells it had and no stroke explains is gone. Throws InputError where
-/// a brush is missing, or a stroke cannot be drawn.
-VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf);
+/// that smooths rounds what is there by then, and one that fills lets hollows run full under `gravity` (m/s2). What
+/// cells it had and no stroke explains is gone. Throws InputError where a brush is missing, or a stroke cannot be
+/// drawn.
+VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf,
+                   const Vector3& gravity = {0, -9.81, 0});
 
 }  // namespace ps

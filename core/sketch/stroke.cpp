@@ -43,7 +43,7 @@ class Collector final : public api::EditSink {
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
     if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
-    if (kind > api::EditKind::Smooth) throw BrushFault("it submitted cells for an edit that there is not");
+    if (kind > api::EditKind::Fill) throw BrushFault("it submitted cells for an edit that there is not");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());
@@ -59,8 +59,8 @@ class Collector final : public api::EditSink {
   void flush() {
     m_edits.of(m_kind).add(m_pending);
     size_t all = 0;
-    for (const api::EditKind kind :
-         {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint, api::EditKind::Smooth}) {
+    for (const api::EditKind kind : {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint,
+                                     api::EditKind::Smooth, api::EditKind::Fill}) {
       CellSet& cells = m_edits.of(kind);
       if (kind != m_kind && !cells.empty()) cells.remove(m_pending);
       all += cells.size();
@@ -193,6 +193,7 @@ bool isInScene(const Environment& environment, const SketchGrid& grid, const api
 api::EditKind kindOf(const api::BrushPlugin& brush, bool erase) {
   if (erase) return api::EditKind::Remove;
   if (brush.extension(api::kSmoothsMatter)) return api::EditKind::Smooth;
+  if (brush.extension(api::kFillsHollows)) return api::EditKind::Fill;
   return brush.extension(api::kPaintsMatter) ? api::EditKind::Paint : api::EditKind::Add;
 }
 

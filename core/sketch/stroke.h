@@ -40,10 +40,13 @@ std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample>
 
 /// What a stroke asks for: sets without a common cell (the later edit of a cell wins).
 struct StrokeEdits {
-  CellSet added, removed, painted, smoothed;
-  bool empty() const { return added.empty() && removed.empty() && painted.empty() && smoothed.empty(); }
+  CellSet added, removed, painted, smoothed, filled;
+  bool empty() const {
+    return added.empty() && removed.empty() && painted.empty() && smoothed.empty() && filled.empty();
+  }
   CellSet& of(api::EditKind kind) {
     if (kind == api::EditKind::Smooth) return smoothed;
+    if (kind == api::EditKind::Fill) return filled;
     return kind == api::EditKind::Add ? added : kind == api::EditKind::Remove ? removed : painted;
   }
 };
@@ -75,7 +78,7 @@ api::StrokeContext contextOf(const StrokeSetup& setup);
 /// kMaxStrokeCells, and BrushFault for what the brush itself throws.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
-/// The same into a set of cells: Add puts cells in, Remove takes them out, Paint and Smooth leave them.
+/// The same into a set of cells: Add puts cells in, Remove takes them out, others leave them.
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                 std::span<const api::StrokeSample> samples, CellSet& cells);
 /// Whether a cell's particle has room within the scene's bounds and before its walls.

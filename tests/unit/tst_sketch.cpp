@@ -3,6 +3,7 @@
 #include "core/scene/pose.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
+#include "core/sketch/flooding.h"
 #include "core/sketch/redraw.h"
 #include "core/sketch/smoothing.h"
 #include "core/sketch/stroke.h"
@@ -374,6 +375,50 @@ class TestSketch : public QObject {
     QVERIFY2(std::abs(fine / coarse - 8) < 0.8, qPrintable(QString::number(fine / coarse)));  // the rim's cells: 1 / 12
     shape.strokes[0].brush = "gone";
     QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, all, brushOf), InputError);
+  }
+
+  /// Two arms joined at the bottom, 4 cells high, one cell thick all around, between panes: they run full to one level,
+  /// whichever arm one points into, as by pieces of a stroke that rises; what is above the rim runs out.
+  void hollowsRunFull() {
+    const auto isWall = [](const Cell& c) {
+      if (c.y > 4) return false;
+      const bool outside = c.x < -1 || c.x > 5 || c.y < -1;
+      const bool shell = c.x == -1 || c.x == 5 || c.y == -1, middle = c.x == 2 && c.y > 0;
+      return !outside && (shell || middle);
+    };
+    const FreeOf open = [&](const SketchGrid&, const CellSet& cells) {
+      std::vector<Cell> free;
+      for (const Cell& c : cells.cells()) {
+        if (!isWall(c) && std::abs(c.z) < 2 && std::abs(c.x) < 60 && std::abs(c.y) < 60) free.push_back(c);
+      }
+      return CellSet(free);
+    };
+    const SketchGrid grid{{0.5, 0.5, 0.5}, 0.1};
+    const Vector3 gravity(0, -9.81, 0);
+    const CellSet left = flooded(grid, cellsOf({{0, 3, 0}}), {}, gravity, open);
+    QCOMPARE(left.size(), size_t{3 * (4 * 4 + 1)});  // two arms, each two cells wide, and what joins them
+    for (const Cell& c : left.cells()) QVERIFY(c.y >= 0 && c.y <= 3 && !isWall(c));
+    QVERIFY(flooded(grid, cellsOf({{4, 3, 1}}), {}, gravity, open) == left);
+    CellSet pieces;
+    for (int y = 0; y <= 3; ++y) {
+      const CellSet more = flooded(grid, cellsOf({{3, y, 0}, {3, 0, 0}}), pieces, gravity, open);
+      for (const Cell& c : more.cells()) QVERIFY(c.y == y && !pieces.contains(c));
+      pieces.add(more.cells());
+    }
+    QVERIFY(pieces == left);
+    // In matter it is what lies above that runs full; with nothing free there it is nothing.
+    QVERIFY(flooded(grid, cellsOf({{0, -1, 0}}), {}, gravity, open) ==
+            flooded(grid, cellsOf({{0, 0, 0}}), {}, gravity, open));
+    QVERIFY(flooded(grid, cellsOf({{2, 3, 0}}), {}, gravity, open).empty());
+    QVERIFY_EXCEPTION_THROWN(flooded(grid, cellsOf({{0, 3, 0}}), {}, gravity, open, 10), InputError);
+    // Over the rim everything outside fills as well, down to the bottom of the scene.
+    QVERIFY(flooded(grid, cellsOf({{0, 5, 0}}), {}, gravity, open).size() > 10000);
+    const FreeOf endless = [](const SketchGrid&, const CellSet& cells) { return cells; };
+    QVERIFY_EXCEPTION_THROWN(flooded(grid, cellsOf({{0, 5, 0}}), {}, gravity, endless), InputError);
+    // Where down is along x it stands against the other side.
+    const CellSet aside = flooded(grid, cellsOf({{0, 2, 0}}), {}, {9.81, 0, 0}, open);
+    QVERIFY(std::all_of(aside.cells().begin(), aside.cells().end(), [](const Cell& c) { return c.x >= 0; }));
+    QVERIFY(aside.size() > 3 * 4);
   }
 
   /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.

@@ -24,6 +24,10 @@ inline constexpr const char* kPaintsMatter = "paints_matter";
 /// it.
 inline constexpr const char* kSmoothsMatter = "smooths_matter";
 
+/// Capability of a brush that fills hollows, instead of drawing cells: extension(kFillsHollows) is not nullptr, and its
+/// metadata list the name. Its stroke() gets and submits EditKind::Fill, or Remove where its user erases with it.
+inline constexpr const char* kFillsHollows = "fills_hollows";
+
 struct StrokeSample {
   Double3 position;           ///< m
   double pressure;            ///< 0 .. 1
@@ -54,6 +58,7 @@ enum class EditKind : uint32_t {
   Remove,  ///< what stands in cells goes
   Paint,   ///< what stands in cells becomes that material, as warm as it is; free cells stay free
   Smooth,  ///< of these cells, filled ones at edges and bumps are emptied, and free ones in hollows are filled
+  Fill,    ///< like Add, and all free cells that are reached from each, from face to face, no higher than it is
 };
 
 /// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/qtentry.h>
+
+/// Lets hollows run full.
+class FillBrush final : public QObject, public ps::api::Described<ps::api::BrushPlugin> {
+  Q_OBJECT
+  Q_PLUGIN_METADATA(IID PHASESKETCH_BRUSH_IID FILE "fill.json")
+  Q_INTERFACES(ps::api::BrushPlugin)
+
+ public:
+  FillBrush();
+
+  void stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
+              const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const override;
+  ps::api::Double3 extent(const ps::api::StrokeContext& context) const noexcept override;
+  const void* extension(const char* name) const noexcept override;
+};
