@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/simulation/declared.h"
 #include "core/sketch/redraw.h"
 #include "core/sketch/stroke.h"
@@ -43,7 +44,7 @@ void redraw(Project& project, const std::string& path, double spacing, const Plu
       for (const api::Cell& cell : cells.cells()) {
         if (isInScene(project.environment, grid, cell)) inside.push_back(cell);
       }
-      VoxelShape lattice;
+      VoxelShape lattice = latticeOf(sketches[i]);
       lattice.origin = grid.origin, lattice.spacing = grid.spacing;
       std::vector<api::Cell> free;
       for (const auto& [x, y, z] : freeAtStart(project, body.id, lattice, CellSet(inside).indices()))
@@ -51,7 +52,7 @@ void redraw(Project& project, const std::string& path, double spacing, const Plu
       return CellSet(free);
     };
     try {
-      body.shape = redrawn(sketches[i], spacing, freeOf, brushOf);
+      body.shape = redrawn(sketches[i], spacing, freeOf, brushOf, project.environment.gravity);
     } catch (const Error& error) {
       throw InputError(path + ":/bodies/" + std::to_string(i) + ": " + error.what());
     }

@@ -81,7 +81,10 @@ const FieldTable<VoxelShape>& voxelFields() {
                field("palette", &VoxelShape::palette, List{Object{paintFields()}}, "materials of the cells").required(),
                field("runs", &VoxelShape::runs, List{run}, "filled cells as runs along x").required(),
                field("strokes", &VoxelShape::strokes, List{Object{strokeFields()}},
-                     "how it was drawn, so that it stays editable")},
+                     "how it was drawn, so that it stays editable"),
+               field("rotation", &VoxelShape::rotation, Vector{"°"},
+                     "what was drawn is turned about the scene's x, then y, then z axis, through its origin"),
+               field("shift", &VoxelShape::shift, Vector{"m"}, "and moved after that")},
       .unknown = &VoxelShape::unknown};
   return table;
 }

@@ -16,6 +16,7 @@ struct RigidMove {
   bool isNothing() const { return !turns() && shift == Vector3::Zero(); }
   /// This one after another.
   RigidMove after(const RigidMove& first) const { return {(turn * first.turn).normalized(), of(first.shift)}; }
+  RigidMove inverse() const { return {turn.conjugate(), turns() ? Vector3(turn.conjugate() * -shift) : -shift}; }
   static RigidMove about(const Vector3& pivot, const Quaternion& turn) { return {turn, pivot - turn * pivot}; }
 };
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kNowhere = 1e-9;       // m
 constexpr double kUpright = 1 - 1e-12;  // sine of the turn about y from which those about x and z are one
 
 std::string key(const char* what, size_t axis) { return std::string(what) + "_" + kAxes[axis]; }
@@ -58,22 +59,54 @@ void moveCells(VoxelShape& voxels, const std::array<int, 3>& cells) {
   }
 }
 
-Region around(const Region& region, const RigidMove& move) {
-  Region box = region;
-  box.minimum.setConstant(HUGE_VAL), box.maximum.setConstant(-HUGE_VAL);
-  for (int corner = 0; corner < 8; ++corner) {
-    Vector3 p;
-    for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? region.maximum[a] : region.minimum[a];
-    p = move.of(p);
-    box.minimum = box.minimum.cwiseMin(p), box.maximum = box.maximum.cwiseMax(p);
+void setPose(VoxelShape& voxels, const RigidMove& pose) {
+  voxels.rotation = anglesOf(pose.turn.toRotationMatrix());
+  voxels.shift = pose.shift;
+  // Turned back to where it was drawn, it goes by whole cells again.
+  if (voxels.rotation == Vector3::Zero() && voxels.shift.norm() < kNowhere) voxels.shift.setZero();
+}
+
+/// Of a sketch's cells as they were drawn; of one without cells a point.
+BodyBounds drawnBounds(const VoxelShape& voxels) {
+  if (voxels.runs.empty()) return {voxels.origin, voxels.origin};
+  Vector3 low = Vector3::Constant(HUGE_VAL), high = -low;
+  for (const VoxelShape::Run& run : voxels.runs) {
+    low = low.cwiseMin(Vector3(run.x, run.y, run.z));
+    high = high.cwiseMax(Vector3(run.x + run.length - 1, run.y, run.z));
   }
+  const Vector3 half = Vector3::Constant(0.5);
+  return {voxels.origin + voxels.spacing * (low - half), voxels.origin + voxels.spacing * (high + half)};
+}
+
+/// Around points and boxes that are taken along.
+struct CarriedBounds {
+  RigidMove move;
+  Vector3 minimum = Vector3::Constant(HUGE_VAL), maximum = Vector3::Constant(-HUGE_VAL);
+  void add(const Vector3& point) {
+    const Vector3 p = move.of(point);
+    minimum = minimum.cwiseMin(p), maximum = maximum.cwiseMax(p);
+  }
+  void add(const Vector3& low, const Vector3& high) {
+    for (int corner = 0; corner < 8; ++corner) {
+      Vector3 p;
+      for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? high[a] : low[a];
+      add(p);
+    }
+  }
+};
+
+Region around(const Region& region, const RigidMove& move) {
+  CarriedBounds carried{move};
+  carried.add(region.minimum, region.maximum);
+  Region box = region;
+  box.minimum = carried.minimum, box.maximum = carried.maximum;
   return box;
 }
 
-/// The shift from one sketch to the other where they are of the same cells; in m.
+/// The shift from one sketch to the other where they were drawn of the same cells; in m.
 std::optional<Vector3> shiftBetween(const VoxelShape& before, const VoxelShape& after) {
-  if (before.runs.empty() || before.runs.size() != after.runs.size() || before.spacing != after.spacing)
-    return std::nullopt;
+  if (before.runs.size() != after.runs.size() || before.spacing != after.spacing) return std::nullopt;
+  if (before.runs.empty()) return after.origin - before.origin;
   const VoxelShape::Run &from = before.runs.front(), &to = after.runs.front();
   const std::array<int, 3> way{to.x - from.x, to.y - from.y, to.z - from.z};
   VoxelShape gone;
@@ -117,19 +150,24 @@ BodyBounds boundsOf(const Body& body) {
     return {form.middle() - form.extent() / 2, form.middle() + form.extent() / 2};
   }
   const auto& voxels = std::get<VoxelShape>(body.shape);
-  if (voxels.runs.empty()) return {voxels.origin, voxels.origin};
-  Vector3 low = Vector3::Constant(HUGE_VAL), high = -low;
+  const RigidMove pose = poseOf(voxels);
+  if (pose.isNothing()) return drawnBounds(voxels);
+  // Around its particles, whichever way their cells are turned.
+  CarriedBounds carried{pose};
+  if (voxels.runs.empty()) carried.add(voxels.origin);
   for (const VoxelShape::Run& run : voxels.runs) {
-    low = low.cwiseMin(Vector3(run.x, run.y, run.z));
-    high = high.cwiseMax(Vector3(run.x + run.length - 1, run.y, run.z));
+    for (const int x : {run.x, run.x + run.length - 1})
+      carried.add(voxels.origin + voxels.spacing * Vector3(x, run.y, run.z));
   }
-  const Vector3 half = Vector3::Constant(0.5);
-  return {voxels.origin + voxels.spacing * (low - half), voxels.origin + voxels.spacing * (high + half)};
+  const Vector3 half = Vector3::Constant(voxels.runs.empty() ? 0 : voxels.spacing / 2);
+  return {carried.minimum - half, carried.maximum + half};
 }
 
 Vector3 pivotOf(const Body& body) {
-  const auto* solid = std::get_if<SolidShape>(&body.shape);
-  return solid ? SolidForm(*solid).middle() : boundsOf(body).middle();
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) return SolidForm(*solid).middle();
+  // Of a sketch that is turned the same point of it, however it stands.
+  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+  return voxels ? poseOf(*voxels).of(drawnBounds(*voxels).middle()) : boundsOf(body).middle();
 }
 
 Vector3 centroidOf(const Body& body) {
@@ -145,11 +183,28 @@ Vector3 centroidOf(const Body& body) {
     sum += run.length * Vector3(run.x + 0.5 * (run.length - 1), run.y, run.z);
     cells += run.length;
   }
-  return voxels->origin + voxels->spacing / cells * sum;
+  return poseOf(*voxels).of(voxels->origin + voxels->spacing / cells * sum);
 }
 
-std::string whyNotTurned(const Body& body) {
-  return std::holds_alternative<VoxelShape>(body.shape) ? "what is sketched stands along the axes of its cells" : "";
+RigidMove poseOf(const VoxelShape& voxels) {
+  if (voxels.rotation == Vector3::Zero()) return {Quaternion::Identity(), voxels.shift};
+  const Vector3 angle = voxels.rotation / kDegrees;
+  const auto about = [&](Eigen::Index axis) { return Quaternion(Eigen::AngleAxisd(angle[axis], Vector3::Unit(axis))); };
+  return {(about(2) * about(1) * about(0)).normalized(), voxels.shift};
+}
+
+VoxelShape latticeOf(const VoxelShape& voxels) {
+  VoxelShape lattice;
+  lattice.origin = voxels.origin, lattice.spacing = voxels.spacing;
+  lattice.rotation = voxels.rotation, lattice.shift = voxels.shift;
+  return lattice;
+}
+
+void carryLattice(VoxelShape& lattice, const RigidMove& move) {
+  if (!move.turns() && poseOf(lattice).isNothing())
+    lattice.origin += move.shift;
+  else
+    setPose(lattice, move.after(poseOf(lattice)));
 }
 
 std::string whyNotScaled(const Body& body) {
@@ -158,7 +213,7 @@ std::string whyNotScaled(const Body& body) {
 
 RigidMove possibleMove(const Body& body, const RigidMove& wanted) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  if (!voxels) return wanted;
+  if (!voxels || wanted.turns() || !poseOf(*voxels).isNothing()) return wanted;
   const std::array<int, 3> cells = cellsOf(*voxels, wanted.shift);
   return {Quaternion::Identity(), voxels->spacing * Vector3(cells[0], cells[1], cells[2])};
 }
@@ -173,7 +228,10 @@ Body moved(Body body, const RigidMove& move) {
     if (move.turns()) place(*solid, "rotation", anglesOf(move.turn.toRotationMatrix() * form.axes()));
   } else {
     auto& voxels = std::get<VoxelShape>(body.shape);
-    moveCells(voxels, cellsOf(voxels, move.shift));
+    if (!move.turns() && poseOf(voxels).isNothing())
+      moveCells(voxels, cellsOf(voxels, move.shift));
+    else
+      setPose(voxels, move.after(poseOf(voxels)));
   }
   for (Region& pin : body.pins) pin = around(pin, move);
   if (move.turns()) body.temperatureGradient = move.turn * body.temperatureGradient;
@@ -218,9 +276,13 @@ std::optional<RigidMove> moveBetween(const Body& before, const Body& after) {
     if (to.axes() != from.axes()) move.turn = Quaternion(turn).normalized();
     move.shift = move.turns() ? Vector3(to.middle() - move.turn * from.middle()) : Vector3(to.middle() - from.middle());
   } else {
-    const auto shift = shiftBetween(std::get<VoxelShape>(before.shape), std::get<VoxelShape>(after.shape));
+    const auto &from = std::get<VoxelShape>(before.shape), &to = std::get<VoxelShape>(after.shape);
+    const auto shift = shiftBetween(from, to);
     if (!shift) return std::nullopt;
-    move.shift = *shift;
+    if (from.rotation == to.rotation)
+      move.shift = poseOf(to).turn * *shift + (to.shift - from.shift);
+    else
+      move = poseOf(to).after({Quaternion::Identity(), *shift}).after(poseOf(from).inverse());
   }
   return move.isNothing() ? std::nullopt : std::optional(move);
 }

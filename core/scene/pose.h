@@ -21,11 +21,17 @@ Vector3 pivotOf(const Body& body);
 /// Of the matter that fills it evenly, m. Of a mesh with holes: of what its triangles enclose, as far as they do.
 Vector3 centroidOf(const Body& body);
 
-/// "" or why a body's form cannot be turned: sketches lie along the axes.
-std::string whyNotTurned(const Body& body);
+/// Where a sketch has been taken since it was drawn, from where its cells and strokes are.
+RigidMove poseOf(const VoxelShape& voxels);
+/// A sketch's lattice, without anything on it.
+VoxelShape latticeOf(const VoxelShape& voxels);
+/// Takes a lattice along.
+void carryLattice(VoxelShape& lattice, const RigidMove& move);
+
 /// "" or why it cannot be made larger or smaller.
 std::string whyNotScaled(const Body& body);
-/// The nearest move that a body's form can make: sketches go by whole cells.
+/// The nearest move that a body's form can make: sketches that were never turned go by whole cells, so that more can be
+/// drawn beside them on the same lattice.
 RigidMove possibleMove(const Body& body, const RigidMove& wanted);
 /// The body at another pose, with its pins and what varies along it; the move is one that it can make. Pins become the
 /// boxes around what they were, a block of whole layers that is turned the solid block of its place and size.

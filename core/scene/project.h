@@ -99,6 +99,10 @@ struct VoxelShape {
   std::vector<Paint> palette;
   std::vector<Run> runs;
   std::vector<Stroke> strokes;
+  /// What was drawn may stand elsewhere by now, see poseOf(): first turned about the origin of the scene, then shifted.
+  /// Cells and strokes are as they were drawn.
+  Vector3 rotation{0, 0, 0};  ///< degrees about x, then y, then z
+  Vector3 shift{0, 0, 0};     ///< m
   Unknown unknown{};
   bool operator==(const VoxelShape&) const = default;
 };

@@ -51,7 +51,7 @@ struct AddCells {
 };
 /// Takes what stands in cells of a lattice, except matter of some bodies.
 struct TakeCells {
-  VoxelShape lattice;  ///< origin and spacing only
+  VoxelShape lattice;  ///< see latticeOf()
   CellIndices cells;
   std::vector<std::string> spared{};  ///< Body::id
   MatterKey key = 0;
@@ -65,7 +65,7 @@ struct TakeBody {
 /// stands in the cells instead.
 struct TakeMatter {
   MatterKey key = 0;
-  VoxelShape lattice{};  ///< origin and spacing only
+  VoxelShape lattice{};  ///< see latticeOf()
   CellIndices cells{};
 };
 /// Puts what was taken under a key back where it was, the last taken first. Where the key names nothing, because of a
@@ -77,7 +77,7 @@ struct PutBack {
 /// What stands in cells of a lattice becomes of a material, except matter of some bodies: see Engine::paint(). Refused
 /// where the scene has no such material.
 struct PaintCells {
-  VoxelShape lattice;  ///< origin and spacing only
+  VoxelShape lattice;  ///< see latticeOf()
   CellIndices cells;
   std::string material;               ///< SceneMaterial::id
   std::vector<std::string> spared{};  ///< Body::id
@@ -93,7 +93,7 @@ struct MoveBody {
 struct NameMatter {
   MatterKey key = 0;
   std::string body;    ///< Body::id
-  VoxelShape lattice;  ///< origin and spacing only
+  VoxelShape lattice;  ///< see latticeOf()
   CellIndices cells;
   /// "": the key made it; else the key painted it, and UndoTouch makes it of this material again. Matter of several
   /// materials is named one after the other.

@@ -2,7 +2,8 @@
 #include "core/simulation/lattice.h"
 
 #include "core/base/progress.h"
-#include "core/sketch/grid.h"
+#include "core/scene/pose.h"
+#include "core/sketch/cellset.h"
 
 #include <algorithm>
 #include <bit>
@@ -202,12 +203,11 @@ Vector3 resampledOrigin(const VoxelShape& voxels, double to) {
 }
 
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells) {
-  const Vector3 origin = resampledOrigin(voxels, spacing);
+  const SketchGrid grid{resampledOrigin(voxels, spacing), spacing, poseOf(voxels)};
   std::vector<api::Double3> centres;
   centres.reserve(cells.size());
-  for (const CellIndex& c : resampled(cells, voxels.spacing, spacing)) {
-    centres.push_back({origin[0] + c[0] * spacing, origin[1] + c[1] * spacing, origin[2] + c[2] * spacing});
-  }
+  for (const CellIndex& c : resampled(cells, voxels.spacing, spacing))
+    centres.push_back(double3Of(grid.centreOf({c[0], c[1], c[2]})));
   return centres;
 }
 
@@ -255,10 +255,15 @@ size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied, const OccupiedPlaces
   return dropped;
 }
 
+SketchGrid wideGridOf(const VoxelShape& voxels) {
+  SketchGrid grid = gridOf(voxels);
+  grid.origin -= Vector3::Constant(kOnFace * voxels.spacing);
+  return grid;
+}
+
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
-  const double hair = kOnFace * voxels.spacing;
-  const SketchGrid grid{voxels.origin - Vector3::Constant(hair), voxels.spacing};
+  const SketchGrid grid = wideGridOf(voxels);
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < store.size(); ++i) {
     const CellIndex cell = cellAt(store.wrappedPosition(i), grid);

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/particles/particlestore.h"
 #include "core/scene/project.h"
+#include "core/sketch/grid.h"
 #include "core/solver/matter.h"
 
 #include <array>
@@ -25,7 +26,7 @@ std::vector<CellIndex> cellsOf(const VoxelShape& voxels, int palette);
 std::vector<CellIndex> resampled(const std::vector<CellIndex>& cells, double from, double to);
 /// How many there are of all of a sketch's cells.
 double resampledCount(const VoxelShape& voxels, double to);
-/// Centre in m of cell (0, 0, 0) of the lattice that resampled() gives.
+/// Centre in m of cell (0, 0, 0) of the lattice that resampled() gives, as it was drawn.
 Vector3 resampledOrigin(const VoxelShape& voxels, double to);
 /// Centres in m of the particles of a lattice of `spacing` m that fill cells of a sketch.
 std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, const std::vector<CellIndex>& cells);
@@ -75,6 +76,8 @@ size_t dropOccupied(Spawn& spawn, OccupiedPlaces& occupied, const OccupiedPlaces
 /// stand on the faces of a sketch's lattice, and particles know their places in single precision: whoever asks which
 /// cell holds them must not be decided by rounding.
 inline constexpr double kOnFace = 1e-3;
+/// A sketch's lattice whose cells hold the points on their faces.
+SketchGrid wideGridOf(const VoxelShape& voxels);
 /// Ids of particles whose centre lies in one of the cells of a sketch's lattice, ascending.
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells);
 

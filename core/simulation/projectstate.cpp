@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/statestream.h"
+#include "core/scene/pose.h"
 #include "core/simulation/scenestate.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ void add(Hash& hash, const BoxShape& box) {
 void add(Hash& hash, const VoxelShape& voxels) {
   add(hash, voxels.origin);
   hash.add(voxels.spacing);
+  if (!poseOf(voxels).isNothing()) add(hash, voxels.rotation), add(hash, voxels.shift);
   for (const VoxelShape::Run& run : voxels.runs) {
     for (const int number : {run.x, run.y, run.z, run.length, run.palette}) hash.add(int64_t{number});
   }

@@ -2,6 +2,7 @@
 #include "core/sketch/cellset.h"
 
 #include "core/base/error.h"
+#include "core/scene/pose.h"
 
 #include <algorithm>
 #include <iterator>
@@ -43,6 +44,8 @@ void extend(std::vector<VoxelShape::Run>& runs, const api::Cell& cell, int palet
 }
 
 }  // namespace
+
+SketchGrid gridOf(const VoxelShape& voxels) { return {voxels.origin, voxels.spacing, poseOf(voxels)}; }
 
 void CellSet::add(std::span<const api::Cell> cells) {
   const std::vector<api::Cell> incoming = sorted(cells);

@@ -11,6 +11,9 @@
 // thousands of cells is merged in one pass.
 namespace ps {
 
+/// The lattice of a sketch, where it stands.
+SketchGrid gridOf(const VoxelShape& voxels);
+
 /// A set of cells in the order of compareCells().
 class CellSet {
  public:

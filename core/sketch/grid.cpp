@@ -18,12 +18,14 @@ int32_t indexOn(double coordinate, double origin, double spacing) {
 }  // namespace
 
 api::Cell SketchGrid::cellAt(const Vector3& point) const {
-  return {indexOn(point[0], origin[0], spacing), indexOn(point[1], origin[1], spacing),
-          indexOn(point[2], origin[2], spacing)};
+  const Vector3 own = pose.isNothing() ? point : pose.inverse().of(point);
+  return {indexOn(own[0], origin[0], spacing), indexOn(own[1], origin[1], spacing),
+          indexOn(own[2], origin[2], spacing)};
 }
 
 Vector3 SketchGrid::centreOf(const api::Cell& cell) const {
-  return {cell.x * spacing + origin[0], cell.y * spacing + origin[1], cell.z * spacing + origin[2]};
+  const Vector3 own(cell.x * spacing + origin[0], cell.y * spacing + origin[1], cell.z * spacing + origin[2]);
+  return pose.isNothing() ? own : pose.of(own);
 }
 
 }  // namespace ps

@@ -40,6 +40,24 @@ std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& sam
   return out;
 }
 
+std::vector<VoxelShape::Stroke> carried(const VoxelShape::Stroke& stroke, const RigidMove& move) {
+  const VoxelShape::Symmetry none;
+  const bool apart = stroke.symmetry && move.turns();
+  std::vector<VoxelShape::Stroke> parts;
+  for (const SketchImage& image : imagesOf(apart ? *stroke.symmetry : none)) {
+    VoxelShape::Stroke part = stroke;
+    if (apart) part.symmetry.reset();
+    if (part.symmetry) part.symmetry->centre += move.shift;
+    part.up = move.turn * (image.turn * stroke.up);
+    for (auto& sample : part.samples) {
+      const Vector3 place = move.of(image.of({sample[0], sample[1], sample[2]}));
+      for (size_t a = 0; a < 3; ++a) sample[a] = place[static_cast<Eigen::Index>(a)];
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image) {
   for (api::Double3* axis : {&context.up, &context.side, &context.front, &context.look})
     *axis = double3Of(image.turn * vectorOf(*axis));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
 #include "core/scene/project.h"
 
 #include <phasesketch/brush.h>
@@ -21,6 +22,10 @@ std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry);
 
 /// The samples as they lie in a copy.
 std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image);
+
+/// A stroke as it is after a move of what it is drawn on. Where that is turned each of its copies is a stroke of its
+/// own, since mirrors and axes stand along the scene's.
+std::vector<VoxelShape::Stroke> carried(const VoxelShape::Stroke& stroke, const RigidMove& move);
 
 /// What a brush knows of the stroke, as it lies there.
 api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image);

@@ -2,6 +2,7 @@
 // A body is taken to another place while the scene runs: its matter comes along as it is, without a jolt.
 #include "core/base/parallel.h"
 #include "core/base/statestream.h"
+#include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
@@ -117,6 +118,7 @@ class TestCarrying : public QObject {
   void turnedItStandsWhereAResetMakesIt();
   void aPlaceIsAParameterToo();
   void posesAreFoundAgain();
+  void aSketchIsTurned();
   void aBlockOfLayersIsTurned();
   void goneBackItStandsWhereTheDocumentHasIt();
 
@@ -332,6 +334,58 @@ void TestCarrying::posesAreFoundAgain() {
   QVERIFY(!moveBetween(body, larger));
 }
 
+/// A sketch, an L of two materials, is turned about any axis: its matter goes along, a reset makes it there, a file
+/// keeps it, and it is turned back.
+void TestCarrying::aSketchIsTurned() {
+  Project project = inSpace("bonds");
+  Body& sketch = project.bodies[0];
+  sketch.velocity = sketch.spin = {0, 0, 0};
+  VoxelShape shape;
+  shape.origin = {0.03, -0.25, 0.01};
+  shape.spacing = kSpacing;
+  shape.palette = {{"water", 260}, {"water", 250}};
+  for (int y = 0; y < 8; ++y) shape.runs.push_back({-3, y, 0, y < 2 ? 6 : 2, y % 2});
+  shape.strokes.emplace_back().brush = "sphere";
+  shape.strokes[0].samples = {{0, 0, 0, 1, 0}};
+  sketch.shape = shape;
+  const RigidMove move{Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, -2, 3).normalized())), {0.1, 0.3, -0.2}};
+  const Body before = sketch, after = moved(before, move);
+  const auto& turned = std::get<VoxelShape>(after.shape);
+  QVERIFY(turned.runs == shape.runs && turned.strokes == shape.strokes);
+  const auto found = moveBetween(before, after), back = moveBetween(after, before);
+  QVERIFY(found && found->turn.angularDistance(move.turn) < 1e-7 && (found->shift - move.shift).norm() < 1e-7);
+  QVERIFY(back && (back->of(move.of({1, 1, 1})) - Vector3(1, 1, 1)).norm() < 1e-7);
+  QVERIFY((pivotOf(after) - move.of(pivotOf(before))).norm() < 1e-7);
+  QVERIFY((centroidOf(after) - move.of(centroidOf(before))).norm() < 1e-7);
+  QVERIFY(!moveBetween(after, after));
+  const VoxelShape again = std::get<VoxelShape>(moved(after, *back).shape);
+  QVERIFY(again.rotation == Vector3::Zero() && again.shift == Vector3::Zero());
+  // From where it is turned to it also goes by parts of a cell, and on turning.
+  const Body further = moved(after, {Quaternion::Identity(), {0.003, 0, 0}});
+  QVERIFY((moveBetween(after, further)->shift - Vector3(0.003, 0, 0)).norm() < 1e-12);
+  QVERIFY(!moveBetween(after, further)->turns());
+
+  Engine engine(project, m_plugins);
+  engine.apply(MoveBody{std::make_shared<const Body>(after), *found});
+  const auto carried = grainsOf(engine, "thing");
+  engine.reset();
+  const auto made = grainsOf(engine, "thing");
+  QCOMPARE(made.size(), carried.size());
+  QCOMPARE(made.size(), size_t{24});
+  const BodyBounds bounds = boundsOf(after);
+  for (const auto& [id, grain] : made) {
+    QVERIFY((carried.at(id).place - grain.place).norm() < kSingle);
+    const Vector3 room = Vector3::Constant(kSingle);
+    QVERIFY(((grain.place - bounds.minimum + room).array() > 0).all());
+    QVERIFY(((bounds.maximum - grain.place + room).array() > 0).all());
+  }
+  Project saved = project;
+  saved.bodies[0] = after;
+  const Project read = readProject(writeProject(saved), "", m_plugins).project;
+  QVERIFY(std::get<VoxelShape>(read.bodies[0].shape) == turned);
+  QCOMPARE(Engine(read, m_plugins).stateHash(), engine.stateHash());
+}
+
 /// A block of whole layers becomes a solid one as it is turned: its matter goes along, and weighs the same from the
 /// next reset on. Back, it is what it was.
 void TestCarrying::aBlockOfLayersIsTurned() {
@@ -339,7 +393,6 @@ void TestCarrying::aBlockOfLayersIsTurned() {
   Body box = scenes::block("thing", 6, kSpacing, {0.1, 0.2, 0}, 260);
   box.material = project.bodies[0].material;
   project.bodies[0] = box;
-  QVERIFY(whyNotTurned(box).empty());
   const RigidMove move = RigidMove::about({0.3, 0, 0}, Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 0, 1))));
   const Body turnedBox = moved(box, move);
   const SolidForm form(std::get<SolidShape>(turnedBox.shape));

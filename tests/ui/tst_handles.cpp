@@ -224,8 +224,8 @@ class TestHandles : public SampleWindowTest {
     preferences::setHandles({});
   }
 
-  /// What cannot be turned says so, and has no handles.
-  void sketchesAreNotTurned() {
+  /// What is sketched keeps its cells: it is turned with them, and says why it has no handles to be scaled by.
+  void sketchesAreTurnedButNotScaled() {
     Body sketched = ice();
     sketched.name = "Sketched";
     sketched.shape = VoxelShape{};
@@ -234,13 +234,30 @@ class TestHandles : public SampleWindowTest {
     voxels.origin = {0, 0.6, 0};
     voxels.palette.push_back({sketched.material});
     voxels.runs.push_back({0, 0, 0, 3, 0});
-    m_window->selection().selectBody(document().addBody(sketched));
-    m_window->tools().activate("rotate");
+    const std::string id = document().addBody(sketched);
+    const Body before = *document().body(id);
+    m_window->selection().selectBody(id);
+    m_window->tools().activate("scale");
     const GizmoPicture shown = *m_window->tools().tool().picture().gizmo;
     QVERIFY(!shown.gizmo);
-    QVERIFY2(shown.note.contains(QStringLiteral("Sketched")) && shown.note.contains(QStringLiteral("along the axes")),
+    QVERIFY2(shown.note.contains(QStringLiteral("Sketched")) && shown.note.contains(QStringLiteral("keeps its cells")),
              qPrintable(shown.note));
     viewPicture(QStringLiteral("handles-note.png"));
+    m_window->tools().activate("rotate");
+    view()->frameAll();
+    const int steps = document().undoStack().index();
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("90"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    const auto& turned = std::get<VoxelShape>(document().body(id)->shape);
+    QVERIFY(turned.rotation == Vector3(0, 0, 90) || turned.rotation == Vector3(0, 0, -90));
+    QCOMPARE(turned.runs, std::get<VoxelShape>(before.shape).runs);
+    const BodyBounds stands = boundsOf(*document().body(id)), lay = boundsOf(before);
+    QVERIFY((stands.middle() - lay.middle()).norm() < 1e-6);
+    QVERIFY((stands.size() - Vector3(lay.size()[1], lay.size()[0], lay.size()[2])).norm() < 1e-6);
+    document().undoStack().undo();
+    QVERIFY(std::get<VoxelShape>(document().body(id)->shape) == std::get<VoxelShape>(before.shape));
   }
 
   /// A block of layers becomes a solid one of its size and place, with rows of its own: a step there and back.

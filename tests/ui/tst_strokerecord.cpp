@@ -2,6 +2,7 @@
 // What strokes change in a document: cells added, carved, and taken to another spacing.
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/document.h"
 
@@ -81,6 +82,51 @@ class TestStrokeRecord : public QObject {
     QCOMPARE(cellCount(project.bodies[0]), left);
     applyEdits(project, {*first}, false);
     QVERIFY(std::get<BoxShape>(project.bodies[0].shape) == std::get<BoxShape>(box.shape));
+  }
+
+  /// A sketch that is turned loses the cells whose centres lie in what was erased, and keeps where the stroke went on
+  /// its own lattice: drawn again there it takes the same place.
+  void carvingWhatWasTurned() {
+    Body body = drops();
+    auto& shape = std::get<VoxelShape>(body.shape);
+    CellSet solid;
+    std::vector<api::Cell> filled;
+    for (const auto& [x, y, z] : cube(6, 0, 0, 0)) filled.push_back({x, y, z});
+    solid.add(filled);
+    shape.runs = encodeRuns(solid, 0);
+    shape.strokes.emplace_back().brush = "sphere";
+    const RigidMove move{Quaternion(Eigen::AngleAxisd(0.8, Vector3(1, 1, 0.3).normalized())), {0.1, 0.4, 0}};
+    body = moved(body, move);
+    const auto& turned = std::get<VoxelShape>(body.shape);
+    const SketchGrid grid = gridOf(turned), straight = gridOf(lattice());
+    const api::Cell middle = straight.cellAt(grid.centreOf({1, 2, 1}));
+    const auto erased = cube(3, middle.x - 1, middle.y - 1, middle.z - 1);
+    VoxelShape::Stroke stroke;
+    stroke.brush = "sphere";
+    stroke.erase = true;
+    stroke.up = {0, 0, 1};
+    stroke.samples = {{0.1, 0.5, 0.02, 1, 0}};
+    stroke.symmetry.emplace().mirror = "x";
+    stroke.symmetry->turns = 2;
+    const auto edit = eraseEdit(body, 0, lattice(), erased, {stroke});
+    QVERIFY(edit);
+    const auto& cells = std::get<CellsEdit>(*edit);
+    CellSet wanted;
+    std::vector<api::Cell> inside;
+    for (const auto& [x, y, z] : erased) inside.push_back({x, y, z});
+    wanted.add(inside);
+    const CellSet taken = VoxelCanvas(cells.cells).cells();
+    for (const api::Cell& cell : filled)
+      QCOMPARE(taken.contains(cell), wanted.contains(straight.cellAt(grid.centreOf(cell))));
+    QVERIFY(taken.size() > 15 && taken.size() < 40);
+    QCOMPARE(cells.strokes.size(), size_t{4});  // its copies by symmetry, each by itself
+    for (const VoxelShape::Stroke& part : cells.strokes) {
+      QVERIFY(!part.symmetry);
+      const Vector3 place = move.of({part.samples[0][0], part.samples[0][1], part.samples[0][2]});
+      QVERIFY((place.cwiseAbs() - Vector3(0.1, 0.5, 0.02)).norm() < 1e-9);
+      QVERIFY((move.turn * part.up - Vector3(0, 0, 1)).norm() < 1e-9 ||
+              (move.turn * part.up + Vector3(0, 0, 1)).norm() < 1e-9);
+    }
   }
 
   /// A stroke into a body that is there keeps what it adds, and nothing of the strokes before it.

@@ -2,9 +2,11 @@
 #include "ui/document/strokerecord.h"
 
 #include "core/geometry/solidfill.h"
+#include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/lattice.h"
 #include "core/sketch/cellset.h"
+#include "core/sketch/symmetry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,9 +130,15 @@ struct CellBounds {
         high[k] = std::max(high[k], c[k] + 1);
       }
     }
-    for (size_t k = 0; k < 3; ++k) {
-      minimum[k] = lattice.origin[k] + (low[k] - 0.5) * lattice.spacing;
-      maximum[k] = lattice.origin[k] + (high[k] + 0.5) * lattice.spacing;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vector3 p;
+      for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<size_t>(k);
+        const double cell = (corner >> k & 1) != 0 ? high[axis] + 0.5 : low[axis] - 0.5;
+        p[k] = lattice.origin[k] + cell * lattice.spacing;
+      }
+      p = poseOf(lattice).of(p);
+      minimum = minimum.cwiseMin(p), maximum = maximum.cwiseMax(p);
     }
   }
   /// A box about a place; no centre of what it is around lies farther out.
@@ -141,7 +149,7 @@ struct CellBounds {
   bool holds(const Vector3& p) const {
     return (p.array() >= minimum.array()).all() && (p.array() <= maximum.array()).all();
   }
-  Vector3 minimum, maximum;  ///< m
+  Vector3 minimum = Vector3::Constant(HUGE_VAL), maximum = Vector3::Constant(-HUGE_VAL);  ///< m
 };
 
 /// Centres of a body's matter at the start, within bounds.
@@ -162,11 +170,11 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
     return centres;
   }
   const auto walk = [&](const VoxelShape& voxels) {
-    const SketchGrid grid{voxels.origin, voxels.spacing};
+    const SketchGrid grid = gridOf(voxels);
     for (const VoxelShape::Run& run : voxels.runs) {
       const auto first = grid.centreOf({run.x, run.y, run.z});
-      if (first[1] < bounds.minimum[1] || first[1] > bounds.maximum[1] || first[2] < bounds.minimum[2] ||
-          first[2] > bounds.maximum[2])
+      if (!grid.pose.turns() && (first[1] < bounds.minimum[1] || first[1] > bounds.maximum[1] ||
+                                 first[2] < bounds.minimum[2] || first[2] > bounds.maximum[2]))
         continue;
       for (int k = 0; k < run.length; ++k) add(grid.centreOf({run.x + k, run.y, run.z}));
     }
@@ -183,8 +191,7 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
 /// Those of a sketch's cells whose centres lie in cells of another lattice, as idsInCells() has it.
 CellSet cellsWithin(const VoxelShape& voxels, const VoxelShape& lattice, const std::vector<CellIndex>& cells,
                     const CellBounds& bounds) {
-  const double hair = kOnFace * lattice.spacing;
-  const SketchGrid wide{lattice.origin - Vector3::Constant(hair), lattice.spacing}, grid{voxels.origin, voxels.spacing};
+  const SketchGrid wide = wideGridOf(lattice), grid = gridOf(voxels);
   const CellSet wanted = cellSet(cells);
   std::vector<api::Cell> hit;
   const VoxelCanvas canvas(voxels.runs);
@@ -193,6 +200,20 @@ CellSet cellsWithin(const VoxelShape& voxels, const VoxelShape& lattice, const s
     if (bounds.holds(centre) && wanted.contains(wide.cellAt(centre))) hit.push_back(entry.cell);
   }
   return CellSet(hit);
+}
+
+/// What a sketch keeps of strokes that went over it on another lattice: where they went on its own. A body that was
+/// drawn by none keeps none.
+std::vector<VoxelShape::Stroke> strokesOn(const VoxelShape& voxels, const VoxelShape& lattice,
+                                          const std::vector<VoxelShape::Stroke>& strokes) {
+  if (voxels.strokes.empty()) return {};
+  if (voxels.rotation == lattice.rotation && voxels.shift == lattice.shift) return strokes;
+  const RigidMove move = poseOf(voxels).inverse().after(poseOf(lattice));
+  std::vector<VoxelShape::Stroke> own;
+  for (const VoxelShape::Stroke& stroke : strokes) {
+    for (VoxelShape::Stroke& part : carried(stroke, move)) own.push_back(std::move(part));
+  }
+  return own;
 }
 
 }  // namespace
@@ -242,11 +263,11 @@ std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelSh
   VoxelCanvas canvas(voxels.runs);
   const VoxelCanvas erased = canvas.erase(hit);
   if (canvas.empty()) return BodyEdit{body.id, body, std::nullopt, index};
-  const bool drawn = !voxels.strokes.empty();
-  if (stays) return CellsEdit{body.id, true, erased.runs(), drawn ? strokes : std::vector<VoxelShape::Stroke>{}};
+  std::vector<VoxelShape::Stroke> noted = strokesOn(voxels, lattice, strokes);
+  if (stays) return CellsEdit{body.id, true, erased.runs(), std::move(noted)};
   auto& left = std::get<VoxelShape>(rest->shape);
   left.runs = canvas.runs();
-  if (drawn) left.strokes.insert(left.strokes.end(), strokes.begin(), strokes.end());
+  left.strokes.insert(left.strokes.end(), noted.begin(), noted.end());
   return BodyEdit{body.id, body, std::move(rest), index};
 }
 
@@ -261,7 +282,7 @@ std::vector<SceneEdit> repaintEdits(const Body& body, size_t index, const VoxelS
   const VoxelShape& voxels = whole ? std::get<VoxelShape>(whole->shape) : *own;
   RepaintEdit edit{body.id, repainted(voxels, cellsWithin(voxels, lattice, cells, bounds), material), {}};
   if (edit.cells.after.empty()) return {};
-  if (!voxels.strokes.empty()) edit.strokes = strokes;
+  edit.strokes = strokesOn(voxels, lattice, strokes);
   for (VoxelShape::Stroke& stroke : edit.strokes) stroke.palette = edit.cells.after.front().palette;
   std::vector<SceneEdit> edits;
   if (whole) edits.emplace_back(BodyEdit{body.id, body, std::move(whole), index});
@@ -297,7 +318,7 @@ std::vector<CellIndex> freeAtStart(const Project& project, const std::string& bo
   }
   OccupiedPlaces occupied(0.9 * lattice.spacing, places.size());
   for (const Vector3& p : places) occupied.add(double3Of(p));
-  const SketchGrid grid{lattice.origin, lattice.spacing};
+  const SketchGrid grid = gridOf(lattice);
   std::vector<CellIndex> free;
   std::copy_if(cells.begin(), cells.end(), std::back_inserter(free), [&](const CellIndex& c) {
     return occupied.isFree(double3Of(grid.centreOf({c[0], c[1], c[2]})));

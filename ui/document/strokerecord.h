@@ -43,7 +43,7 @@ struct StrokeRecord {
   std::string body;        ///< that an adding stroke paints
   int palette = 0;
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
-  VoxelShape lattice;                     ///< origin and spacing only
+  VoxelShape lattice;                     ///< see latticeOf()
   std::vector<SceneEdit> edits;           ///< what it changes in the document
   MatterRef matter = newMatter();         ///< its particles
   bool onlyNow = false;                   ///< none of what it drew has room at the start

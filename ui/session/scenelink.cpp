@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/scenelink.h"
 
+#include "core/scene/pose.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/namedmatter.h"
@@ -41,9 +42,7 @@ std::vector<NameMatter> paintedMatter(const StrokeRecord& stroke, const Document
     const Body* body = painted ? document.body(painted->id) : nullptr;
     const auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
     if (!voxels) continue;
-    VoxelShape lattice;
-    lattice.origin = voxels->origin;
-    lattice.spacing = voxels->spacing;
+    const VoxelShape lattice = latticeOf(*voxels);
     for (size_t palette = 0; palette < voxels->palette.size(); ++palette) {
       VoxelShape part;
       part.runs = painted->cells.before;
@@ -137,7 +136,7 @@ void SceneLink::onBody(const BodyChanged& event) {
   if (event.pins || std::any_of(event.composition.begin(), event.composition.end(), waits)) resetSoon();
   for (KnownStroke& known : m_strokes) {
     const auto stroke = event.move ? known.stroke.lock() : nullptr;
-    if (stroke && stroke->body == event.id) known.way += event.move->shift;
+    if (stroke && stroke->body == event.id) known.way = event.move->after(known.way);
   }
   if (isBroken()) {
     rebuild(m_play);
@@ -234,7 +233,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
       continue;
     }
     named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
-    named.back().lattice.origin += way;
+    carryLattice(named.back().lattice, way);
   }
   return named;
 }
@@ -377,6 +376,8 @@ void SceneLink::touch(const StrokeRecord& stroke, TouchMatter touch) {
   m_engine.apply(std::move(touch));
   Q_EMIT matterEdited();
 }
+
+SnapshotPtr SceneLink::scene() const { return m_engine.snapshot(); }
 
 bool SceneLink::runs() const { return m_engine.playing(); }
 

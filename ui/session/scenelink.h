@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
+#include "core/simulation/snapshot.h"
 #include "ui/document/changeevent.h"
 #include "ui/document/strokerecord.h"
 
@@ -50,6 +52,8 @@ class SceneLink : public QObject {
   void erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells);
   /// A hand that touches matter is there now; matter of locked bodies is spared. See TouchMatter.
   void touch(const StrokeRecord& stroke, TouchMatter touch);
+  /// The scene as it is, hidden bodies among it; nullptr before the first.
+  SnapshotPtr scene() const;
   /// Whether time passes in the scene.
   bool runs() const;
   /// Strokes of which neither the project's bodies nor its state know: they erased or painted after the start, where
@@ -105,8 +109,8 @@ class SceneLink : public QObject {
   std::map<MatterKey, KnownMatter> m_matter;  ///< that the engine may know, and of which run
   struct KnownStroke {
     std::weak_ptr<StrokeRecord> stroke;
-    bool done = true;      ///< not undone
-    Vector3 way{0, 0, 0};  ///< m, by which its body has been moved since
+    bool done = true;  ///< not undone
+    RigidMove way{};   ///< by which its body has been moved since
   };
   std::vector<KnownStroke> m_strokes;
 };

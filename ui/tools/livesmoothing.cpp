@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of LiveStroke that rounds what is drawn.
+#include "core/scene/pose.h"
 #include "core/sketch/smoothing.h"
 #include "ui/document/document.h"
 #include "ui/session/scenelink.h"
@@ -29,9 +30,11 @@ QString LiveStroke::whyNoSmoothing(const Snapshot& now, const Vector3& point) {
   }
   if (!m_body) return QStringLiteral("Only what was drawn can be smoothed, and is not locked: nothing of it is here.");
   const auto& voxels = std::get<VoxelShape>(m_body->shape);
+  if (m_setup.symmetry && !poseOf(voxels).isNothing())
+    return QStringLiteral(
+        "This sketch was turned: its mirror no longer stands along the scene. Smooth without a mirror and copies.");
   m_canvas = VoxelCanvas(voxels.runs);
-  m_setup.grid.origin = voxels.origin;
-  m_record->lattice.origin = voxels.origin;
+  drawOn(voxels);
   m_record->erase = m_smooths = true;
   return {};
 }

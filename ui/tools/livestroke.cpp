@@ -2,11 +2,14 @@
 #include "ui/tools/livestroke.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/group.h"
+#include "core/scene/pose.h"
 #include "core/sketch/symmetry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/freename.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/selection.h"
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/toolbox.h"
@@ -29,11 +32,12 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
 }
 
 /// The palette entry of which a body takes more: it is sketched and free, held or not as the brush draws, and has
-/// matter of that material at that temperature.
+/// matter of that material at that temperature. One that is turned takes none of what is mirrored along the scene.
 std::optional<int> takesMore(const Body& body, const std::string& material, const BrushSettings& brush,
-                             const SketchGrid& grid) {
+                             const StrokeSetup& setup) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  if (!voxels || body.locked || !body.visible || voxels->origin != grid.origin || voxels->spacing != grid.spacing ||
+  if (!voxels || body.locked || !body.visible || voxels->origin != setup.grid.origin ||
+      voxels->spacing != setup.grid.spacing || (setup.symmetry && !poseOf(*voxels).isNothing()) ||
       toggleOf(body.parameters, bodyParameters(), "held") != brush.held)
     return std::nullopt;
   for (size_t k = 0; k < voxels->palette.size(); ++k) {
@@ -69,7 +73,7 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
     const auto found =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
     if (found == bodies.end()) continue;
-    const std::optional<int> entry = takesMore(*found, material, m_brush, m_setup.grid);
+    const std::optional<int> entry = takesMore(*found, material, m_brush, m_setup);
     if (entry) takers[b] = &*found, entries[b] = *entry;
   }
   std::map<const Body*, CellSet> cellsOf;  // of those that have some near
@@ -80,7 +84,7 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
     if (!body || ((place - point).cwiseAbs().array() > reach.array()).any()) continue;
     const auto [known, isNew] = cellsOf.try_emplace(body);
     if (isNew) known->second = VoxelCanvas(std::get<VoxelShape>(body->shape).runs).cells();
-    if (!known->second.contains(m_setup.grid.cellAt(place))) continue;
+    if (!known->second.contains(gridOf(std::get<VoxelShape>(body->shape)).cellAt(place))) continue;
     palette = entries[now.body[i]];
     return body;
   }
@@ -192,14 +196,25 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
     m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
+    if (plugin && kindOf(*plugin, erase) == api::EditKind::Fill) noteOccupied(now);
+    drawOn(std::get<VoxelShape>(m_body->shape));
   }
   return move(point, 0, pressure);
 }
 
+/// What is drawn is drawn as if the sketch stood where it once was.
+void LiveStroke::drawOn(const VoxelShape& sketch) {
+  m_setup.grid = gridOf(sketch);
+  m_record->lattice = latticeOf(sketch);
+  m_setup.up = m_setup.grid.pose.inverse().turn * m_setup.up;
+  m_stroke.up = m_setup.up;
+}
+
 QString LiveStroke::move(const Vector3& point, double seconds, double pressure) {
   if (!m_record) return {};
-  m_stroke.samples.push_back({point[0], point[1], point[2], pressure, seconds});
-  return guarded([&] { feed(m_resampler->add({double3Of(point), pressure, seconds, {}})); });
+  const Vector3 own = m_setup.grid.pose.isNothing() ? point : m_setup.grid.pose.inverse().of(point);
+  m_stroke.samples.push_back({own[0], own[1], own[2], pressure, seconds});
+  return guarded([&] { feed(m_resampler->add({double3Of(own), pressure, seconds, {}})); });
 }
 
 template <class Work>
@@ -228,7 +243,8 @@ void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
   if (!edits) throw BrushFault(kNotBack);
   const Environment& environment = m_box.document().project().environment;
   std::vector<api::Cell> fresh;
-  const bool draws = kind == api::EditKind::Add;
+  const bool fills = kind == api::EditKind::Fill, draws = fills || kind == api::EditKind::Add;
+  if (fills) edits->filled = floodedFrom(edits->filled);
   for (const api::Cell& cell : edits->of(kind).cells()) {
     if (!m_cells.contains(cell) && (!draws || isInScene(environment, m_setup.grid, cell))) fresh.push_back(cell);
   }
@@ -303,7 +319,22 @@ void LiveStroke::keep() {
     // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.
     collectErasure(*record);
   }
-  m_box.document().addStroke(record);
+  m_box.document().addStroke(record, groupOfSelection());
+}
+
+/// Of all that is selected, where it is one; "": none.
+std::string LiveStroke::groupOfSelection() const {
+  const std::vector<SelectedItem>& items = m_box.selection().items();
+  const auto isIn = [](const SceneGroup& group, const SelectedItem& item) {
+    const std::optional<Address> thing = thingOf(item);
+    return thing && std::find(group.members.begin(), group.members.end(), memberOf(thing->owner, thing->id)) !=
+                        group.members.end();
+  };
+  for (const SceneGroup& group : livingGroups(m_box.document().project())) {
+    const auto inThis = [&](const SelectedItem& item) { return isIn(group, item); };
+    if (!items.empty() && std::all_of(items.begin(), items.end(), inThis)) return group.id;
+  }
+  return {};
 }
 
 void LiveStroke::cancel() {

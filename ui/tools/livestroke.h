@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/simulation/lattice.h"
 #include "core/simulation/snapshot.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/stroke.h"
@@ -10,6 +11,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace ps {
 
@@ -46,8 +48,11 @@ class LiveStroke {
   size_t cellCount() const { return m_cells.size(); }
 
  private:
+  void drawOn(const VoxelShape& sketch);
   void keep();
   QString whyNoSmoothing(const Snapshot& now, const Vector3& point);
+  void noteOccupied(const Snapshot& now);
+  CellSet floodedFrom(const CellSet& seeds) const;
   void smooth(const std::vector<api::Cell>& fresh);
   void keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied);
   QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
@@ -57,6 +62,7 @@ class LiveStroke {
   template <class Work>
   QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
   std::vector<VoxelShape::Stroke> pieces() const;
+  std::string groupOfSelection() const;
   void collectErasure(StrokeRecord& record) const;
   void collectPaint(StrokeRecord& record) const;
 
@@ -69,6 +75,7 @@ class LiveStroke {
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   StrokeSetup m_setup;
   CellSet m_cells;
+  std::optional<OccupiedPlaces> m_occupied;               ///< as a stroke that fills hollows began
   VoxelCanvas m_canvas;                                   ///< that a smoothing stroke rounds, as it was before
   std::map<int, std::shared_ptr<StrokeRecord>> m_filled;  ///< what it fills, by palette entry
   VoxelShape::Stroke m_stroke;

@@ -31,7 +31,6 @@ Vector3 placeOf(const Body& body, const MatterPlaces& matter) {
 
 /// "" or why a body that is not locked is left where it is.
 QString whyNot(const Body& body, Kind kind) {
-  if (kind == Kind::Rotate) return QString::fromStdString(whyNotTurned(body));
   if (kind == Kind::Scale) return QString::fromStdString(whyNotScaled(body));
   return {};
 }
