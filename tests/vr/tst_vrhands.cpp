@@ -2,8 +2,10 @@
 // Hands in the headset: what they draw, erase, heat and carry in the editor's scene.
 #include "core/io/projectio.h"
 #include "core/scene/project.h"
+#include "core/scene/solidform.h"
 #include "tests/ui/hands.h"
 #include "tests/vr/vrwindow.h"
+#include "ui/session/selection.h"
 #include "ui/tools/toolbox.h"
 #include "ui/vr/simulatedroom.h"
 #include "ui/window/vrwithout.h"
@@ -63,6 +65,7 @@ class VrHandsTest : public VrWindowTest {
   void bothHandsDrawAtOnce();
   void aHeldGripErases();
   void aHandHeatsWhileTheSceneRuns();
+  void aGripLeadsABodyAndFeelsWhatPressesOnIt();
   void aStrokeOutlivesItsHeadset();
   void aHeadsetTakenOffEndsItsStroke();
   void buttonsPlayAndChoose();
@@ -158,6 +161,53 @@ void VrHandsTest::aHandHeatsWhileTheSceneRuns() {
   QCOMPARE(bodies(), m_before);
   leave();
   session().pause();
+}
+
+/// A plate is taken above the block, led down onto it, and turned with the hand; let go it stands there, and one step
+/// of undo takes it back. Where the trigger comes at once it is erasing that was meant.
+void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
+  const vr::Stand s = stand();
+  const Vector3 from(0, 0.55, 0), to(0, 0.24, 0);
+  Body plate;
+  plate.id = "plate", plate.material = "water";
+  plate.parameters.values["fixed"] = true;
+  SolidShape shape;
+  shape.parameters.values = {
+      {"kind", std::string("block")}, {"size_x", 0.2}, {"size_y", 0.04}, {"size_z", 0.2}, {"position_y", from.y()}};
+  plate.shape = shape;
+  const std::string id = document().addBody(plate);
+  const int before = steps();
+  QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->position.size() == idsNow(session()).size(), kLong);
+  const auto middle = [&] { return SolidForm(std::get<SolidShape>(document().body(id)->shape)).middle(); };
+  {
+    const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
+    const QString open = QStringLiteral(R"(, "/input/squeeze/value": 0)");
+    const ScriptedRun run(vrScript({}, key(5, "right", s, from, open) + key(20, "right", s, from, held) +
+                                           key(110, "right", s, to, held) + key(150, "right", s, to, open)));
+    session().play();
+    action()->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->selection().items(), (std::vector<SelectedItem>{{OutlineKind::Body, id}}),
+                              kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 170, kLong);
+    leave();
+    session().pause();
+    QCOMPARE(steps(), before + 1);
+    QVERIFY2((middle() - to).norm() < 0.005, qPrintable(QString::number(middle().y())));
+    const auto felt = run.lines("haptic");
+    QVERIFY2(felt.size() > 3, qPrintable(QString::number(felt.size())));
+    QVERIFY(std::any_of(felt.begin(), felt.end(),
+                        [](const auto& line) { return line["amplitude"].template get<double>() > 0.02; }));
+    document().undoStack().undo();
+    QVERIFY((middle() - from).norm() < 1e-6);
+  }
+  {
+    const ScriptedRun run(vrScript({}, key(5, "right", s, from, {}) + key(20, "right", s, from, kLetGoHeld) +
+                                           key(25, "right", s, from, kPulledHeld) + key(60, "right", s, from, kLetGo)));
+    action()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(document().undoStack().undoText() == QStringLiteral("erasing stroke"), kLong);
+    leave();
+    QVERIFY((middle() - from).norm() < 1e-6);
+  }
 }
 
 /// Its runtime dies in the middle of it: what was drawn so far is one step, and can be saved.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/takeinhand.h"
 
-#include "core/scene/pose.h"
 #include "core/sketch/drawingplane.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
-#include "ui/document/wallside.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
+#include "ui/tools/leading.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
@@ -47,27 +46,12 @@ const TurnKey* turnOf(const QString& text) {
   return found == std::end(kTurns) ? nullptr : found;
 }
 
-/// m by which a body is to be put back into a room that it has room in.
-Vector3 backInto(const Room& room, const std::array<bool, 3>& periodic, const BodyBounds& bounds) {
-  Vector3 back(0, 0, 0);
-  for (int a = 0; a < 3; ++a) {
-    const double low = room.minimum[a] - bounds.minimum[a], high = room.maximum[a] - bounds.maximum[a];
-    if (!periodic[static_cast<size_t>(a)] && low <= high) back[a] = std::clamp(0.0, low, high);
-  }
-  return back;
-}
-
 }  // namespace
 
 /// The body that could be taken there; nullptr where there is none.
 const Body* TakeInHand::bodyUnder(const Pointer& pointer) const {
   const auto hit = pointer.scene ? pickParticle(*pointer.scene, pointer.ray, pointer.section) : std::nullopt;
-  if (!hit || !pointer.scene->bodyIds || pointer.scene->motion[*hit] != api::Motion::Static) return nullptr;
-  const uint32_t index = pointer.scene->body[*hit];
-  if (index >= pointer.scene->bodyIds->size()) return nullptr;
-  const Body* body = box().document().body((*pointer.scene->bodyIds)[index]);
-  if (!body || body->locked || !toggleOf(body->parameters, bodyParameters(), "fixed")) return nullptr;
-  return body;
+  return hit ? leadable(box().document(), *pointer.scene, *hit) : nullptr;
 }
 
 void TakeInHand::hover(const Pointer& pointer) {
@@ -108,17 +92,9 @@ void TakeInHand::drag(const Pointer& pointer) {
 /// The document's body as the hand holds it.
 void TakeInHand::place() {
   Grip& grip = *m_grip;
-  Document& document = box().document();
-  const Environment& scene = document.project().environment;
   RigidMove move = RigidMove::about(grip.taken, grip.turn);
   move.shift += grip.at - grip.taken;
-  const Vector3 back = backInto(roomOf(scene), scene.periodic, boundsOf(moved(grip.before, move)));
-  grip.at += back;
-  move.shift += back;
-  Placement to;
-  to.bodies.push_back(moved(grip.before, possibleMove(grip.before, move)));
-  to.led = true;
-  document.place(std::move(to), QStringLiteral("moving %1 by hand").arg(nameOf(grip.before)));
+  grip.at += lead(box().document(), grip.before, move);
 }
 
 void TakeInHand::release(const Pointer& pointer) {
@@ -157,7 +133,6 @@ bool TakeInHand::takesText(const QString& text) const { return m_grip && turnOf(
 
 bool TakeInHand::type(const QString& text) {
   if (!takesText(text)) return false;
-  if (!whyNotTurned(m_grip->before).empty()) return true;
   const Vector3 axis = turnOf(text)->axis(m_grip->anchor.forward);
   m_grip->turn = (Quaternion(Eigen::AngleAxisd(kTurnStep, axis)) * m_grip->turn).normalized();
   place();

@@ -63,6 +63,7 @@ struct HeadsetView {
   uint64_t project = 0;                ///< with another one the scene is set before its wearer anew
   std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
   std::array<uint64_t, 2> ticks{};     ///< of strokes that they have begun, and of what they point at: each is felt
+  std::array<double, 2> pressed{};     ///< 0..1, how hard matter presses on what they lead
   std::array<PanelView, kPanels> panels;
   uint64_t brought = 0;           ///< with another one the board is set before its wearer anew
   std::array<float, 3> accent{};  ///< sRGB, of beams

@@ -70,6 +70,7 @@ class Preferences : public QDialog {
   QComboBox* choice(const QString& label, const QString& tip, Choices choices, int value,
                     const std::function<QString(int)>& text, const std::function<void(int)>& set);
   void addTheme();
+  void addHeadset();
   void addAutosave();
   void addRecording();
   void addFolders();
@@ -94,6 +95,7 @@ Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window
   m_grid->setColumnMinimumWidth(0, kLabelWidth);
   m_grid->setColumnStretch(1, 1);
   addTheme();
+  addHeadset();
   addAutosave();
   addRecording();
   addFolders();
@@ -159,6 +161,16 @@ void Preferences::addTheme() {
       QStringLiteral("At the start"), QStringLiteral("What the window begins with."),
       {{QStringLiteral("Welcome page"), 1}, {QStringLiteral("Last scene"), 0}}, preferences::welcomeAtStart() ? 1 : 0,
       [](int) { return QString(); }, [](int shown) { preferences::setWelcomeAtStart(shown == 1); });
+}
+
+void Preferences::addHeadset() {
+  heading(QStringLiteral("Headset"));
+  const auto text = [](int percent) { return QStringLiteral("%1 %").arg(percent); };
+  choice(QStringLiteral("Vibration"),
+         QStringLiteral(
+             "How strongly hands feel what presses on a body that they lead. Ticks of panels and strokes stay."),
+         {{QStringLiteral("None"), 0}, {text(30), 30}, {text(60), 60}, {text(100), 100}}, preferences::vibration(),
+         text, [](int percent) { preferences::setVibration(percent); });
 }
 
 void Preferences::addAutosave() {
@@ -316,6 +328,7 @@ std::vector<DialogRow> preferenceRows() {
           {QStringLiteral("Temperatures"), QStringLiteral("unit Celsius kelvin Fahrenheit")},
           {QStringLiteral("Mouse"), QStringLiteral("buttons preset Blender Maya")},
           {QStringLiteral("At the start"), QStringLiteral("welcome page last scene")},
+          {QStringLiteral("Vibration"), QStringLiteral("headset VR hands haptics force")},
           {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
           {QStringLiteral("In memory, at most"), QStringLiteral("recording of a run")},
           {QStringLiteral("On the disk, at most"), QStringLiteral("recording of a run")},

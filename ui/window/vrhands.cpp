@@ -2,6 +2,7 @@
 #include "ui/window/vrhands.h"
 
 #include "ui/document/document.h"
+#include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/theme.h"
@@ -20,16 +21,21 @@ using vr::kLeft, vr::kRight;
 constexpr double kPushed = 0.7;    // of a stick's way, or from the middle of a pad
 constexpr double kRepeats = 0.15;  // s, while it stays there
 constexpr double kLong = 0.5;      // s
+constexpr double kFirm = 5;        // N, that is felt at 63 % of what a controller can
 constexpr double kTurned = 0.05;   // about rad, after which a brush is shown turned
 
 }  // namespace
 
 VrHands::VrHands(Session& session, Toolbox& tools)
-    : m_session(session), m_tools(tools), m_brushes{HandBrush(tools), HandBrush(tools)} {
+    : m_session(session),
+      m_tools(tools),
+      m_brushes{HandBrush(tools), HandBrush(tools)},
+      m_held{HandTool(tools), HandTool(tools)} {
   // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
   connect(&session.document().undoStack(), &QUndoStack::indexChanged, this, [this] {
     if (m_ends) return;
     for (HandBrush& brush : m_brushes) brush.cancel();
+    for (HandTool& held : m_held) held.letGo();
   });
 }
 
@@ -48,10 +54,29 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   const vr::HandsSeen::Hand& now = seen.hands[hand];
   HandBrush& brush = m_brushes[hand];
   const uint64_t begun = brush.begun();
+  HandInScene there{now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds};
   m_ends = true;
-  brush.follow({now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds}, scene);
+  if (lead(hand, there, scene)) there.pressure = 0;  // it has no brush meanwhile
+  brush.follow(there, scene);
   m_ends = false;
   m_changed = m_changed || brush.begun() != begun;
+}
+
+/// A grip takes what is at hand. With the trigger it erases, whichever comes first. Whether the hand holds something.
+bool VrHands::lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene) {
+  HandTool& held = m_held[hand];
+  const bool holds = m_seen.hands[hand].holds, pulls = there.pressure > 0;
+  if (held.active() && pulls && there.seconds - held.since() < kLong) {
+    held.putBack();
+  } else if (held.active() && !there.opposite) {
+    held.letGo();
+  } else if (held.active()) {
+    held.follow(there);
+    m_changed = true;
+  } else if (there.opposite && !holds && !pulls && held.take(there, scene)) {
+    ++m_taken[hand];
+  }
+  return held.active();
 }
 
 /// First and second button. Hands with pads have one for both: for half a second it is the second.
@@ -103,6 +128,7 @@ void VrHands::step(int direction, double seconds) {
 void VrHands::letGo() {
   m_ends = true;
   for (HandBrush& brush : m_brushes) brush.end();
+  for (HandTool& held : m_held) held.letGo();
   m_ends = false;
   m_seen = {};
 }
@@ -121,6 +147,15 @@ std::array<float, 3> VrHands::colour(size_t hand, const Snapshot* scene) const {
   return channels(theme[Token::Accent]);
 }
 
+/// 0..1, of what a hand feels of the forces on a body that it leads.
+double VrHands::strengthOf(const Snapshot* scene, const std::string& body) {
+  if (!scene) return 0;
+  const auto found = std::find_if(scene->tools.begin(), scene->tools.end(),
+                                  [&](const ToolContact& contact) { return contact.body == body; });
+  if (found == scene->tools.end()) return 0;
+  return preferences::vibration() / 100.0 * (1 - std::exp(-found->force.norm() / kFirm));
+}
+
 void VrHands::describe(vr::HeadsetView& view) {
   m_changed = false;
   for (const size_t hand : {kLeft, kRight}) {
@@ -128,7 +163,8 @@ void VrHands::describe(vr::HeadsetView& view) {
     vr::BrushVolume& brush = view.brushes[hand];
     std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
     brush.colour = colour(hand, view.matter.get());
-    view.ticks[hand] = m_brushes[hand].begun();
+    view.ticks[hand] = m_brushes[hand].begun() + m_taken[hand];
+    view.pressed[hand] = m_held[hand].active() ? strengthOf(view.matter.get(), m_held[hand].body()) : 0;
   }
 }
 

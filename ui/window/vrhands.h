@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/tools/handbrush.h"
+#include "ui/tools/handtool.h"
 #include "ui/vr/headsetlink.h"
 
 #include <QtCore/QObject>
 
 #include <array>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace ps {
 
 class Session;
 
-/// What hands in the headset do in the editor: either draws with the chosen brush, and its buttons undo, play, and
-/// choose size, shape and material.
+/// What hands in the headset do in the editor: either draws with the chosen brush, or takes hold of a body that is held
+/// in place and leads it, and its buttons undo, play, and choose size, shape and material.
 class VrHands : public QObject {
   Q_OBJECT
  public:
@@ -33,6 +35,8 @@ class VrHands : public QObject {
 
  private:
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
+  bool lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene);
+  static double strengthOf(const Snapshot* scene, const std::string& body);
   void press(size_t hand, const vr::HandInput& now, double seconds);
   std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
   void choose(const vr::HandInput& now, double seconds);
@@ -42,6 +46,8 @@ class VrHands : public QObject {
   Session& m_session;
   Toolbox& m_tools;
   std::array<HandBrush, 2> m_brushes;
+  std::array<HandTool, 2> m_held;
+  std::array<uint64_t, 2> m_taken{};                  ///< bodies so far
   vr::HandsSeen m_seen;                               ///< the last one
   std::array<Vector3, 2> m_described;                 ///< how brushes were turned then
   double m_stepped = 0;                               ///< s, when the brush got another size
