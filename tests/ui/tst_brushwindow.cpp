@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gestures around the brush in the window: its size, the matter that it takes, and the other end of a pen.
+#include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/favouritebrushes.h"
+#include "ui/window/noticebar.h"
 
 #include <QtGui/QPointingDevice>
 #include <QtGui/QTabletEvent>
@@ -65,6 +69,66 @@ class TestBrushWindow : public SampleWindowTest {
     QTest::mouseClick(view(), Qt::LeftButton, Qt::AltModifier, view()->rect().center());
     QCOMPARE(m_window->tools().brush().material, std::string("water"));
     QCOMPARE(document().undoStack().count(), 0);  // nothing was drawn
+  }
+
+  /// A brush is kept as it is, for all windows, and taken again with all that it was; undo knows nothing of it.
+  void favouritesComeBack() {
+    preferences::setFavouriteBrushes({});
+    FavouriteBrushes& favourites = m_window->favourites();
+    BrushSettings brush = m_window->tools().brush();
+    brush.shape = "sphere";
+    brush.radius = 0.031;
+    brush.material = "iron";
+    brush.temperature = 400;
+    brush.symmetry.mirror = "x";
+    brush.parameters["sphere"].values["pressure_size"] = 0.25;
+    m_window->tools().setBrush(brush);
+    m_window->action(QStringLiteral("sketch.keepBrush"))->trigger();
+    favourites.keep();  // once is enough
+    QCOMPARE(favourites.all().size(), size_t{1});
+    const FavouriteBrush kept = favourites.all()[0];
+    QVERIFY2(kept.name.contains(lengthText(0.031)) && kept.name.contains(QStringLiteral("Iron")),
+             qPrintable(kept.name));
+    brush.radius = 0.05;
+    brush.temperature = 293.15;
+    brush.symmetry.mirror = "none";
+    brush.material = "water";
+    brush.shape = "cube";
+    brush.parameters["sphere"].values.clear();
+    m_window->tools().setBrush(brush);
+    m_window->tools().activate(kSelectTool);
+    const auto entries = m_window->paletteEntries();
+    const auto found = std::find_if(entries.begin(), entries.end(),
+                                    [&](const PaletteEntry& entry) { return entry.title == kept.name; });
+    QVERIFY(found != entries.end());
+    found->run();
+    const BrushSettings& inHand = m_window->tools().brush();
+    QVERIFY(m_window->tools().tool().usesBrush());
+    QCOMPARE(m_window->selection().material(), std::string("iron"));
+    QCOMPARE(inHand.shape, std::string("sphere"));
+    QVERIFY(inHand.radius == 0.031 && inHand.temperature == 400 && inHand.material == "iron");
+    QCOMPARE(inHand.symmetry.mirror, std::string("x"));
+    QCOMPARE(std::get<double>(inHand.shapeParameters().values.at("pressure_size")), 0.25);
+    QCOMPARE(document().undoStack().count(), 0);
+    // What is damaged, of another version, or beyond its range, is left out by itself.
+    const QByteArray text = textOf({kept});
+    const PluginRegistry& plugins = *session().plugins();
+    QVERIFY(favouritesOf(text, plugins) == std::vector<FavouriteBrush>{kept});
+    QVERIFY(favouritesOf("[{]", plugins).empty() && favouritesOf("[1, {\"name\": 3}]", plugins).empty());
+    QByteArray wide = text;
+    wide.replace("0.031", "31000").replace("0.25", "\"a\"");
+    QCOMPARE(favouritesOf(wide, plugins)[0].brush.radius, BrushSettings{}.radius);
+    QVERIFY(favouritesOf(wide, plugins)[0].brush.shapeParameters().values.empty());
+    QByteArray gone = text;
+    gone.replace("\"sphere\"", "\"gone\"");
+    QVERIFY(textOf(favouritesOf(gone, plugins)).contains("0.25"));  // what is not known here is kept
+    favourites.take(favouritesOf(gone, plugins)[0]);
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("not installed")));
+    QCOMPARE(m_window->tools().brush().shape, std::string("sphere"));
+    favourites.forget(kept);
+    QVERIFY(favourites.all().empty());
+    brush.shape = "cube";
+    m_window->tools().setBrush(brush);
   }
 
   void theOtherEndOfAPenErases() {

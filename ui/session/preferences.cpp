@@ -17,7 +17,8 @@ constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *
                      *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse",
                      *kPivot = "handles/pivot", *kSnap = "handles/snap", *kSurfaces = "handles/surfaces",
                      *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
-                     *kScaleStep = "handles/scaleStep";
+                     *kScaleStep = "handles/scaleStep", *kBrushes = "sketch/favouriteBrushes",
+                     *kVibration = "vr/vibration";
 constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
@@ -108,6 +109,12 @@ void setHandles(const HandleSettings& settings) {
   set(kTurnStep, snap.turn);
   set(kScaleStep, snap.scale);
 }
+
+int vibration() { return number(kVibration, 60, 0, 100); }
+void setVibration(int percent) { set(kVibration, percent); }
+
+QByteArray favouriteBrushes() { return QSettings().value(QLatin1String(kBrushes)).toByteArray(); }
+void setFavouriteBrushes(const QByteArray& text) { set(kBrushes, text); }
 
 bool isFirstStart() { return !QSettings().contains(QLatin1String(kWindow)); }
 bool welcomeAtStart() { return QSettings().value(QLatin1String(kWelcome), true).toBool(); }

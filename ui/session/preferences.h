@@ -4,6 +4,7 @@
 #include "ui/session/handlesettings.h"
 #include "ui/theme/units.h"
 
+#include <QtCore/QByteArray>
 #include <QtCore/QString>
 
 namespace ps {
@@ -49,6 +50,14 @@ void setMouse(MousePreset preset);
 
 HandleSettings handles();
 void setHandles(const HandleSettings& settings);
+
+/// %, of the strongest that hands in a headset may feel from what they lead; 0: nothing but ticks.
+int vibration();
+void setVibration(int percent);
+
+/// As textOf() of ui/tools/favouritebrush.h has them; "": none.
+QByteArray favouriteBrushes();
+void setFavouriteBrushes(const QByteArray& text);
 
 /// Whether no window has been closed in order yet.
 bool isFirstStart();

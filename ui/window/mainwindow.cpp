@@ -28,6 +28,7 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
 #include "ui/window/editactions.h"
+#include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
 #include "ui/window/handleactions.h"
 #include "ui/window/keyroute.h"
@@ -239,6 +240,9 @@ void MainWindow::makeMenus() {
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
+  m_favourites = new FavouriteBrushes(*m_session, *m_selection, *m_tools, m_actions, *m_notices, this);
+  m_favourites->addTo(sketch);
+  m_pane->showFavourites(m_favourites->menu());
   if (viewport()) new MakeRealButton(*m_sketch->makeReal(), *viewport());
   QMenu* walls = sketch->addMenu(QStringLiteral("Add wall"));
   m_edit->makeWallMenu(walls);

@@ -30,6 +30,7 @@ class PluginPage;
 class RestoreOffer;
 class Resuming;
 class Selection;
+class FavouriteBrushes;
 class SketchActions;
 class StatusLine;
 class ThingActions;
@@ -85,6 +86,7 @@ class MainWindow : public QMainWindow {
   bool showsPlugins() const;
   Welcome& welcome() const { return *m_welcome; }
   LibraryActions& library() const { return *m_library; }
+  FavouriteBrushes& favourites() const { return *m_favourites; }
   Help& help() const { return *m_help; }
   Tour& tour() const { return *m_tour; }
   VrMode& vr() const { return *m_vr; }
@@ -146,6 +148,7 @@ class MainWindow : public QMainWindow {
   PageChooser* m_pages = nullptr;
   Welcome* m_welcome = nullptr;
   LibraryActions* m_library = nullptr;
+  FavouriteBrushes* m_favourites = nullptr;
   Help* m_help = nullptr;
   Tour* m_tour = nullptr;
   std::unique_ptr<EditActions> m_edit;

@@ -201,6 +201,17 @@ void ViewportPane::makeBrushBar() {
   m_radius->setAlignment(Qt::AlignCenter);
 }
 
+void ViewportPane::showFavourites(QMenu* favourites) {
+  auto* button = new QToolButton;
+  button->setIcon(icon(QStringLiteral("star")));
+  button->setToolTip(QStringLiteral("Favourite brushes, and to keep this one"));
+  button->setAccessibleName(button->toolTip());
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setFocusPolicy(Qt::TabFocus);
+  button->setMenu(favourites);
+  m_brushBar->layout()->addWidget(button);
+}
+
 void ViewportPane::showHandles(const HandleActions& handles) {
   auto* row = new QHBoxLayout(m_handleBar);
   row->setContentsMargins(10, 0, 0, 0);

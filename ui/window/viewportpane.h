@@ -8,6 +8,7 @@ class QActionGroup;
 class QButtonGroup;
 class QComboBox;
 class QLabel;
+class QMenu;
 class QToolButton;
 
 namespace ps {
@@ -26,6 +27,7 @@ class ViewportPane : public QWidget {
   QWidget* toolBar() const { return m_bar; }
   /// Beside the tools, while one with handles is in hand.
   void showHandles(const HandleActions& handles);
+  void showFavourites(QMenu* favourites);  ///< beside the brush
 
  protected:
   void paintEvent(QPaintEvent* event) override;
