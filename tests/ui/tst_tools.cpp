@@ -410,6 +410,121 @@ class TestTools : public ToolTest {
     QCOMPARE(bodies.size(), size_t{4});
   }
 
+  /// A stroke that begins on a sketch that was turned goes on with it, on its lattice, and lands where the hand was.
+  void strokesGoOnWithWhatWasTurned() {
+    setBrush("particle");
+    draw({{0.1, 0, 0.15}, {0.14, 0, 0.15}});
+    const std::vector<Body>& bodies = m_document->project().bodies;
+    Placement turned;
+    turned.bodies.push_back(
+        moved(bodies[1], {Quaternion(Eigen::AngleAxisd(0.6, Vector3(1, 2, 0.5).normalized())), {0.02, 0.3, 0.01}}));
+    m_document->place(turned, {});
+    const VoxelShape before = sketch();
+    const SketchGrid grid = gridOf(before);
+    const Vector3 centre = grid.centreOf({before.runs[0].x, before.runs[0].y, before.runs[0].z});
+    const auto scene = std::make_shared<Snapshot>();
+    scene->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{bodies[1].id});
+    scene->spacing = kSpacing;
+    scene->position = {{float(centre.x()), float(centre.y()), float(centre.z()), float(kSpacing / 2)}};
+    scene->body = {0};
+    scene->id = {1};
+    setGuide("draw_on", std::string("level"));
+    setGuide("plane_at", centre.y());
+    const Vector3 end = centre + Vector3(0.05, 0, 0.1);
+    draw({centre, end}, scene);
+    QCOMPARE(bodies.size(), size_t{2});
+    const VoxelShape& after = sketch();
+    QCOMPARE(after.strokes.size(), size_t{2});
+    QVERIFY(after.origin == before.origin && after.rotation == before.rotation && after.shift == before.shift);
+    // Each new cell holds a point of the hand's way; so the farthest are half a cell's diagonal from it.
+    const Vector3 along = (end - centre).normalized();
+    CellSet added = VoxelCanvas(after.runs).cells();
+    added.remove(VoxelCanvas(before.runs).cells().cells());
+    QVERIFY(added.size() >= 5);
+    double farthest = 0;
+    for (const api::Cell& cell : added.cells()) {
+      const Vector3 away = grid.centreOf(cell) - centre;
+      const double far = std::clamp(along.dot(away), 0.0, (end - centre).norm());
+      QVERIFY((away - far * along).norm() <= std::sqrt(3) / 2 * kSpacing + 1e-9);
+      farthest = std::max(farthest, far);
+    }
+    QVERIFY((end - centre).norm() - farthest < kSpacing);
+    // Drawn again from what is saved, the same cells come.
+    const StrokeEdits again =
+        replayStroke(*m_plugins->brush("particle"), after.strokes[1], {after.origin, after.spacing});
+    CellSet missing = added;
+    missing.remove(again.added.cells());
+    QVERIFY(missing.empty());
+    // What is drawn in a mirror stands along the scene: it is a body of its own.
+    setGuide("mirror", std::string("x"));
+    draw({centre, end}, scene);
+    QCOMPARE(bodies.size(), size_t{3});
+  }
+
+  /// Bodies that are begun join the group of what is selected, as one step; a stroke that goes on with one does not.
+  void strokesJoinTheGroupThatIsSelected() {
+    setBrush("particle");
+    draw({{0.1, 0, 0.15}, {0.14, 0, 0.15}});
+    const std::string first = m_document->project().bodies.back().id;
+    const std::string group = m_document->addGroup({"body/" + first});
+    m_selection->selectBody(first);
+    const int steps = m_document->undoStack().index();
+    draw({{-0.1, 0, 0.15}, {-0.14, 0, 0.15}});
+    const std::string second = m_document->project().bodies.back().id;
+    QVERIFY(first != second);
+    QCOMPARE(m_document->undoStack().index(), steps + 1);
+    QCOMPARE(m_document->order().groups.size(), size_t{1});
+    QCOMPARE(m_document->order().groups[0].members, (std::vector<std::string>{"body/" + first, "body/" + second}));
+    m_document->undoStack().undo();
+    QVERIFY(!m_document->body(second));
+    QCOMPARE(m_document->order().groups[0].members, (std::vector<std::string>{"body/" + first}));
+    m_document->undoStack().redo();
+    QCOMPARE(m_document->order().groups[0].members.size(), size_t{2});
+    m_selection->selectBody("ice");  // which is in none
+    draw({{-0.1, 0, -0.15}, {-0.14, 0, -0.15}});
+    QCOMPARE(m_document->order().groups[0].members.size(), size_t{2});
+  }
+
+  /// On the floor, along an axis with Shift; it changes nothing, and Esc takes it away.
+  void aRulerTellsLengths() {
+    m_tools->activate("ruler");
+    Tool& tool = m_tools->tool();
+    QVERIFY(tool.press(aimed({-0.1, 0, 0.25})));
+    Pointer to = aimed({0.2, 0, 0.21});
+    tool.drag(to);
+    tool.release(to);
+    ToolPicture picture = tool.picture();
+    QVERIFY(picture.tag && picture.wires.size() == 2);
+    QVERIFY2(picture.tag->value.contains(lengthText(std::hypot(0.3, 0.04))), qPrintable(picture.tag->value));
+    QVERIFY(picture.tag->value.contains(QStringLiteral("x ") + lengthText(0.3)));
+    QVERIFY(picture.tag->value.contains(QStringLiteral("z ") + lengthText(0.04)));
+    QVERIFY(!picture.tag->value.contains(QStringLiteral("ΔT")));
+    to.shift = true;
+    tool.press(aimed({-0.1, 0, 0.25}));
+    tool.drag(to);
+    tool.release(to);
+    picture = tool.picture();
+    QVERIFY((picture.tag->place - Vector3(0.2, 0, 0.25)).norm() < 1e-9);
+    QCOMPARE(picture.tag->value, lengthText(0.3));
+    QCOMPARE(picture.wires.size(), size_t{1});
+    QVERIFY(tool.words().contains(lengthText(0.3)));
+    // Between matter it says how much warmer it is.
+    const auto scene = std::make_shared<Snapshot>();
+    scene->spacing = kSpacing;
+    for (int k = 0; k < 2; ++k) {
+      scene->position.push_back({0.2F * float(k), 0.4F, 0, float(kSpacing)});
+      scene->temperature.push_back(300.0F + 25.0F * float(k));
+      scene->body.push_back(0);
+      scene->id.push_back(uint32_t(k));
+    }
+    tool.press(aimed({0, 0.4, 0}, scene));
+    tool.drag(aimed({0.2, 0.4, 0}, scene));
+    tool.release(aimed({0.2, 0.4, 0}, scene));
+    QVERIFY2(tool.picture().tag->value.contains(QStringLiteral("ΔT 25 K")), qPrintable(tool.picture().tag->value));
+    QVERIFY(tool.cancel() && !tool.picture().tag && !tool.cancel());
+    QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
   /// A sweep that begins beside the matter takes what comes under it, at its depth and not below its own hole.
   void anEraserTakesWhatIsUnderIt() {
     const auto scene = std::make_shared<Snapshot>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/document/document.h"
 
+#include "core/scene/group.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 
@@ -216,12 +217,22 @@ std::string Document::freeBodyId(const std::string& stem) {
   }
 }
 
-void Document::addStroke(std::shared_ptr<StrokeRecord> stroke) {
+void Document::addStroke(std::shared_ptr<StrokeRecord> stroke, const std::string& group) {
   const QString text = !stroke->deed.empty()      ? QString::fromStdString(stroke->deed)
                        : stroke->erase            ? QStringLiteral("erasing stroke")
                        : stroke->material.empty() ? QStringLiteral("brush stroke")
                                                   : QStringLiteral("painting stroke");
+  const bool joins = !group.empty() && !stroke->body.empty() && !body(stroke->body);
+  const std::string member = memberOf(Owner::Body, stroke->body);
+  if (joins) m_undo.beginMacro(text);
   m_undo.push(new StrokeCommand(*this, std::move(stroke), text));
+  if (!joins) return;
+  SceneOrder after = order();
+  for (SceneGroup& one : after.groups) {
+    if (one.id == group) one.members.push_back(member);
+  }
+  setOrder(std::move(after), text);
+  m_undo.endMacro();
 }
 
 void Document::addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text) {

@@ -97,8 +97,9 @@ class Document : public QObject {
   void setBodyMaterial(const std::string& id, const std::string& material);
   /// Whether a material holds on to another one of the scene.
   void setAdhesion(const std::string& id, const std::string& other, bool holds);
-  /// Notes a stroke whose particles are in the engine already.
-  void addStroke(std::shared_ptr<StrokeRecord> stroke);
+  /// Notes a stroke whose particles are in the engine already. A body that it begins joins a group, in the same step;
+  /// "": none.
+  void addStroke(std::shared_ptr<StrokeRecord> stroke, const std::string& group = {});
   /// Parts of one stroke, as one step; at least one.
   void addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text);
 
