@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the window has for those who are new to it: the menu Help, the first page, a tour.
+#include "ui/document/document.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
@@ -59,12 +60,14 @@ void MainWindow::startTour() {
   showWorkspace(kSceneTab);
   m_layout->setFullViewport(false);
   QWidget* view = viewport() ? static_cast<QWidget*>(viewport()) : m_pane;
+  const QString runs = m_session->playing() ? QStringLiteral("It is running. ") : QStringLiteral("Space runs it. ");
+  const bool pinned = !m_session->document().project().view.pinned.empty();
   m_tour->start(
-      {{view, QStringLiteral("Turn the scene"), QStringLiteral("It is running. ") + howToLook(m_tools->mouse())},
+      {{view, QStringLiteral("Turn the scene"), runs + howToLook(m_tools->mouse())},
        {inspectorDock(), QStringLiteral("Change it while it runs"),
-        QStringLiteral(
-            "Drag a slider under “Try these”: it acts on the next frame. A double-click puts it back, Ctrl+Z "
-            "undoes any step.")},
+        QStringLiteral("Drag a slider%1: it acts on the next frame. A double-click puts it back, Ctrl+Z undoes any "
+                       "step.")
+            .arg(pinned ? QStringLiteral(" under “Try these”") : QString())},
        {m_layout->dock(QStringLiteral("dock.transport")), QStringLiteral("Look back"),
         QStringLiteral(
             "Space pauses, Home goes back to the start. Drag in the bar to see any moment again, and continue "

@@ -17,6 +17,7 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/dialogrow.h"
+#include "ui/window/favouritebrushes.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/preferenceswindow.h"
@@ -26,6 +27,7 @@
 
 #include <QtGui/QAction>
 
+#include <map>
 #include <set>
 #include <utility>
 
@@ -119,6 +121,15 @@ void addThings(Entries& entries, MainWindow& window) {
   add(project.probes, OutlineKind::Probe, "Probe");
 }
 
+void addFavourites(Entries& entries, MainWindow& window) {
+  for (const FavouriteBrush& favourite : window.favourites().all())
+    entries.push_back(
+        {favourite.name, QStringLiteral("Favourite brushes"), {}, QStringLiteral("brush"), [&window, favourite] {
+           window.welcome().leave();
+           window.favourites().take(favourite);
+         }});
+}
+
 void revealBrush(MainWindow& window, BrushPanel& panel, const QString& key) {
   window.welcome().leave();
   if (!window.tools().tool().usesBrush()) window.tools().activate(kBrushTool);
@@ -149,22 +160,39 @@ void addDialogs(Entries& entries, MainWindow& window) {
                        }});
 }
 
-/// Installed ones that the scene has not, and all presets.
+QString wordsOf(const std::string& id, const std::vector<std::string>& tags) {
+  QString words = QString::fromStdString(id);
+  for (const std::string& tag : tags) words += QLatin1Char(' ') + QString::fromStdString(tag);
+  return words;
+}
+
+/// The scene's, the installed ones that it has not, and all presets.
 void addMaterials(Entries& entries, MainWindow& window) {
   Session& session = window.session();
   Selection& selection = window.selection();
   const PluginRegistry* plugins = session.plugins();
   if (!plugins) return;
   const auto title = [](const QString& label) { return QStringLiteral("Add material %1").arg(label); };
+  std::map<std::string, QString> words;  // by id
+  for (const PluginInfo& info : plugins->plugins()) {
+    if (info.kind == PluginKind::Material) words[info.id] = wordsOf(info.id, info.tags);
+  }
   std::set<std::string> present;
-  for (const SceneMaterial& material : session.document().project().materials) present.insert(material.base);
+  for (const SceneMaterial& material : session.document().project().materials) {
+    present.insert(material.base);
+    entries.push_back({QString::fromStdString(material.label.empty() ? material.id : material.label),
+                       QStringLiteral("Material"),
+                       {},
+                       wordsOf(material.id, material.tags) + QLatin1Char(' ') + words[material.base],
+                       [&selection, id = material.id] { selection.pickMaterial(id); }});
+  }
   for (const std::string& base : plugins->ids(PluginKind::Material)) {
     if (present.count(base)) continue;
     const std::string& label = plugins->material(base)->label;
     entries.push_back({title(QString::fromStdString(label.empty() ? base : label)),
                        QStringLiteral("Materials"),
                        {},
-                       QString::fromStdString(base),
+                       words[base],
                        [&session, &selection, base] { selection.pickMaterial(session.document().addMaterial(base)); }});
   }
   for (const LibraryEntry& entry : window.library().library().entries()) {
@@ -172,7 +200,7 @@ void addMaterials(Entries& entries, MainWindow& window) {
     entries.push_back({title(entry.label),
                        QStringLiteral("Presets"),
                        {},
-                       entry.about,
+                       entry.about + QLatin1Char(' ') + entry.tags.join(QLatin1Char(' ')),
                        [&session, &selection, material = entry.material] {
                          selection.pickMaterial(addPreset(session.document(), material));
                        }});
@@ -188,6 +216,7 @@ std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& acti
   addMaterials(entries, window);
   addThings(entries, window);
   addBrush(entries, window);
+  addFavourites(entries, window);
   addDialogs(entries, window);
   addActions(entries, window, actions, true);
   return entries;
