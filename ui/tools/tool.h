@@ -77,6 +77,12 @@ struct Wire {
   bool dashed = false;  ///< it is no surface that anything meets
 };
 
+/// A tag at a place of the scene: "Ice block −9.2 °C".
+struct SceneTag {
+  Vector3 place{0, 0, 0};  ///< m
+  QString name, value;
+};
+
 /// What a view should draw of a tool.
 struct ToolPicture {
   PointerShape pointer = PointerShape::Arrow;
@@ -85,6 +91,7 @@ struct ToolPicture {
   std::vector<Sink> sinks;
   std::optional<Port> hovered;  ///< would be taken hold of
   std::vector<Wire> wires;
+  std::optional<SceneTag> tag;  ///< in place of what is told of the selected grain
   std::optional<GizmoPicture> gizmo;
   std::optional<std::pair<Vector3, Vector3>> frame;  ///< opposite corners of one that is drawn, as they are seen
 };

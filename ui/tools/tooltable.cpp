@@ -3,6 +3,7 @@
 
 #include "ui/tools/drawtool.h"
 #include "ui/tools/gizmotool.h"
+#include "ui/tools/measuretool.h"
 #include "ui/tools/placedrain.h"
 #include "ui/tools/placetap.h"
 #include "ui/tools/selecttool.h"
@@ -35,6 +36,7 @@ const std::vector<ToolRow>& toolTable() {
       {"tap", "tap", "Place a tap", "Place a tap that pours matter", "T", "In the scene with a tap", make<PlaceTap>},
       {"drain", "drain", "Place a drain", "Place a drain that takes matter away", "D", "In the scene with a drain",
        make<PlaceDrain>},
+      {"ruler", "ruler", "Measure", "Measure how far it is", "U", "In the scene with the ruler", make<MeasureTool>},
   };
   return kTable;
 }

@@ -16,12 +16,6 @@ class QPainter;
 
 namespace ps {
 
-/// A tag at a place of the scene: "Ice block −9.2 °C".
-struct SceneTag {
-  Vector3 place{0, 0, 0};
-  QString name, value;
-};
-
 /// One key or gesture of the strip of hints.
 struct OverlayHint {
   QString keys, does;

@@ -238,10 +238,11 @@ OverlayState Viewport::overlayState() const {
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
   if (m_hint) state.hints = hints();
-  state.tag = tag();
+  const ToolPicture picture = m_tools.tool().picture();
+  state.tag = picture.tag ? picture.tag : tag();
   state.invitation = invitation();
   state.section = sectionNote();
-  if (m_drag != Drag::View) state.cursor = m_tools.tool().picture().cursor;
+  if (m_drag != Drag::View) state.cursor = picture.cursor;
   return state;
 }
 
@@ -330,7 +331,7 @@ void Viewport::bodiesChanged() {
   m_scene.environment = m_session.surroundings();
   m_box.reset();
   m_shown.reset();
-  m_hidden = hiddenBodies(m_document.project());
+  m_hidden = ps::hiddenBodies(m_document.project());
   if (m_session.engine()) {
     m_now = withoutBodies(m_session.snapshot(), m_hidden);
     m_previous = nullptr;
