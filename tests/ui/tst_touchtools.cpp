@@ -259,14 +259,14 @@ class TestTouchTools : public ToolTest {
     const auto drawn = [this] { return std::get<VoxelShape>(m_document->project().bodies[2].shape); };
     for (const VoxelShape::Run& run : drawn().runs) QVERIFY(run.length == 5 && run.y >= 1 && run.y <= 2);
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->position.size() == without + 25 * 2; }));
-    setValueOf(brush, "plane_at", bottom.y() + 2 * kSpacing);
+    setValueOf(brush, "plane_at", bottom.y() + kSpacing);
     m_tools->setBrush(brush);
-    paintAt(bottom + Vector3(0, 2 * kSpacing, 0));
-    QCOMPARE(count(), without + 25 * 4);
+    paintAt(bottom + Vector3(0, kSpacing, 0));
+    QCOMPARE(count(), without + 25 * 3);
     m_document->undoStack().undo();
     QCOMPARE(count(), without + 25 * 2);
     m_document->undoStack().redo();
-    QCOMPARE(count(), without + 25 * 4);
+    QCOMPARE(count(), without + 25 * 3);
     const Environment& environment = m_document->project().environment;
     const FreeOf besideTheCup = [&](const SketchGrid& grid, const CellSet& cells) {
       const CellSet cupCells = VoxelCanvas(walls.runs).cells();
@@ -281,7 +281,7 @@ class TestTouchTools : public ToolTest {
     const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
     QVERIFY(redrawn(drawn(), kSpacing, besideTheCup, brushOf, environment.gravity).runs == drawn().runs);
     const VoxelShape fine = redrawn(drawn(), kSpacing / 2, besideTheCup, brushOf, environment.gravity);
-    QVERIFY(VoxelCanvas(fine.runs).size() > size_t{25 * 4 * 6});
+    QVERIFY(VoxelCanvas(fine.runs).size() > size_t{25 * 3 * 6});
     // Of a cup that is hidden the walls hold all the same.
     setValueOf(brush, "plane_at", bottom.y() + 4 * kSpacing);
     m_tools->setBrush(brush);
@@ -295,7 +295,7 @@ class TestTouchTools : public ToolTest {
     QCOMPARE(count(), without + 25 * 6);
     m_document->undoStack().undo();
     m_document->undoStack().undo();
-    QCOMPARE(count(), without + 25 * 4);
+    QCOMPARE(count(), without + 25 * 3);
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     setValueOf(brush, "plane_at", 0.9);
     m_tools->setBrush(brush);
@@ -304,7 +304,7 @@ class TestTouchTools : public ToolTest {
     QCOMPARE(refused.count(), 1);
     QVERIFY2(refused[0][1].toString().contains(QStringLiteral("run full")), qPrintable(refused[0][1].toString()));
     QCOMPARE(m_document->undoStack().count(), steps);
-    QCOMPARE(count(), without + 25 * 4);
+    QCOMPARE(count(), without + 25 * 3);
   }
 
   /// Bodies that were not drawn, and scenes that have begun.

@@ -29,12 +29,13 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <string_view>
 
 namespace ps {
 namespace {
 
 constexpr int kBar = 34;
-constexpr int kLabelled = 640;           // px, from which the choice of colours has its label
+constexpr int kLabelled = 640;           // px, from which there is room for all tools and the label of colours
 constexpr const char* kShape = "shape";  // property of a button: id of its brush
 
 bool canHaveContext() {
@@ -69,6 +70,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_brushBar(new QWidget),
       m_handleBar(new QWidget),
       m_shapeBox(new QWidget),
+      m_rareTools(new QWidget),
       m_shapeMenu(new QToolButton),
       m_radius(new QLabel),
       m_colourLabel(new QLabel(QStringLiteral("Colour"))),
@@ -110,13 +112,21 @@ QWidget* ViewportPane::makeBar() {
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(8, 0, 8, 0);
   row->setSpacing(2);
+  auto* rare = new QHBoxLayout(m_rareTools);
+  rare->setContentsMargins(0, 0, 0, 0);
+  rare->setSpacing(2);
+  m_rareTools->setMinimumWidth(1);  // see resizeEvent()
+  bool past = false;                // those that draw; what comes after them is used rarely
   for (const ToolRow& tool : toolTable()) {
     QToolButton* button =
         checkable(QString::fromLatin1(tool.icon),
                   QStringLiteral("%1 (%2)").arg(QString::fromLatin1(tool.tip), QString::fromLatin1(tool.key)));
     m_buttons->addButton(button, m_buttons->buttons().size());
-    row->addWidget(button);
+    const bool draws = tool.id == std::string_view(kBrushTool) || tool.id == std::string_view(kEraseTool);
+    past = past || draws;
+    (past && !draws ? rare : row)->addWidget(button);
   }
+  row->addWidget(m_rareTools);
   connect(m_buttons, &QButtonGroup::idClicked, this, [this](int id) {
     // What a click takes in hand is for the view, and so are the keys that follow.
     if (m_viewport && !m_buttons->button(id)->hasFocus()) m_viewport->setFocus(Qt::OtherFocusReason);
@@ -153,7 +163,8 @@ QWidget* ViewportPane::makeBar() {
 
 void ViewportPane::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  m_colourLabel->setVisible(width() >= kLabelled);
+  // Keys and menus have those tools too.
+  for (QWidget* rare : {static_cast<QWidget*>(m_colourLabel), m_rareTools}) rare->setVisible(width() >= kLabelled);
   showShapes();
 }
 

@@ -52,6 +52,7 @@ class ViewportPane : public QWidget {
   QButtonGroup *m_buttons, *m_shapes;
   QWidget *m_brushBar, *m_handleBar;
   QWidget* m_shapeBox;       ///< a button for each brush
+  QWidget* m_rareTools;      ///< those that there is not always room for
   QToolButton* m_shapeMenu;  ///< in its place where there is no room
   QActionGroup* m_shapeActions = nullptr;
   QLabel* m_radius;

@@ -175,6 +175,15 @@ void VrWithout::wheelEvent(QWheelEvent* event) {
   event->accept();
 }
 
+/// Its keys are its own, whatever tools the main window has on them.
+bool VrWithout::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const Qt::KeyboardModifiers modifiers = static_cast<QKeyEvent*>(event)->modifiers();
+    if (!(modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))) event->accept();
+  }
+  return QOpenGLWidget::event(event);
+}
+
 void VrWithout::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape) {
     close();
