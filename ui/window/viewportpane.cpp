@@ -35,7 +35,7 @@ namespace ps {
 namespace {
 
 constexpr int kBar = 34;
-constexpr int kLabelled = 640;           // px, from which there is room for all tools and the label of colours
+constexpr int kGap = 6;                  // px, at most, between parts of the bar
 constexpr const char* kShape = "shape";  // property of a button: id of its brush
 
 bool canHaveContext() {
@@ -115,7 +115,7 @@ QWidget* ViewportPane::makeBar() {
   auto* rare = new QHBoxLayout(m_rareTools);
   rare->setContentsMargins(0, 0, 0, 0);
   rare->setSpacing(2);
-  m_rareTools->setMinimumWidth(1);  // see resizeEvent()
+  m_rareTools->setMinimumWidth(1);  // see share()
   bool past = false;                // those that draw; what comes after them is used rarely
   for (const ToolRow& tool : toolTable()) {
     QToolButton* button =
@@ -137,7 +137,7 @@ QWidget* ViewportPane::makeBar() {
   row->addWidget(m_handleBar);
   row->addStretch(1);
   m_colourLabel->setProperty("role", "muted");
-  m_colourLabel->setMinimumWidth(1);  // it goes where there is no room: see resizeEvent()
+  m_colourLabel->setMinimumWidth(1);  // see share()
   row->addWidget(m_colourLabel);
   row->addSpacing(4);
   m_colour->setMinimumWidth(68);
@@ -163,16 +163,28 @@ QWidget* ViewportPane::makeBar() {
 
 void ViewportPane::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  // Keys and menus have those tools too.
-  for (QWidget* rare : {static_cast<QWidget*>(m_colourLabel), m_rareTools}) rare->setVisible(width() >= kLabelled);
-  showShapes();
+  share();
 }
 
-/// Brushes lie side by side where there is room for all of them, or else in a menu.
-void ViewportPane::showShapes() {
-  const bool room = width() >= m_bar->minimumSizeHint().width() + m_shapeBox->sizeHint().width();
-  m_shapeBox->setVisible(room);
-  m_shapeMenu->setVisible(!room);
+/// What there is not always room for comes as far as it does: tools that keys and menus have too, brushes side by side
+/// instead of in a menu, the label of the colours.
+void ViewportPane::share() {
+  // What shows counts as if it did not, and is not hidden for that: it may have the focus.
+  int room = width() - m_bar->sizeHint().width();
+  for (QWidget* part : {m_rareTools, m_shapeBox, static_cast<QWidget*>(m_colourLabel)})
+    room += part->isVisibleTo(m_bar) ? part->sizeHint().width() : 0;
+  const bool draws = m_tools.tool().usesBrush();
+  if (draws && !m_shapeMenu->isVisibleTo(m_bar)) room -= m_shapeMenu->sizeHint().width();
+  const auto fits = [&](QWidget* part) {
+    const int needs = part->sizeHint().width() + kGap;
+    const bool has = room >= needs;
+    part->setVisible(has);
+    if (has) room -= needs;
+    return has;
+  };
+  fits(m_rareTools);
+  if (draws) m_shapeMenu->setVisible(!fits(m_shapeBox));
+  fits(m_colourLabel);
 }
 
 void ViewportPane::makeBrushBar() {
@@ -182,7 +194,7 @@ void ViewportPane::makeBrushBar() {
   auto* row = new QHBoxLayout(m_shapeBox);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(4);
-  m_shapeBox->setMinimumWidth(1);  // see showShapes()
+  m_shapeBox->setMinimumWidth(1);  // see share()
   brush->addWidget(m_shapeBox);
   m_shapeMenu->setMenu(new QMenu(m_shapeMenu));
   m_shapeActions = new QActionGroup(m_shapeMenu);
@@ -274,7 +286,7 @@ void ViewportPane::addShapes() {
     action->setCheckable(true);
     m_shapeActions->addAction(action);
   }
-  showShapes();
+  share();
   showBrush();
 }
 
@@ -303,7 +315,7 @@ void ViewportPane::showTool() {
   }
   m_brushBar->setVisible(m_tools.tool().usesBrush());
   m_handleBar->setVisible(m_tools.tool().usesHandles());
-  showShapes();
+  share();
 }
 
 void ViewportPane::showBrush() {

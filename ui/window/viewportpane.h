@@ -41,7 +41,7 @@ class ViewportPane : public QWidget {
   void showColour();
   void showTool();
   void showBrush();
-  void showShapes();
+  void share();
   void chooseShape(const QString& shape);
 
   Session& m_session;
