@@ -105,10 +105,10 @@ class Solver {
   /// of before. Those that are gone, or of another material again, are skipped.
   void unpaint(const PaintedMatter& painted);
 
-  /// Carries all particles of a body to another place: turns them about their centre of mass, which goes by `way` m.
-  /// What structure ties to them comes along, but for what is fixed of other bodies. Each keeps its temperature and its
-  /// velocity against the others; their mean velocity stays, so that kinetic energy and momentum do. What ties them to
-  /// something that stays is stretched. What weight gains or loses is work from outside, between two frames
+  /// Carries all particles of a body to another place: turns them about the mean of their places, which goes by `way`
+  /// m. What structure ties to them comes along, but for what is fixed of other bodies. Each keeps its temperature and
+  /// its velocity against the others; their mean velocity stays, so that kinetic energy and momentum do. What ties them
+  /// to something that stays is stretched. What weight gains or loses is work from outside, between two frames
   /// (MechanicalRecord: the end of one and the start of the next).
   void carry(uint32_t body, const Quaternion& turn, const Vector3& way);
 

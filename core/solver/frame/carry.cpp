@@ -22,21 +22,22 @@ Vector3 meanVelocity(const ParticleStore& store, std::span<const uint8_t> goes) 
   return mass > 0 ? Vector3(momentum / mass) : Vector3(Vector3::Zero());
 }
 
-/// m, of those that go: each in the image that is nearest to the first of them.
+/// m, mean of the places of those that go, each in the image that is nearest to the first of them. Not by mass: a
+/// document knows where a body of several materials is, but not how heavy its parts are.
 Vector3 centreOf(const ParticleStore& store, std::span<const uint8_t> goes) {
   std::optional<Vector3> first;
-  Vector3 moment;
-  double mass = 0;
+  Vector3 sum;
+  double count = 0;
   for (size_t i = 0; i < store.size(); ++i) {
     if (goes[i] == 0) continue;
     const Vector3 place = vectorOf(store.position()[i]);
     if (!first) first = place;
     api::Float4 way = float4Of(place - *first, 0);
     store.period().shorten(way.x, way.y, way.z);
-    moment += double{store.mass()[i]} * vectorOf(way);
-    mass += double{store.mass()[i]};
+    sum += vectorOf(way);
+    ++count;
   }
-  return mass > 0 ? Vector3(*first + moment / mass) : Vector3(Vector3::Zero());
+  return count > 0 ? Vector3(*first + sum / count) : Vector3(Vector3::Zero());
 }
 
 }  // namespace
