@@ -183,20 +183,21 @@ void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
     const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
     const QString open = QStringLiteral(R"(, "/input/squeeze/value": 0)");
     const ScriptedRun run(vrScript({}, key(5, "right", s, from, open) + key(20, "right", s, from, held) +
-                                           key(110, "right", s, to, held) + key(150, "right", s, to, open)));
+                                           key(110, "right", s, to, held) + key(180, "right", s, to, open)));
     session().play();
     action()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(m_window->selection().items(), (std::vector<SelectedItem>{{OutlineKind::Body, id}}),
                               kLong);
-    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 170, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 195, kLong);
     leave();
     session().pause();
     QCOMPARE(steps(), before + 1);
     QVERIFY2((middle() - to).norm() < 0.005, qPrintable(QString::number(middle().y())));
+    // A tick is none of it: that has no frequency of its own.
     const auto felt = run.lines("haptic");
-    QVERIFY2(felt.size() > 3, qPrintable(QString::number(felt.size())));
-    QVERIFY(std::any_of(felt.begin(), felt.end(),
-                        [](const auto& line) { return line["amplitude"].template get<double>() > 0.02; }));
+    QVERIFY(std::any_of(felt.begin(), felt.end(), [](const auto& line) {
+      return line.value("frequency", 0.0) > 0 && line.value("amplitude", 0.0) > 0.02;
+    }));
     document().undoStack().undo();
     QVERIFY((middle() - from).norm() < 1e-6);
   }
