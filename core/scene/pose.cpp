@@ -78,30 +78,15 @@ BodyBounds drawnBounds(const VoxelShape& voxels) {
   return {voxels.origin + voxels.spacing * (low - half), voxels.origin + voxels.spacing * (high + half)};
 }
 
-/// Around points and boxes that are taken along.
+/// Around points that are taken along.
 struct CarriedBounds {
   RigidMove move;
-  Vector3 minimum = Vector3::Constant(HUGE_VAL), maximum = Vector3::Constant(-HUGE_VAL);
+  BodyBounds box{Vector3::Constant(HUGE_VAL), Vector3::Constant(-HUGE_VAL)};
   void add(const Vector3& point) {
     const Vector3 p = move.of(point);
-    minimum = minimum.cwiseMin(p), maximum = maximum.cwiseMax(p);
-  }
-  void add(const Vector3& low, const Vector3& high) {
-    for (int corner = 0; corner < 8; ++corner) {
-      Vector3 p;
-      for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? high[a] : low[a];
-      add(p);
-    }
+    box = {box.minimum.cwiseMin(p), box.maximum.cwiseMax(p)};
   }
 };
-
-Region around(const Region& region, const RigidMove& move) {
-  CarriedBounds carried{move};
-  carried.add(region.minimum, region.maximum);
-  Region box = region;
-  box.minimum = carried.minimum, box.maximum = carried.maximum;
-  return box;
-}
 
 /// The shift from one sketch to the other where they were drawn of the same cells; in m.
 std::optional<Vector3> shiftBetween(const VoxelShape& before, const VoxelShape& after) {
@@ -160,7 +145,17 @@ BodyBounds boundsOf(const Body& body) {
       carried.add(voxels.origin + voxels.spacing * Vector3(x, run.y, run.z));
   }
   const Vector3 half = Vector3::Constant(voxels.runs.empty() ? 0 : voxels.spacing / 2);
-  return {carried.minimum - half, carried.maximum + half};
+  return {carried.box.minimum - half, carried.box.maximum + half};
+}
+
+BodyBounds carriedBounds(const BodyBounds& box, const RigidMove& move) {
+  CarriedBounds carried{move};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vector3 p;
+    for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1) != 0 ? box.maximum[a] : box.minimum[a];
+    carried.add(p);
+  }
+  return carried.box;
 }
 
 Vector3 pivotOf(const Body& body) {
@@ -233,7 +228,10 @@ Body moved(Body body, const RigidMove& move) {
     else
       setPose(voxels, move.after(poseOf(voxels)));
   }
-  for (Region& pin : body.pins) pin = around(pin, move);
+  for (Region& pin : body.pins) {
+    const BodyBounds box = carriedBounds({pin.minimum, pin.maximum}, move);
+    pin.minimum = box.minimum, pin.maximum = box.maximum;
+  }
   if (move.turns()) body.temperatureGradient = move.turn * body.temperatureGradient;
   return body;
 }

@@ -16,6 +16,8 @@ struct BodyBounds {
 };
 /// Of a solid's whole extent, of a sketch's cells; a sketch without cells is a point.
 BodyBounds boundsOf(const Body& body);
+/// The box around a box that is taken along.
+BodyBounds carriedBounds(const BodyBounds& box, const RigidMove& move);
 /// Where a body is, m: the middle of its form, which it turns about and is scaled from.
 Vector3 pivotOf(const Body& body);
 /// Of the matter that fills it evenly, m. Of a mesh with holes: of what its triangles enclose, as far as they do.

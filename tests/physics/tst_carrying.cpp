@@ -78,12 +78,15 @@ Project inSpace(const std::string& structure) {
   return project;
 }
 
+Vector3 meanPlace(const std::map<uint32_t, Grain>& grains) {
+  Vector3 sum;
+  for (const auto& [id, grain] : grains) sum += grain.place;
+  return sum / static_cast<double>(grains.size());
+}
+
 /// What a move of the body in the document does to its matter.
 RigidMove carriedBy(const Body& body, const std::map<uint32_t, Grain>& grains, const RigidMove& move) {
-  Vector3 moment;
-  double mass = 0;
-  for (const auto& [id, grain] : grains) moment += grain.mass * grain.place, mass += grain.mass;
-  RigidMove carried = RigidMove::about(moment / mass, move.turn);
+  RigidMove carried = RigidMove::about(meanPlace(grains), move.turn);
   carried.shift += move.of(centroidOf(body)) - centroidOf(body);
   return carried;
 }
@@ -343,7 +346,9 @@ void TestCarrying::aSketchIsTurned() {
   VoxelShape shape;
   shape.origin = {0.03, -0.25, 0.01};
   shape.spacing = kSpacing;
-  project.materials.push_back({"iron", "Iron", "iron"});
+  SceneMaterial iron;
+  iron.id = iron.base = "iron";
+  project.materials.push_back(iron);
   shape.palette = {{"water", 260}, {"iron", 260}};
   for (int y = 0; y < 8; ++y) shape.runs.push_back({-3, y, 0, y < 2 ? 6 : 2, y % 2});
   shape.strokes.emplace_back().brush = "sphere";
@@ -428,12 +433,7 @@ void TestCarrying::goneBackItStandsWhereTheDocumentHasIt() {
   EngineThread engine(m_plugins, nullptr);
   engine.open(project, false);
   const auto centre = [&] {
-    return tests::onEngine<Vector3>(engine, [](Engine& e) {
-      Vector3 moment;
-      double mass = 0;
-      for (const auto& [id, grain] : grainsOf(e, "thing")) moment += grain.mass * grain.place, mass += grain.mass;
-      return Vector3(moment / mass);
-    });
+    return tests::onEngine<Vector3>(engine, [](Engine& e) { return meanPlace(grainsOf(e, "thing")); });
   };
   const auto hash = [&] { return tests::onEngine<uint64_t>(engine, [](Engine& e) { return e.stateHash(); }); };
   std::vector<Vector3> at{centre()};

@@ -58,6 +58,9 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(Theme::current().dark());
     pick("Copy it", "Every minute");
     QCOMPARE(preferences::autosaveInterval(), 60);
+    QVERIFY(preferences::vibration() > 0);
+    pick("Vibration", "None");
+    QCOMPARE(preferences::vibration(), 0);
     pick("In memory, at most", "512 MiB");
     QCOMPARE(preferences::recordBudget().memory, size_t{512} << 20);
     pick("On the disk, at most", "Nothing");
@@ -65,6 +68,7 @@ class TestPreferences : public SampleWindowTest {
     delete dialog();
     openDialog();
     QCOMPARE(field<QComboBox>("Copy it")->currentText(), QStringLiteral("Every minute"));
+    QCOMPARE(field<QComboBox>("Vibration")->currentText(), QStringLiteral("None"));
     QCOMPARE(field<QComboBox>("In memory, at most")->currentText(), QStringLiteral("512 MiB"));
     QCOMPARE(field<QComboBox>("On the disk, at most")->currentText(), QStringLiteral("Nothing"));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Brushes that work on the matter that is there, driven by rays, without a widget, in a scene that runs.
 #include "core/io/projectio.h"
+#include "core/scene/pose.h"
 #include "core/sketch/redraw.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
@@ -305,6 +306,38 @@ class TestTouchTools : public ToolTest {
     QVERIFY2(refused[0][1].toString().contains(QStringLiteral("run full")), qPrintable(refused[0][1].toString()));
     QCOMPARE(m_document->undoStack().count(), steps);
     QCOMPARE(count(), without + 25 * 3);
+  }
+
+  /// A reset names the matter of each stroke by cells, which have been turned with their body by then: undone after it,
+  /// each stroke takes just what is its own.
+  void strokesOfATurnedSketchAreUndoneAfterAReset() {
+    take("sphere", 0.06);
+    const Vector3 first(0.3, 0, 0), second(0.3, 0, 0.06);
+    const size_t none = count();
+    paintAt(first);
+    const size_t one = count();
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->position.size() == one; }));
+    paintAt(second);
+    const size_t two = count();
+    QVERIFY(two > one && one > none);
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    const Body before = m_document->project().bodies[1];
+    Placement turned;
+    turned.bodies.push_back(
+        moved(before, RigidMove::about(pivotOf(before) + Vector3(0, 0.2, 0),
+                                       Quaternion(Eigen::AngleAxisd(0.9, Vector3(0.2, 1, 0.1).normalized())))));
+    m_document->place(turned, QStringLiteral("turning"));
+    QVERIFY(std::get<VoxelShape>(m_document->project().bodies[1].shape).rotation != Vector3(0, 0, 0));
+    m_link->reset();
+    QCOMPARE(count(), two);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(count(), one);
+    m_document->undoStack().redo();
+    QCOMPARE(count(), two);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(count(), none);
   }
 
   /// Bodies that were not drawn, and scenes that have begun.

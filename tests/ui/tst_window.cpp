@@ -374,6 +374,19 @@ class TestWindow : public QObject {
     m_window->viewport()->show(StandardView::Scene);
   }
 
+  /// The scene's own, by its name and by the tags of what is installed.
+  void thePaletteFindsAMaterialByItsTags() {
+    m_window->selection().setMaterial({});
+    const auto entries = m_window->paletteEntries();
+    const std::vector<size_t> found = paletteMatches(entries, QStringLiteral("ice water"));
+    const auto water = std::find_if(found.begin(), found.end(), [&](size_t k) {
+      return entries[k].title == QStringLiteral("Water") && entries[k].where == QStringLiteral("Material");
+    });
+    QVERIFY(water != found.end());
+    entries[*water].run();
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+  }
+
   /// It is found, behind what can be done.
   void whatCannotBeDoneSaysWhy() {
     const auto entries = m_window->paletteEntries();

@@ -419,6 +419,17 @@ class TestSketch : public QObject {
     const CellSet aside = flooded(grid, cellsOf({{0, 2, 0}}), {}, {9.81, 0, 0}, open);
     QVERIFY(std::all_of(aside.cells().begin(), aside.cells().end(), [](const Cell& c) { return c.x >= 0; }));
     QVERIFY(aside.size() > 3 * 4);
+    // Without gravity it stands upright; in a turned sketch it is level all the same.
+    QVERIFY(flooded(grid, cellsOf({{0, 3, 0}}), {}, {0, 0, 0}, open) == left);
+    const SketchGrid turned{grid.origin, grid.spacing,
+                            {Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 0, 1))), {0.3, 0, 0}}};
+    const CellSet oblique = flooded(turned, cellsOf({{0, 2, 0}}), {}, gravity, open);
+    const double level = turned.centreOf({0, 2, 0}).y();
+    QVERIFY(oblique.size() > 10);
+    for (const Cell& c : oblique.cells()) QVERIFY(!isWall(c) && turned.centreOf(c).y() < level + 1e-3);
+    for (const Cell& c : left.cells()) {  // of its own arm all that lies as low
+      if (c.x < 2 && turned.centreOf(c).y() < level) QVERIFY(oblique.contains(c));
+    }
   }
 
   /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.

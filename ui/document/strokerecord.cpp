@@ -130,26 +130,23 @@ struct CellBounds {
         high[k] = std::max(high[k], c[k] + 1);
       }
     }
-    for (int corner = 0; corner < 8; ++corner) {
-      Vector3 p;
-      for (int k = 0; k < 3; ++k) {
-        const auto axis = static_cast<size_t>(k);
-        const double cell = (corner >> k & 1) != 0 ? high[axis] + 0.5 : low[axis] - 0.5;
-        p[k] = lattice.origin[k] + cell * lattice.spacing;
-      }
-      p = poseOf(lattice).of(p);
-      minimum = minimum.cwiseMin(p), maximum = maximum.cwiseMax(p);
+    BodyBounds drawn;
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<size_t>(k);
+      drawn.minimum[k] = lattice.origin[k] + (low[axis] - 0.5) * lattice.spacing;
+      drawn.maximum[k] = lattice.origin[k] + (high[axis] + 0.5) * lattice.spacing;
     }
+    box = carriedBounds(drawn, poseOf(lattice));
   }
   /// A box about a place; no centre of what it is around lies farther out.
   bool meets(const Vector3& centre, const Vector3& size) const {
-    return ((centre + size / 2).array() >= minimum.array()).all() &&
-           ((centre - size / 2).array() <= maximum.array()).all();
+    return ((centre + size / 2).array() >= box.minimum.array()).all() &&
+           ((centre - size / 2).array() <= box.maximum.array()).all();
   }
   bool holds(const Vector3& p) const {
-    return (p.array() >= minimum.array()).all() && (p.array() <= maximum.array()).all();
+    return (p.array() >= box.minimum.array()).all() && (p.array() <= box.maximum.array()).all();
   }
-  Vector3 minimum = Vector3::Constant(HUGE_VAL), maximum = Vector3::Constant(-HUGE_VAL);  ///< m
+  BodyBounds box;  ///< m
 };
 
 /// Centres of a body's matter at the start, within bounds.
@@ -173,8 +170,8 @@ std::vector<Vector3> centresWithin(const Body& body, double spacing, const CellB
     const SketchGrid grid = gridOf(voxels);
     for (const VoxelShape::Run& run : voxels.runs) {
       const auto first = grid.centreOf({run.x, run.y, run.z});
-      if (!grid.pose.turns() && (first[1] < bounds.minimum[1] || first[1] > bounds.maximum[1] ||
-                                 first[2] < bounds.minimum[2] || first[2] > bounds.maximum[2]))
+      if (!grid.pose.turns() && (first[1] < bounds.box.minimum[1] || first[1] > bounds.box.maximum[1] ||
+                                 first[2] < bounds.box.minimum[2] || first[2] > bounds.box.maximum[2]))
         continue;
       for (int k = 0; k < run.length; ++k) add(grid.centreOf({run.x + k, run.y, run.z}));
     }

@@ -11,7 +11,8 @@ namespace ps {
 class Toolbox;
 
 /// A hand in the scene that holds a body as TakeInHand does with a pointer: it goes where the hand goes, and turns with
-/// it. From being taken to being let go is one step of undo.
+/// it. From being taken to being let go is one step of undo,
+/// unless the other hand ends a stroke meanwhile.
 class HandTool {
  public:
   explicit HandTool(Toolbox& box) : m_box(box) {}

@@ -170,6 +170,7 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
   m_filled.clear();
+  m_occupied.reset();
   m_smooths = false;
   m_record = std::make_shared<StrokeRecord>();
   m_record->erase = erase;

@@ -30,11 +30,8 @@ std::optional<MeasureTool::End> MeasureTool::endAt(const Pointer& pointer) const
   return end;
 }
 
-void MeasureTool::hover(const Pointer& pointer) { m_hovered = endAt(pointer); }
-
 bool MeasureTool::press(const Pointer& pointer) {
-  hover(pointer);
-  m_from = m_hovered;
+  m_from = endAt(pointer);
   m_begun = box().document().changeCount();
   m_to.reset();
   m_dragged = true;
@@ -42,12 +39,9 @@ bool MeasureTool::press(const Pointer& pointer) {
 }
 
 void MeasureTool::drag(const Pointer& pointer) {
-  hover(pointer);
-  if (!m_from || !m_hovered) return;
-  m_to = m_hovered;
-  if (!pointer.shift) return;
-  m_to = End{alongAnAxis(m_from->place, m_to->place), std::nullopt};
-  m_hovered = m_to;
+  const std::optional<End> end = endAt(pointer);
+  if (!m_from || !end) return;
+  m_to = pointer.shift ? End{alongAnAxis(m_from->place, end->place), std::nullopt} : *end;
 }
 
 bool MeasureTool::cancel() {
@@ -57,8 +51,6 @@ bool MeasureTool::cancel() {
   m_dragged = false;
   return some;
 }
-
-void MeasureTool::leave() { m_hovered.reset(); }
 
 bool MeasureTool::measures() const { return m_from && m_to && box().document().had(m_begun); }
 

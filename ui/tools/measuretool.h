@@ -13,12 +13,10 @@ namespace ps {
 class MeasureTool final : public Tool {
  public:
   using Tool::Tool;
-  void hover(const Pointer& pointer) override;
   bool press(const Pointer& pointer) override;
   void drag(const Pointer& pointer) override;
   void release(const Pointer&) override { m_dragged = false; }
   bool cancel() override;
-  void leave() override;
   ToolPicture picture() const override;
   QString words() const override;
   std::vector<Gesture> gestures() const override;
@@ -32,7 +30,7 @@ class MeasureTool final : public Tool {
   bool measures() const;  ///< something, of the project that is open
   QString text() const;   ///< "" or what it says
 
-  std::optional<End> m_hovered, m_from, m_to;
+  std::optional<End> m_from, m_to;
   uint64_t m_begun = 0;  ///< Document::changeCount() then
   bool m_dragged = false;
 };

@@ -17,6 +17,7 @@ namespace ps {
 class BodyActions;
 class CurveTarget;
 class EditActions;
+class FavouriteBrushes;
 class FileActions;
 class GraphsPanel;
 class Help;
@@ -30,7 +31,6 @@ class PluginPage;
 class RestoreOffer;
 class Resuming;
 class Selection;
-class FavouriteBrushes;
 class SketchActions;
 class StatusLine;
 class ThingActions;
