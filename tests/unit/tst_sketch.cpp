@@ -421,8 +421,8 @@ class TestSketch : public QObject {
     QVERIFY(aside.size() > 3 * 4);
     // Without gravity it stands upright; in a turned sketch it is level all the same.
     QVERIFY(flooded(grid, cellsOf({{0, 3, 0}}), {}, {0, 0, 0}, open) == left);
-    const SketchGrid turned{grid.origin, grid.spacing,
-                            {Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 0, 1))), {0.3, 0, 0}}};
+    const SketchGrid turned{
+        grid.origin, grid.spacing, {Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 0, 1))), {0.3, 0, 0}}};
     const CellSet oblique = flooded(turned, cellsOf({{0, 2, 0}}), {}, gravity, open);
     const double level = turned.centreOf({0, 2, 0}).y();
     QVERIFY(oblique.size() > 10);
