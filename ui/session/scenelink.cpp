@@ -34,6 +34,19 @@ std::vector<AddCells> refill(const StrokeRecord& stroke, const Document& documen
   return cells;
 }
 
+/// Cells that a stroke has filled in the document, on its lattice: others of those that it touched may be of an earlier
+/// one.
+std::vector<std::array<int, 3>> filledCells(const StrokeRecord& stroke) {
+  CellSet cells;
+  for (const SceneEdit& edit : stroke.edits) {
+    if (const auto* some = std::get_if<CellsEdit>(&edit); some && !some->erase)
+      cells.add(VoxelCanvas(some->cells).cells().cells());
+    if (const auto* body = std::get_if<BodyEdit>(&edit); body && !body->before && body->after)
+      cells.add(VoxelCanvas(std::get<VoxelShape>(body->after->shape).runs).cells().cells());
+  }
+  return cells.indices();
+}
+
 /// What a stroke has painted in the document, by what it was painted from.
 std::vector<NameMatter> paintedMatter(const StrokeRecord& stroke, const Document& document) {
   std::vector<NameMatter> named;
@@ -232,7 +245,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
       named.insert(named.end(), painted.begin(), painted.end());
       continue;
     }
-    named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, stroke->cells});
+    named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, filledCells(*stroke)});
     carryLattice(named.back().lattice, way);
   }
   return named;
