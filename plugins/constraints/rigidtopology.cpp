@@ -37,8 +37,9 @@ constexpr uint8_t kTaken = 2;
 
 /// A body in the making: places of a group's members that are left, and particles that have come to them.
 struct Piece {
-  size_t group = 0;  ///< of the batch; its count for a piece that begins
-  std::vector<size_t> kept;
+  size_t group = 0;          ///< of the batch; its count for a piece that begins
+  bool whole = false;        ///< all members of the group are left, and not listed
+  std::vector<size_t> kept;  ///< else those that are
   std::vector<uint32_t> joined;
   bool changed = false;
 };
@@ -64,7 +65,7 @@ class Reshaping {
     if (edited || m_joining.anybody()) {
       m_pieceOf.assign(m_p.count, kNone);
       for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
-        for (const size_t k : m_pieces[piece].kept) m_pieceOf[m_all.particles[k]] = piece;
+        forKept(m_pieces[piece], [&](size_t k) { m_pieceOf[m_all.particles[k]] = piece; });
       }
       freeze();
       growTogether();
@@ -80,21 +81,32 @@ class Reshaping {
  private:
   size_t least(uint32_t particle) const { return leastMembers(m_context.parametersOf(m_p.body[particle])); }
 
+  template <class Visit>
+  void forKept(const Piece& piece, Visit&& visit) const {
+    if (piece.whole) {
+      for (size_t k = m_all.begin[piece.group]; k < m_all.begin[piece.group + 1]; ++k) visit(k);
+    }
+    for (const size_t k : piece.kept) visit(k);
+  }
+
   /// Members that have melted leave; what is left falls into what hangs together.
   void split(size_t g) {
-    std::vector<size_t> kept;
-    for (size_t k = m_all.begin[g]; k < m_all.begin[g + 1]; ++k) {
-      if (m_p.motion[m_all.particles[k]] == Motion::Solid) kept.push_back(k);
-    }
-    const size_t before = m_all.begin[g + 1] - m_all.begin[g];
-    if (kept.size() == before && m_all.changed[g] == 0) {
-      m_pieces.push_back({g, std::move(kept), {}, false});
+    const size_t first = m_all.begin[g], last = m_all.begin[g + 1], before = last - first;
+    size_t solid = 0;
+    for (size_t k = first; k < last; ++k) solid += melted(k) ? 0 : 1;
+    if (solid == before && m_all.changed[g] == 0) {
+      m_pieces.push_back({g, true, {}, {}, false});
       return;
+    }
+    std::vector<size_t> kept;
+    kept.reserve(solid);
+    for (size_t k = first; k < last; ++k) {
+      if (!melted(k)) kept.push_back(k);
     }
     const size_t fewest = least(m_all.particles[m_all.begin[g]]);
     if (m_all.changed[g] == 0 && kept.size() >= fewest && staysWhole(g)) {
       m_gone[g] = 1;
-      m_pieces.push_back({g, std::move(kept), {}, true});
+      m_pieces.push_back({g, false, std::move(kept), {}, true});
       return;
     }
     std::vector<Vector> rest;
@@ -107,7 +119,7 @@ class Reshaping {
     m_gone[g] = whole ? 0 : 1;
     for (const std::vector<size_t>& members : pieces) {
       if (members.size() < fewest) continue;
-      Piece piece{g, {}, {}, !whole};
+      Piece piece{g, false, {}, {}, !whole};
       for (const size_t member : members) piece.kept.push_back(kept[member]);
       m_pieces.push_back(std::move(piece));
     }
@@ -231,7 +243,7 @@ class Reshaping {
     }
     for (const std::vector<size_t>& set : sets.sets()) {
       if (set.size() < std::max<size_t>(2, least(loose[set[0]]))) continue;
-      m_pieces.push_back({m_all.count, {}, {}, true});
+      m_pieces.push_back({m_all.count, false, {}, {}, true});
       for (const size_t s : set) assign(loose[s], static_cast<uint32_t>(m_pieces.size() - 1));
     }
   }
@@ -319,10 +331,10 @@ class Reshaping {
     for (const Piece* piece : {&a, &b}) {
       if (piece->group < m_all.count) m_gone[piece->group] = 1;
     }
-    for (const size_t k : b.kept) a.joined.push_back(m_all.particles[k]);
+    forKept(b, [&](size_t k) { a.joined.push_back(m_all.particles[k]); });
     a.joined.insert(a.joined.end(), b.joined.begin(), b.joined.end());
     a.changed = true;
-    b = {m_all.count, {}, {}, false};
+    b = {m_all.count, false, {}, {}, false};
   }
 
   /// Members keep their velocities, and a body takes its momentum from them: none is lost on the way.
@@ -335,9 +347,9 @@ class Reshaping {
       return;
     }
     const RigidBody body(m_p, m_all, piece.group, m_threads);
-    for (const size_t k : piece.kept) {
+    forKept(piece, [&](size_t k) {
       group.add(m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
-    }
+    });
     const double scale = body.scale(), shrunk = 1 / (scale * scale * scale);
     for (const uint32_t i : piece.joined) {
       group.add(i, body.restOf(vectorOf(m_p.position[i])), static_cast<float>(double{m_p.position[i].w} * shrunk));
