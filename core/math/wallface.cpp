@@ -40,9 +40,7 @@ Vector3 WallFace::fromMiddle(const Vector3& place) const {
   return apart - m_axis.dot(apart) * m_axis;
 }
 
-double WallFace::heightOf(const Vector3& place) const {
-  return isCurved() ? m_side * (fromMiddle(place).norm() - m_radius) : m_plane.heightOf(place);
-}
+double WallFace::heightOfCurved(const Vector3& place) const { return m_side * (fromMiddle(place).norm() - m_radius); }
 
 Plane WallFace::at(const Vector3& place) const {
   if (!isCurved()) return m_plane;

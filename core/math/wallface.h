@@ -30,7 +30,7 @@ class WallFace {
   const Vector3& axis() const { return m_axis; }      ///< unit vector of a cylinder; zero of a sphere
   double radius() const { return m_radius; }          ///< m
   /// m; negative behind the wall.
-  double heightOf(const Vector3& place) const;
+  double heightOf(const Vector3& place) const { return isCurved() ? heightOfCurved(place) : m_plane.heightOf(place); }
   /// The plane that touches the face where it is nearest to a place, above it the matter's side: heightOf() of it is
   /// that of the face there. On the axis, or in the centre, one of all directions.
   Plane at(const Vector3& place) const;
@@ -41,6 +41,7 @@ class WallFace {
  private:
   /// m, from the centre, or straight from the axis.
   Vector3 fromMiddle(const Vector3& place) const;
+  double heightOfCurved(const Vector3& place) const;
 
   WallForm m_form = WallForm::Plane;
   Plane m_plane;

@@ -49,14 +49,20 @@ class CellGrid {
   /// visit(first, last) for slots that hold all places within `edge` m of a place, across the faces of a period too.
   template <class Visit>
   void around(const api::Double3& place, Visit&& visit) const {
-    const int at[3] = {along(place.x, 0), along(place.y, 1), along(place.z, 2)};
+    aroundCell(cellOf(place), [&](size_t c) { visit(m_starts[c], m_starts[c + 1]); });
+  }
+  /// visit(cell) for a cell and those next to it, across the faces of a period too.
+  template <class Visit>
+  void aroundCell(size_t c, Visit&& visit) const {
+    const int own = static_cast<int>(c), nx = m_cells[0], ny = m_cells[1];
+    const int at[3] = {own % nx, own / nx % ny, own / (nx * ny)};
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
         const int z = turned(at[2] + dz, 2), y = turned(at[1] + dy, 1);
         if (z < 0 || y < 0) continue;
         for (int dx = -1; dx <= 1; ++dx) {
           const int x = turned(at[0] + dx, 0);
-          if (x >= 0) visit(m_starts[cell(x, y, z)], m_starts[cell(x, y, z) + 1]);
+          if (x >= 0) visit(cell(x, y, z));
         }
       }
     }

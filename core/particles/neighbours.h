@@ -32,6 +32,8 @@ class Neighbours {
 
   api::NeighbourView view() const;
   double support() const { return m_support; }
+  /// Whom a list may name lies in the cells around the particle's own.
+  const CellGrid& grid() const { return m_grid; }
   /// m, the shortest box that may repeat itself: no particle then meets another one twice.
   static double leastPeriod(double searchRadius) { return 3 * kCellMargin * searchRadius; }
   /// Positions that the present lists were made for.

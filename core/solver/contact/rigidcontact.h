@@ -259,7 +259,8 @@ class RigidContact {
   std::vector<Rub> m_materials;
   std::vector<uint8_t> m_isMember;
   std::vector<uint32_t> m_bodyOf;
-  std::vector<uint32_t> m_rank;  ///< 1 + body of what holds its shape, kNone where it has none, 0 of others
+  std::vector<uint32_t> m_rank;         ///< 1 + body of what holds its shape, kNone where it has none, 0 of others
+  std::vector<uint32_t> m_highestRank;  ///< by cell
   std::vector<Body> m_bodies;
   std::vector<Contact> m_contacts, m_former;  ///< by scattered key
   static constexpr size_t kBuckets = 64, kBucketShift = 58;
