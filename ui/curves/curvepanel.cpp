@@ -58,7 +58,8 @@ class NoteLabel final : public QLabel {
 
 QLineEdit* field(const QString& name) {
   auto* line = new QLineEdit;
-  line->setFixedWidth(108);
+  line->setMinimumWidth(76);  // where there is little room
+  line->setMaximumWidth(108);
   line->setAlignment(Qt::AlignRight);
   line->setAccessibleName(name);
   return line;
@@ -80,7 +81,8 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
       m_value(field(QStringLiteral("Value of the point"))),
       m_slope(field(QStringLiteral("Slope at the point"))) {
   m_slopeLabel->setText(QStringLiteral("Slope"));
-  m_slope->setFixedWidth(132);
+  m_slope->setMinimumWidth(84);
+  m_slope->setMaximumWidth(132);
   m_slope->setPlaceholderText(QStringLiteral("–"));
   m_between->setAccessibleName(QStringLiteral("Between points"));
   m_between->setToolTip(QStringLiteral("How the curve goes between its points; the table has each by itself"));
@@ -91,6 +93,11 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
   m_between->setMinimumContentsLength(14);
   layOut();
   connectParts(session);
+  if (!target.isKnown()) return;
+  showTitle();
+  showPoint();
+  showBetween();
+  showOverlays();
 }
 
 void CurvePanel::layOut() {

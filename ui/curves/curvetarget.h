@@ -62,6 +62,8 @@ class CurveTarget : public QObject {
   Document& document() const;
   std::string material() const;   ///< SceneMaterial::id; "" in a scene without any
   QString materialLabel() const;  ///< as people call it
+  /// Whether there is something to be tuned.
+  bool isKnown() const { return m_track || !material().empty(); }
   Address address() const { return {Owner::Material, material(), m_key}; }
   /// Of what has keys, where they are edited.
   const std::optional<Address>& track() const { return m_track; }

@@ -71,12 +71,15 @@ CurveView::CurveView(CurveTarget& target, QWidget* parent) : QWidget(parent), m_
   setMouseTracking(true);
   setAcceptDrops(true);
   setAccessibleName(QStringLiteral("Curve"));
-  connect(&target, &CurveTarget::targetChanged, this, [this] {
-    dropDrag(true);
+  const auto take = [this] {
     m_shown = m_target.response();
     setAccessibleName(m_target.title() + QLatin1Char(' ') + m_target.subtitle());
     showParticles();
     fit();
+  };
+  connect(&target, &CurveTarget::targetChanged, this, [this, take] {
+    dropDrag(true);
+    take();
   });
   connect(&target, &CurveTarget::responseChanged, this, [this] {
     const Response::Kind before = m_shown.kind;
@@ -85,6 +88,7 @@ CurveView::CurveView(CurveTarget& target, QWidget* parent) : QWidget(parent), m_
     update();
   });
   connect(&target, &CurveTarget::pointChanged, this, [this] { update(); });
+  if (target.isKnown()) take();
 }
 
 bool CurveView::logarithmic() const { return m_target.declaration().scale == api::Scale::Logarithmic; }

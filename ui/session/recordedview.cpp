@@ -105,6 +105,14 @@ void RecordedView::unpack() {
   });
 }
 
+void RecordedView::setLoop(bool on) {
+  if (std::exchange(m_loop, on) != on) Q_EMIT paceChanged();
+}
+
+void RecordedView::setSpeed(double speed) {
+  if (std::exchange(m_speed, speed) != speed) Q_EMIT paceChanged();
+}
+
 bool RecordedView::isMeant() const { return (isActive() || m_loop) && extent().frames > 1; }
 
 void RecordedView::play() {

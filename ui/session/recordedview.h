@@ -40,9 +40,10 @@ class RecordedView : public QObject {
   bool playing() const { return m_clock.isActive(); }
   /// Whether to play is to play the record: a frame of it is shown, or it loops.
   bool isMeant() const;
-  void setLoop(bool on) { m_loop = on; }
+  void setLoop(bool on);
   bool loops() const { return m_loop; }
-  void setSpeed(double speed) { m_speed = speed; }  ///< s of the run per s
+  void setSpeed(double speed);  ///< s of the run per s
+  double speed() const { return m_speed; }
   /// The run goes on from the frame that is shown.
   void continueFromHere();
   /// Runs that were left by that, the oldest first.
@@ -69,6 +70,7 @@ class RecordedView : public QObject {
  Q_SIGNALS:
   void changed();
   void playingChanged();
+  void paceChanged();  ///< another speed, or whether it loops
   void comparedChanged();
   void runsChanged();  ///< deleted, in part or as wholes, named, or told apart otherwise
   void ghostChanged();

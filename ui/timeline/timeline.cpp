@@ -3,7 +3,6 @@
 
 #include "ui/timeline/keyrows.h"
 #include "ui/timeline/markerrow.h"
-#include "ui/timeline/transport.h"
 
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
@@ -17,12 +16,12 @@ constexpr int kMostRows = 4;  ///< that are shown without scrolling
 
 }  // namespace
 
-Timeline::Timeline(Session& session, QWidget* parent)
+Timeline::Timeline(Session& session, PointedBy by, QWidget* parent)
     : QWidget(parent),
       m_keys(new KeyRows(session)),
       m_markers(new MarkerRow(session, *m_keys)),
       m_scroll(new QScrollArea),
-      m_transport(new Transport(session)) {
+      m_transport(new Transport(session, by)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/timeline/transport.h"
+
 #include <QtWidgets/QWidget>
 
 #include <utility>
@@ -12,13 +14,12 @@ namespace ps {
 class KeyRows;
 class MarkerRow;
 class Session;
-class Transport;
 
 /// The transport, and below it markers and the keys of what is animated, where there are any.
 class Timeline : public QWidget {
   Q_OBJECT
  public:
-  explicit Timeline(Session& session, QWidget* parent = nullptr);
+  explicit Timeline(Session& session, PointedBy by = PointedBy::Mouse, QWidget* parent = nullptr);
   /// What keys and buttons do here: {"Drag", "Show any recorded time"}.
   static std::vector<std::pair<QString, QString>> gestures();
 

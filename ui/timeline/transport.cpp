@@ -21,6 +21,7 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QToolButton>
+#include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,8 @@
 namespace ps {
 namespace {
 
-constexpr int kHeight = 40;
-constexpr int kBar = 4, kReach = 10;  ///< logical pixels: of the bar, and of what a hand takes as it
-constexpr int kGap = 3;               ///< between it and the lines of earlier runs
+constexpr int kGap = 3;                              ///< between the bar and the lines of earlier runs
+constexpr int kHandRow = 30, kHandLeastButton = 40;  ///< logical pixels
 
 QToolButton* toolButton(const QString& iconName, const QString& tip) {
   auto* button = new QToolButton;
@@ -42,6 +42,20 @@ QToolButton* toolButton(const QString& iconName, const QString& tip) {
 }
 
 }  // namespace
+
+/// Logical pixels.
+struct Transport::Sizes {
+  int height;
+  int bar, reach;          ///< of the bar, and of what is taken as it
+  int left, right, below;  ///< beside the buttons, and from them to the bar
+  int mark;                ///< width of what says which frame is shown
+};
+
+/// On the board in a headset a row is 26 pixels high at least, and the bar is one.
+const Transport::Sizes& Transport::sizesOf(PointedBy by) {
+  static constexpr Sizes kMouse{40, 4, 10, 8, 12, 4, 2}, kHand{4 + 3 * kHandRow + 8 + 28, 20, 28, 8, 8, 28, 4};
+  return by == PointedBy::Mouse ? kMouse : kHand;
+}
 
 /// The clock of accelerated heat. It takes the room that is left and lays nothing else out anew as its digits change;
 /// where the room is short, the words around the span of time go first.
@@ -90,9 +104,10 @@ ThermalTexts ThermalTexts::fitting(double room) const {
   return shown;
 }
 
-Transport::Transport(Session& session, QWidget* parent)
+Transport::Transport(Session& session, PointedBy by, QWidget* parent)
     : QWidget(parent),
       m_session(session),
+      m_sizes(sizesOf(by)),
       m_reset(toolButton(QStringLiteral("reset-to-start"), QStringLiteral("Back to the start (Home)"))),
       m_step(toolButton(QStringLiteral("step"), QStringLiteral("One frame (→)"))),
       m_back(toolButton(QStringLiteral("step-back"), QStringLiteral("One recorded frame back (←)"))),
@@ -104,44 +119,72 @@ Transport::Transport(Session& session, QWidget* parent)
       m_duration(new QLabel),
       m_thermal(new ThermalClock),
       m_runs(new RunLines(session, this)) {
-  setFixedHeight(kHeight);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 0, 12, 4);
-  row->setSpacing(4);
+  setFixedHeight(m_sizes.height);
   m_play->setObjectName(QStringLiteral("psPlay"));
   m_play->setProperty("primary", true);
-  m_play->setFixedWidth(34);
   m_play->setFocusPolicy(Qt::TabFocus);
   m_time->setFont(Theme::font(TextRole::Time));
   m_duration->setProperty("role", "muted");
-  for (QWidget* widget : std::initializer_list<QWidget*>{m_reset, m_back, m_play, m_step, m_loop, m_speed})
-    row->addWidget(widget);
-  row->addSpacing(10);
-  row->addWidget(m_time);
-  row->addWidget(m_duration);
-  row->addSpacing(12);
-  row->addWidget(m_continue);
-  row->addSpacing(6);
-  row->addWidget(m_thermal, 1);
+  layOut(by);
   m_continue->setFocusPolicy(Qt::TabFocus);
   m_continue->setToolTip(
       QStringLiteral("The run goes on from the frame that is shown.\nAs it was, it is kept: a line above the bar."));
   m_continue->hide();
   setMouseTracking(true);
   setAccessibleName(QStringLiteral("Transport"));
+  m_loop->setCheckable(true);
   makeSpeeds();
   connectParts();
   styleButtons();
-  setPlaying(false);
-  setReady(false);
-  refresh();
+  setReady(session.isReady());
+  setStateTime(session.document().project().state ? session.document().project().state->time : 0);
+  setDuration(session.document().project().duration);
+  showTimeScale();
+  setPlaying(session.playing());
+  showRecorded();
+}
+
+/// In one row; for hands in three, of which the first has the buttons.
+void Transport::layOut(PointedBy by) {
+  const std::initializer_list<QWidget*> buttons{m_reset, m_back, m_play, m_step, m_loop, m_speed};
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (QWidget* widget : buttons) row->addWidget(widget);
+  if (by == PointedBy::Mouse) {
+    setLayout(row);
+    m_play->setFixedWidth(34);
+    row->addSpacing(10);
+    row->addWidget(m_time);
+    row->addWidget(m_duration);
+    row->addSpacing(12);
+    row->addWidget(m_continue);
+    row->addSpacing(6);
+    row->addWidget(m_thermal, 1);
+  } else {
+    auto* rows = new QVBoxLayout(this);
+    rows->setSpacing(4);
+    for (QWidget* widget : buttons) {
+      widget->setFixedHeight(kHandRow);
+      widget->setMinimumWidth(kHandLeastButton);
+      widget->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    }
+    m_thermal->setMinimumHeight(kHandRow);
+    m_continue->setFixedHeight(kHandRow);
+    auto *clocks = new QHBoxLayout, *rest = new QHBoxLayout;
+    clocks->addWidget(m_time);
+    clocks->addWidget(m_duration, 1);
+    rest->addWidget(m_thermal, 1);
+    rest->addWidget(m_continue);
+    for (QHBoxLayout* line : {row, clocks, rest}) rows->addLayout(line, 1);
+  }
+  layout()->setContentsMargins(m_sizes.left, 0, m_sizes.right, m_sizes.below);
 }
 
 void Transport::connectParts() {
   connect(m_continue, &QPushButton::clicked, &m_session.recorded(), &RecordedView::continueFromHere);
   connect(&m_session.recorded(), &RecordedView::changed, this, &Transport::showRecorded);
   connect(&m_session.recorded(), &RecordedView::runsChanged, this, &Transport::refresh);
-  m_loop->setCheckable(true);
+  connect(&m_session.recorded(), &RecordedView::paceChanged, this, &Transport::showPace);
   connect(m_loop, &QToolButton::toggled, &m_session.recorded(), &RecordedView::setLoop);
   connect(m_back, &QToolButton::clicked, &m_session.recorded(), [this] { m_session.recorded().step(-1); });
   connect(m_reset, &QToolButton::clicked, &m_session, &Session::reset);
@@ -167,15 +210,22 @@ void Transport::makeSpeeds() {
     QAction* action = menu->addAction(formatShort(speed) + QStringLiteral("×"));
     action->setCheckable(true);
     choice->addAction(action);
-    connect(action, &QAction::triggered, this, [this, speed, text = action->text()] {
-      m_session.setSpeed(speed);
-      m_speed->setText(text);
-      m_speed->setAccessibleName(QStringLiteral("Speed ") + text);
-    });
-    if (speed == 1) action->trigger();
+    action->setData(speed);
+    connect(action, &QAction::triggered, this, [this, speed] { m_session.setSpeed(speed); });
   }
   m_speed->setMenu(menu);
   m_speed->setMinimumWidth(48);
+  showPace();
+}
+
+/// There may be several of these.
+void Transport::showPace() {
+  const RecordedView& recorded = m_session.recorded();
+  m_loop->setChecked(recorded.loops());
+  for (QAction* action : m_speed->menu()->actions())
+    if (action->data().toDouble() == recorded.speed()) action->setChecked(true);
+  m_speed->setText(formatShort(recorded.speed()) + QStringLiteral("×"));
+  m_speed->setAccessibleName(QStringLiteral("Speed ") + m_speed->text());
 }
 
 void Transport::onChanged(const ChangeEvent& event) {
@@ -271,7 +321,7 @@ double Transport::span() const { return timeAxisEnd(m_session, m_total); }
 double Transport::perSecond() const { return std::max(1, width() - m_axis.left - m_axis.right) / span(); }
 
 QPoint Transport::placeOf(double seconds) const {
-  return {static_cast<int>(std::lround(m_axis.left + perSecond() * seconds)), height() - kBar / 2};
+  return {static_cast<int>(std::lround(m_axis.left + perSecond() * seconds)), height() - m_sizes.bar / 2};
 }
 
 void Transport::setAxis(TimeAxis axis) {
@@ -285,7 +335,7 @@ void Transport::scrub(double x) {
 }
 
 void Transport::mousePressEvent(QMouseEvent* event) {
-  m_scrubs = event->button() == Qt::LeftButton && event->position().y() >= height() - kReach &&
+  m_scrubs = event->button() == Qt::LeftButton && event->position().y() >= height() - m_sizes.reach &&
              m_session.recorded().extent().frames > 0;
   if (m_scrubs)
     scrub(event->position().x());
@@ -294,7 +344,7 @@ void Transport::mousePressEvent(QMouseEvent* event) {
 }
 
 void Transport::mouseMoveEvent(QMouseEvent* event) {
-  const bool bar = m_scrubs || event->position().y() >= height() - kReach;
+  const bool bar = m_scrubs || event->position().y() >= height() - m_sizes.reach;
   setCursor(bar && m_session.recorded().extent().frames > 0 ? Qt::PointingHandCursor : Qt::ArrowCursor);
   if (m_scrubs) scrub(event->position().x());
 }
@@ -320,9 +370,9 @@ void Transport::contextMenuEvent(QContextMenuEvent* event) {
 void Transport::makeRoom() {
   m_runs->setSpan(span());
   const int lines = m_runs->wantedHeight();
-  if (kHeight + lines == minimumHeight()) return;
-  setFixedHeight(kHeight + lines);
-  layout()->setContentsMargins(8, 0, 12, kBar + lines);
+  if (m_sizes.height + lines == minimumHeight()) return;
+  setFixedHeight(m_sizes.height + lines);
+  layout()->setContentsMargins(m_sizes.left, 0, m_sizes.right, m_sizes.below + lines);
   m_runs->setVisible(lines > 0);
   Q_EMIT heightChanged();
 }
@@ -331,7 +381,7 @@ void Transport::resizeEvent(QResizeEvent*) { placeRuns(); }
 
 void Transport::placeRuns() {
   const int lines = m_runs->wantedHeight();
-  m_runs->setGeometry(m_axis.left, height() - kBar - kGap - lines, width() - m_axis.left - m_axis.right, lines);
+  m_runs->setGeometry(m_axis.left, height() - m_sizes.bar - kGap - lines, width() - m_axis.left - m_axis.right, lines);
 }
 
 void Transport::refresh() {
@@ -339,7 +389,7 @@ void Transport::refresh() {
   m_time->setText(timeText());
   m_duration->setText(durationText());
   m_thermal->setTexts(thermalTexts());
-  update(0, height() - kReach, width(), kReach);
+  update(0, height() - m_sizes.reach, width(), m_sizes.reach);
 }
 
 void Transport::paintEvent(QPaintEvent*) {
@@ -347,13 +397,14 @@ void Transport::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
   const RunRecord::Extent kept = m_session.recorded().extent();
-  const double top = height() - kBar, scale = perSecond();
+  const double top = height() - m_sizes.bar, scale = perSecond();
   const auto xOf = [&](double seconds) { return m_axis.left + scale * seconds; };
-  painter.fillRect(QRectF(m_axis.left, top, scale * span(), kBar), theme[Token::Field]);
+  painter.fillRect(QRectF(m_axis.left, top, scale * span(), m_sizes.bar), theme[Token::Field]);
   if (kept.frames > 0)
-    painter.fillRect(QRectF(xOf(kept.from), top, (kept.to - kept.from) * scale, kBar), theme[Token::SliderFill]);
+    painter.fillRect(QRectF(xOf(kept.from), top, (kept.to - kept.from) * scale, m_sizes.bar), theme[Token::SliderFill]);
   const auto mark = [&](double seconds, double rise, Token token) {
-    painter.fillRect(QRectF(std::floor(xOf(seconds)) - 1, top - rise, 2, kBar + rise), theme[token]);
+    const double width = m_sizes.mark;
+    painter.fillRect(QRectF(std::floor(xOf(seconds)) - width / 2, top - rise, width, m_sizes.bar + rise), theme[token]);
   };
   if (m_stateSeconds > 0 && m_stateSeconds <= m_total) mark(m_stateSeconds, 1, Token::Text2);  // where it opens
   if (m_session.recorded().isActive()) mark(m_seconds, 4, Token::Accent);

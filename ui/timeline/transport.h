@@ -25,13 +25,16 @@ struct ThermalTexts {
   ThermalTexts fitting(double room) const;  ///< without what has no room, the span last
 };
 
+/// What points at it: a hand in a headset needs larger targets than a mouse.
+enum class PointedBy { Mouse, Hand };
+
 /// Reset, steps, play, loop, speed; the two clocks; below them the part of the planned duration that is recorded, in
 /// which a drag shows any frame, and above that the earlier runs. While one is shown it says so, and from where the run
 /// goes on.
 class Transport : public QWidget {
   Q_OBJECT
  public:
-  explicit Transport(Session& session, QWidget* parent = nullptr);
+  explicit Transport(Session& session, PointedBy by = PointedBy::Mouse, QWidget* parent = nullptr);
   void setPlaying(bool playing);
   void setReady(bool ready);
   void setDuration(double seconds);
@@ -67,10 +70,14 @@ class Transport : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  struct Sizes;
+  static const Sizes& sizesOf(PointedBy by);
+  void layOut(PointedBy by);
   void onChanged(const ChangeEvent& event);
   void showTimeScale();
   void connectParts();
   void makeSpeeds();
+  void showPace();
   void showRecorded();
   void placeRuns();
   void makeRoom();  ///< for the lines of earlier runs
@@ -80,6 +87,7 @@ class Transport : public QWidget {
   double perSecond() const;  ///< logical pixels
   void scrub(double x);
   Session& m_session;
+  const Sizes& m_sizes;
   QToolButton *m_reset, *m_step, *m_back, *m_loop, *m_speed;
   QPushButton *m_play, *m_continue;
   QLabel *m_time, *m_duration;

@@ -88,7 +88,7 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }, "tuning"},
       {"dock.points", "Points", makePoints, "tuning"},
       {"dock.film", "Film", makeFilm, "files"},
-      {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session); }, "timeline"},
+      {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session, c.by); }, "timeline"},
   };
   return kTable;
 }

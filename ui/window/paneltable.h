@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/timeline/transport.h"
+
 #include <vector>
 
 class QWidget;
@@ -21,6 +23,7 @@ struct PanelContext {
   Inspector& inspector;
   CurveTarget& curves;
   Viewport* view;  ///< nullptr where there is no picture
+  PointedBy by = PointedBy::Mouse;
 };
 
 /// One page of a dock. A new panel is a class in a file of its own and a row in the table.

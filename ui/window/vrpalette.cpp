@@ -126,20 +126,25 @@ void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<
   m_choices.push_back({value, std::move(text)});
 }
 
+/// In two rows, each of which is as wide as the others.
 void VrPalette::addPages(QGridLayout& grid, const std::vector<const char*>& pages) {
-  int line = grid.rowCount(), column = 0;
-  for (const char* page : pages) {
-    const QString title = QString::fromLatin1(page);
+  const auto upper = static_cast<int>(pages.size() + 1) / 2, lower = static_cast<int>(pages.size()) - upper;
+  auto* rows = new QGridLayout;
+  rows->setSpacing(kGap);
+  for (int column = 0; column < upper * std::max(1, lower); ++column) rows->setColumnStretch(column, 1);
+  for (int k = 0; k < upper + lower; ++k) {
+    const QString title = QString::fromLatin1(pages[static_cast<size_t>(k)]);
     auto* one = new QToolButton;
     one->setText(title);
     one->setAccessibleName(title);
     one->setMinimumHeight(kButton);
     one->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     connect(one, &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
-    grid.addWidget(one, line, column, 1, 2);
-    column += 2;
-    if (column == kColumns) ++line, column = 0;
+    const bool above = k < upper;
+    const int wide = above ? std::max(1, lower) : upper, place = above ? k : k - upper;
+    rows->addWidget(one, above ? 0 : 1, place * wide, 1, wide);
   }
+  grid.addLayout(rows, grid.rowCount(), 0, 1, kColumns);
 }
 
 void VrPalette::follow() {

@@ -30,7 +30,7 @@ namespace ps {
 namespace {
 
 /// Pages that the board can show, as their docks call them.
-constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve"};
+constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve", "Transport"};
 /// m of the room for each logical pixel: rows of 26 are 34 mm on the board, where the eyes are 0.75 m away, and letters
 /// of 12 are 16 mm; the palette is held at half that.
 constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.85e-3;
@@ -118,8 +118,9 @@ QWidget* VrPanels::makePage(const QString& title) {
       panel->hide();
     }
   }
-  const PanelContext context{m_parts.session, m_parts.tools.selection(), m_parts.tools, *m_inspector, m_parts.curves,
-                             m_parts.view};
+  const PanelContext context{
+      m_parts.session, m_parts.tools.selection(), m_parts.tools, *m_inspector, m_parts.curves, m_parts.view,
+      PointedBy::Hand};
   for (const PanelRow& row : panelTable()) {
     if (title == QLatin1String(row.title)) page = row.make(context);
   }

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "tests/vr/vrwindow.h"
+#include "ui/rows/parameterrow.h"
+#include "ui/vr/panels.h"
+#include "ui/window/vrpanels.h"
+
+#include <QtWidgets/QToolButton>
+
+#include <numbers>
+
+// What tests of panels in the headset share: hands that point, keys of scripts, and a board that is pressed.
+namespace ps {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// A left hand before the wearer, whose palm faces them.
+inline vr::HandPose palm() {
+  const Vector3 toEyes = (scriptHead().position - Vector3(-0.05, 1.2, -0.2)).normalized();
+  return {{-0.05, 1.2, -0.2}, Quaternion::FromTwoVectors(Vector3::UnitX(), toEyes)};
+}
+
+/// A right hand at a place that points at another.
+inline vr::HandPose pointing(const Vector3& from, const Vector3& to) {
+  return {from, Quaternion::FromTwoVectors(-Vector3::UnitZ(), to - from)};
+}
+
+inline vr::HeadsetFrame frameOf(const std::optional<vr::HandPose>& left, const std::optional<vr::HandPose>& right,
+                                double pulled = 0) {
+  vr::HeadsetFrame frame;
+  frame.head = scriptHead();
+  frame.hands[vr::kLeft].grip = frame.hands[vr::kLeft].aim = left;
+  frame.hands[vr::kRight].grip = frame.hands[vr::kRight].aim = right;
+  frame.hands[vr::kRight].draw = pulled;
+  return frame;
+}
+
+inline QString poseText(const vr::HandPose& pose) {
+  const auto& q = pose.orientation;
+  QStringList numbers;
+  for (const double number : {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()})
+    numbers << QString::number(number, 'g', 9);
+  return QLatin1Char('[') + numbers.join(QStringLiteral(", ")) + QLatin1Char(']');
+}
+
+inline QString key(int frame, const char* hand, const vr::HandPose& pose, const QString& inputs = {}) {
+  return QStringLiteral(R"(, {"frame": %1, "%2": {"active": true, "grip": %3, "aim": %3%4}})")
+      .arg(QString::number(frame), QString::fromLatin1(hand), poseText(pose), inputs);
+}
+
+inline QString trigger(int value) { return QStringLiteral(R"(, "/input/trigger/value": %1)").arg(value); }
+
+class PanelsTest : public VrWindowTest {
+ protected:
+  VrPanels& panels() { return *vr().panels(); }
+  vr::HeadsetView painted() {
+    vr::HeadsetView view;
+    [&] { QTRY_VERIFY_WITH_TIMEOUT(panels().paint() || (panels().describe(view), view.panels[0].image), kLong); }();
+    QTest::qWait(150);
+    panels().paint();
+    panels().describe(view);
+    return view;
+  }
+  void enterWithout() {
+    m_window->action(QStringLiteral("simulation.tryVr"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
+  }
+  /// A right hand that points at a place of a widget of a panel.
+  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0) {
+    QWidget* on = panels().widget(panel);
+    const QPointF there = place + widget.mapTo(on, QPoint(0, 0));
+    vr::HandsSeen seen;
+    seen.seconds = m_seconds += 1;
+    seen.hands[vr::kRight].panel =
+        vr::PanelPoint{panel, there.x() / on->width(), there.y() / on->height(), 1, false, pressed};
+    seen.hands[vr::kRight].input.steerY = steer;
+    panels().act(seen);
+  }
+  QToolButton* button(size_t panel, const char* name) {
+    for (auto* one : panels().widget(panel)->findChildren<QToolButton*>())
+      if (one->accessibleName() == QString::fromLatin1(name)) return one;
+    return nullptr;
+  }
+  void click(size_t panel, QWidget& widget) {
+    const QPointF middle = QRectF(widget.rect()).center();
+    for (const bool pressed : {false, true, false}) at(panel, widget, middle, pressed);
+  }
+  ParameterRow* rowOf(const QString& name) {
+    for (auto* row : panels().widget(vr::kBoard)->findChildren<ParameterRow*>())
+      if (row->isVisible() && row->model().key == name) return row;
+    return nullptr;
+  }
+
+  double m_seconds = 0;
+};
+
+}  // namespace ps

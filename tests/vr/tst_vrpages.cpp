@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pages of the window on the board in the headset, worked on by beam and by fingertip: they do what a mouse does there.
+#include "tests/ui/curvewindow.h"
+#include "tests/ui/recordhands.h"
+#include "tests/vr/panelhands.h"
+#include "ui/theme/theme.h"
+#include "ui/timeline/timeline.h"
+#include "ui/window/vrwithout.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace ps;
+
+namespace {
+
+constexpr uint64_t kFrames = 12, kFrom = 2, kTo = 8;
+constexpr double kDuration = 0.4;  // s: a frame is then some fifteen pixels of the board wide
+
+}  // namespace
+
+class VrPagesTest : public PanelsTest {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() {
+    session().recorded().showNewest();
+    backToTheStart();
+  }
+  void cleanup() { leaveAtLast(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void theTimelineIsScrubbed_data();
+  void theTimelineIsScrubbed();
+  void theTimelinesTargetsAreLargeEnough();
+  void aPointOfACurveIsMoved();
+
+ private:
+  uint64_t shownFrame() { return session().snapshot()->stats.frame; }
+  Transport* transport() {
+    QWidget* board = panels().widget(vr::kBoard);
+    auto* one = board ? board->findChild<Transport*>() : nullptr;
+    if (one) one->setDuration(kDuration);
+    return one;
+  }
+};
+
+void VrPagesTest::theTimelineIsScrubbed_data() {
+  QTest::addColumn<bool>("byTip");
+  QTest::newRow("by a beam") << false;
+  QTest::newRow("by a fingertip") << true;
+}
+
+/// From the second frame to the eighth, end to end: what is shown then is what a drag of the mouse in the dock shows.
+void VrPagesTest::theTimelineIsScrubbed() {
+  QFETCH(bool, byTip);
+  for (uint64_t frame = 1; frame <= kFrames; ++frame) hands::stepKept(session());
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
+  m_window->transport()->setDuration(kDuration);
+  hands::scrubTo(*m_window->transport(), kTo);
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kTo, kLong);
+  session().recorded().showNewest();
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
+
+  enterWithout();
+  panels().showPage(QStringLiteral("Transport"));
+  const vr::HeadsetView view = painted();
+  const QWidget* board = panels().widget(vr::kBoard);
+  QVERIFY(transport());
+  const auto shareOf = [&](uint64_t frame) {
+    const QPointF at = transport()->mapTo(board, transport()->placeOf(double(frame) / 60));
+    return QPointF(at.x() / board->width(), at.y() / board->height());
+  };
+  const QPointF from = shareOf(kFrom), to = shareOf(kTo);
+  leaveAtLast();
+  vr::Panels geometry;
+  geometry.follow(frameOf({}, {}), view);
+  const auto place = geometry.place(vr::kBoard);
+  QVERIFY(place);
+  const Vector3 front = place->pose.orientation * Vector3::UnitZ();
+  const auto handAt = [&](const QPointF& share, double before) {
+    const Vector3 at = place->at(share.x(), share.y());
+    return byTip ? pointing(at + (before + vr::kTip) * front, at) : pointing({0.3, 1.15, 0.1}, at);
+  };
+  const double away = 0.025, through = -0.004;  // m before the board
+  const auto pulled = [&](int value) { return byTip ? QString() : trigger(value); };
+  const ScriptedRun run(vrScript(
+      QStringLiteral(R"(, "pictures": [150])"),
+      key(5, "right", handAt(from, away)) + key(100, "right", handAt(from, away), pulled(0)) +
+          key(110, "right", handAt(from, through), pulled(1)) + key(140, "right", handAt(to, through), pulled(1)) +
+          key(160, "right", handAt(to, through), pulled(0)) + key(170, "right", handAt(to, away), pulled(0))));
+  enter();
+  panels().showPage(QStringLiteral("Transport"));
+  QVERIFY(transport());
+  QVERIFY2(vr().frames() < 90, "the machine was too slow for the script");
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 175, 2 * kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kTo, kLong);
+  QVERIFY(session().recorded().isActive());
+  QCOMPARE(session().newest()->stats.frame, kFrames);
+  QVERIFY(document().undoStack().index() == 0);  // nothing was drawn or edited
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) run.picture(150, 0).save(folder + "/vr-timeline.png");
+  session().recorded().showNewest();
+}
+
+/// Of 2.5 degrees, 0.75 m away: buttons and the bar.
+void VrPagesTest::theTimelinesTargetsAreLargeEnough() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Transport"));
+  const vr::HeadsetView view = painted();
+  const QWidget* board = panels().widget(vr::kBoard);
+  const double pixel = view.panels[vr::kBoard].width / board->width();
+  const auto large = [&](double pixels) { return std::atan(pixels * pixel / 0.75) / kDegree > 2.5; };
+  QVERIFY(transport());
+  for (const auto* one : transport()->findChildren<QAbstractButton*>()) {
+    if (!one->isVisible()) continue;
+    QVERIFY2(one->isEnabled(), qPrintable(one->accessibleName()));
+    QVERIFY2(large(one->height()) && large(one->width()), qPrintable(one->accessibleName()));
+    const QRect there(one->mapTo(board, QPoint(0, 0)), one->size());
+    QVERIFY2(board->rect().contains(there), qPrintable(one->accessibleName()));
+  }
+  // Both transports say how fast it runs.
+  session().setSpeed(2);
+  for (Transport* one : {transport(), m_window->transport()})
+    QCOMPARE(one->speedButton()->text(), QStringLiteral("2×"));
+  click(vr::kBoard, *transport()->loopButton());
+  QVERIFY(m_window->transport()->loopButton()->isChecked() && session().recorded().loops());
+  click(vr::kBoard, *transport()->loopButton());
+  QVERIFY(!m_window->transport()->loopButton()->isChecked());
+  session().setSpeed(1);
+  // A press at the bar's upper end scrubs as one in its middle does.
+  hands::stepKept(session());
+  QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, uint64_t{1}, kLong);
+  int reach = 0;
+  for (int up = 1; up <= 40; ++up) {
+    session().recorded().showNewest();
+    const QPointF there(transport()->placeOf(0).x() + 1, transport()->height() - up);
+    for (const bool pressed : {false, true, false}) at(vr::kBoard, *transport(), there, pressed);
+    if (session().recorded().isActive() || QTest::qWaitFor([&] { return session().recorded().isActive(); }, 200))
+      reach = up;
+  }
+  QVERIFY2(large(reach), qPrintable(QString::number(reach)));
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) {
+    panels().widget(vr::kBoard)->grab().save(folder + "/vr-board-timeline.png");
+    panels().widget(vr::kPalette)->grab().save(folder + "/vr-palette-pages.png");
+  }
+  session().recorded().showNewest();
+}
+
+/// As one step of undo, to where the same way of the mouse moves it.
+void VrPagesTest::aPointOfACurveIsMoved() {
+  CurveTarget& curves = m_window->curves();
+  curves.choose(kViscosity);
+  QVERIFY(curves.set(curveThrough({{280, 0.0015}, {310, 0.001}, {350, 0.0005}}), QStringLiteral("Points")));
+  enterWithout();
+  panels().showPage(QStringLiteral("Curve"));
+  QTest::qWait(100);
+  auto* page = panels().widget(vr::kBoard)->findChild<CurvePanel*>();
+  QVERIFY(page && page->isVisible());
+  CurveView& view = *page->view();
+  view.fit();
+  const auto placeOf = [&](size_t k) {
+    const CurvePoint& point = curves.response().points[k];
+    return view.at(point.x, point.y);
+  };
+  curves.choosePoint(1);  // its numbers take a row below
+  QTest::qWait(50);
+  const QPointF from = placeOf(1), way(20, -30);
+  const int steps = document().undoStack().index();
+  hands::pull(view, from.toPoint(), way.toPoint());
+  const CurvePoint wanted = curves.response().points[1];
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  document().undoStack().undo();
+  curves.choosePoint(1);
+  QTest::qWait(50);
+  QCOMPARE(placeOf(1), from);
+  at(vr::kBoard, view, from, false);
+  for (const int k : {0, 1, 2, 3}) at(vr::kBoard, view, from + k * way / 3, true);
+  at(vr::kBoard, view, from + way, false);
+  const CurvePoint moved = curves.response().points[1];
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  QVERIFY(moved.x > 310 && moved.y > 0.001);
+  // Rows and columns of pixels are where both stop.
+  QVERIFY(std::abs(view.at(moved.x, moved.y).x() - view.at(wanted.x, wanted.y).x()) <= 1);
+  QVERIFY(std::abs(view.at(moved.x, moved.y).y() - view.at(wanted.x, wanted.y).y()) <= 1);
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) panels().widget(vr::kBoard)->grab().save(folder + "/vr-curve.png");
+}
+
+QTEST_MAIN(VrPagesTest)
+#include "tst_vrpages.moc"
