@@ -5,9 +5,11 @@
 #include "core/scene/solidform.h"
 #include "tests/ui/hands.h"
 #include "tests/vr/vrwindow.h"
+#include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/toolbox.h"
 #include "ui/vr/simulatedroom.h"
+#include "ui/window/vrfeel.h"
 #include "ui/window/vrwithout.h"
 
 #include <QtCore/QDir>
@@ -64,7 +66,9 @@ class VrHandsTest : public VrWindowTest {
   void aTriggerDrawsAStrokeThatAButtonTakesBack();
   void bothHandsDrawAtOnce();
   void aHeldGripErases();
+  void aHandHeatsWhileTheSceneRuns_data();
   void aHandHeatsWhileTheSceneRuns();
+  void heatIsFeltByHowSteepItIsAndWhatItMelts();
   void aGripLeadsABodyAndFeelsWhatPressesOnIt();
   void aStrokeOutlivesItsHeadset();
   void aHeadsetTakenOffEndsItsStroke();
@@ -148,7 +152,15 @@ void VrHandsTest::aHeldGripErases() {
   QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), before, kLong);
 }
 
+void VrHandsTest::aHandHeatsWhileTheSceneRuns_data() {
+  QTest::addColumn<int>("vibration");  // %
+  QTest::newRow("felt") << 60;
+  QTest::newRow("not felt") << 0;
+}
+
 void VrHandsTest::aHandHeatsWhileTheSceneRuns() {
+  QFETCH(int, vibration);
+  preferences::setVibration(vibration);
   const vr::Stand s = stand();
   const Vector3 at(0, 0.28, 0);
   m_window->tools().takeBrush("heat");
@@ -159,8 +171,69 @@ void VrHandsTest::aHandHeatsWhileTheSceneRuns() {
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QCOMPARE(document().undoStack().undoText(), QStringLiteral("Heat matter"));
   QCOMPARE(bodies(), m_before);
+  const uint64_t ended = vr().frames();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > ended + 20, kLong);
   leave();
   session().pause();
+  preferences::setVibration(60);
+  // A tick is none of it: that has no frequency of its own.
+  size_t felt = 0;
+  for (const auto& line : run.lines("haptic")) {
+    if (line.value("frequency", 0.0) == 0) continue;
+    ++felt;
+    QCOMPARE(line["haptic"].get<std::string>(), std::string("/user/hand/right/output/haptic"));
+    QVERIFY(line["frequency"] == 40 || line["frequency"] == 160);
+    QVERIFY(line["amplitude"] > 0.02 && line["amplitude"] <= 0.6001);
+    QVERIFY(line["frame"].get<int>() >= 20 && line["frame"].get<uint64_t>() < ended + 10);
+  }
+  QCOMPARE(felt > 0, vibration > 0);
+}
+
+/// A cube of matter that gets warmer along x by 1000 K/m: 63 % of the strongest. The plane through it is held level
+/// where matter is thin, by a thousandth of its spread.
+void VrHandsTest::heatIsFeltByHowSteepItIsAndWhatItMelts() {
+  Snapshot scene;
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      for (int z = -3; z <= 3; ++z) {
+        scene.position.push_back({0.01f * float(x), 0.01f * float(y), 0.01f * float(z), 0.005f});
+        scene.temperature.push_back(300 + 10 * float(x));
+        scene.phase.push_back(x < 0 ? api::Phase::Melting : api::Phase::Solid);
+      }
+  const Vector3 middle(0, 0, 0), away(1, 0, 0);
+  QVERIFY(std::abs(steepnessAt(scene, middle, 0.04) - 1000) < 10);
+  QVERIFY(std::abs(changingAt(scene, middle, 0.1) - 3.0 / 7) < 1e-9);
+  QCOMPARE(steepnessAt(scene, away, 0.1), 0.0);
+  QCOMPARE(changingAt(scene, away, 0.1), 0.0);
+  QCOMPARE(feelingOf(scene, away, 0.1).strength, 0.0);
+  const double clear = 1 - std::exp(-1.0);
+  const vr::Feeling melting = feelingOf(scene, middle, 0.1);  // three sevenths of it: more than it is steep
+  QCOMPARE(melting.frequency, 160.0);
+  QVERIFY(std::abs(melting.strength - (1 - std::exp(-3.0 / 7 / 0.25))) < 1e-9);
+  std::fill(scene.phase.begin(), scene.phase.end(), api::Phase::Solid);
+  const vr::Feeling steep = feelingOf(scene, middle, 0.04);
+  QCOMPARE(steep.frequency, 40.0);
+  QVERIFY(std::abs(steep.strength - clear) < 0.005);
+  // In a sheet it is as steep as along it.
+  Snapshot sheet;
+  for (size_t i = 0; i < scene.position.size(); ++i) {
+    if (scene.position[i].y != 0) continue;
+    sheet.position.push_back(scene.position[i]);
+    sheet.temperature.push_back(scene.temperature[i]);
+    sheet.phase.push_back(api::Phase::Solid);
+  }
+  QVERIFY(std::abs(steepnessAt(sheet, middle, 0.04) - 1000) < 10);
+  std::fill(sheet.temperature.begin(), sheet.temperature.end(), 300.f);
+  QCOMPARE(feelingOf(sheet, middle, 0.04).strength, 0.0);
+  // Of a body that is led.
+  ToolContact contact;
+  QCOMPARE(feelingOf(contact).strength, 0.0);
+  contact.force = {0, -5, 0};
+  QVERIFY(std::abs(feelingOf(contact).strength - clear) < 1e-9 && feelingOf(contact).frequency == 80);
+  contact.gradient = -2000;
+  QVERIFY(std::abs(feelingOf(contact).strength - (1 - std::exp(-2.0))) < 1e-9 && feelingOf(contact).frequency == 40);
+  contact.latent = 60;
+  QVERIFY(std::abs(feelingOf(contact).strength - (1 - std::exp(-3.0))) < 1e-9 && feelingOf(contact).frequency == 160);
 }
 
 /// A plate is taken above the block, led down onto it, and turned with the hand; let go it stands there, and one step

@@ -51,7 +51,7 @@ void setMouse(MousePreset preset);
 HandleSettings handles();
 void setHandles(const HandleSettings& settings);
 
-/// %, of the strongest that hands in a headset may feel from what they lead; 0: nothing but ticks.
+/// %, of the strongest that hands in a headset may feel from what they lead, heat and cool; 0: nothing but ticks.
 int vibration();
 void setVibration(int percent);
 

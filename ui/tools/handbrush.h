@@ -28,7 +28,8 @@ class HandBrush {
   void end();     ///< as far as it came
   void cancel();  ///< gives up what it does; it begins again when its trigger is pressed anew
   bool active() const { return m_stroke.active() || m_touch.active(); }
-  uint64_t begun() const { return m_begun; }  ///< strokes so far
+  bool heats() const { return m_touch.heats(); }  ///< or cools, now
+  uint64_t begun() const { return m_begun; }      ///< strokes so far
 
  private:
   void begin(const HandInScene& hand, const SnapshotPtr& scene);

@@ -32,7 +32,8 @@ class LiveTouch {
   /// Lets go, and takes back what it gave.
   void cancel();
   bool active() const { return m_record != nullptr; }
-  bool holds() const { return m_holds; }  ///< it carries what it has taken hold of
+  bool heats() const { return active() && m_heats; }  ///< or cools
+  bool holds() const { return m_holds; }              ///< it carries what it has taken hold of
 
  private:
   QString whyNot() const;

@@ -53,6 +53,12 @@ struct HandsSeen {
   std::array<Hand, 2> hands;
 };
 
+/// What a hand feels for as long as it does.
+struct Feeling {
+  double strength = 0;    ///< 0..1
+  double frequency = 80;  ///< Hz
+};
+
 /// What the editor shows at a time.
 struct HeadsetView {
   SnapshotPtr matter;   ///< nullptr: nothing yet
@@ -63,7 +69,7 @@ struct HeadsetView {
   uint64_t project = 0;                ///< with another one the scene is set before its wearer anew
   std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
   std::array<uint64_t, 2> ticks{};     ///< of strokes that they have begun, and of what they point at: each is felt
-  std::array<double, 2> pressed{};     ///< 0..1, how hard matter presses on what they lead
+  std::array<Feeling, 2> felt{};       ///< of what they lead, and of matter that they heat or cool
   std::array<PanelView, kPanels> panels;
   uint64_t brought = 0;           ///< with another one the board is set before its wearer anew
   std::array<float, 3> accent{};  ///< sRGB, of beams

@@ -78,12 +78,13 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
   m_renderer.show(m_props);
 }
 
-/// A tick for each stroke that began, and for what is pointed at on panels; a rumble for as long as matter presses.
+/// A tick for each stroke that began, and for what is pointed at on panels; a rumble for as long as matter is felt.
 std::array<std::optional<Vibration>, 2> LiveScene::feel() {
   std::array<std::optional<Vibration>, 2> felt;
   for (const size_t hand : {kLeft, kRight}) {
-    constexpr double kLeast = 0.02, kRumble = 80, kFrames = 0.025;  // of the strongest; Hz; s, over two frames
-    if (m_view->pressed[hand] > kLeast) felt[hand] = Vibration{m_view->pressed[hand], kRumble, kFrames};
+    constexpr double kLeast = 0.02, kFrames = 0.025;  // of the strongest; s, over two frames
+    const auto& [strength, frequency] = m_view->felt[hand];
+    if (strength > kLeast) felt[hand] = Vibration{strength, frequency, kFrames};
     if (m_view->ticks[hand] > m_felt[hand]) felt[hand] = Vibration{};
     m_felt[hand] = m_view->ticks[hand];
   }

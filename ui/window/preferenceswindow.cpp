@@ -166,11 +166,13 @@ void Preferences::addTheme() {
 void Preferences::addHeadset() {
   heading(QStringLiteral("Headset"));
   const auto text = [](int percent) { return QStringLiteral("%1 %").arg(percent); };
-  choice(QStringLiteral("Vibration"),
-         QStringLiteral(
-             "How strongly hands feel what presses on a body that they lead. Ticks of panels and strokes stay."),
-         {{QStringLiteral("None"), 0}, {text(30), 30}, {text(60), 60}, {text(100), 100}}, preferences::vibration(),
-         text, [](int percent) { preferences::setVibration(percent); });
+  choice(
+      QStringLiteral("Vibration"),
+      QStringLiteral(
+          "How strongly hands feel what presses on a body that they lead, how steep temperature is there and under a "
+          "brush that heats or cools, and what melts or boils. Ticks of panels and strokes stay."),
+      {{QStringLiteral("None"), 0}, {text(30), 30}, {text(60), 60}, {text(100), 100}}, preferences::vibration(), text,
+      [](int percent) { preferences::setVibration(percent); });
 }
 
 void Preferences::addAutosave() {

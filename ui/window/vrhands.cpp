@@ -8,6 +8,7 @@
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/vrfeel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,6 @@ using vr::kLeft, vr::kRight;
 constexpr double kPushed = 0.7;    // of a stick's way, or from the middle of a pad
 constexpr double kRepeats = 0.15;  // s, while it stays there
 constexpr double kLong = 0.5;      // s
-constexpr double kFirm = 5;        // N, that is felt at 63 % of what a controller can
 constexpr double kTurned = 0.05;   // about rad, after which a brush is shown turned
 
 }  // namespace
@@ -57,9 +57,10 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   HandInScene there{now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds};
   m_ends = true;
   if (lead(hand, there, scene)) there.pressure = 0;  // it has no brush meanwhile
+  const bool heated = brush.heats();
   brush.follow(there, scene);
   m_ends = false;
-  m_changed = m_changed || brush.begun() != begun;
+  m_changed = m_changed || brush.begun() != begun || heated || brush.heats();
 }
 
 /// A grip takes what is at hand. With the trigger it erases, whichever comes first. Whether the hand holds something.
@@ -147,13 +148,17 @@ std::array<float, 3> VrHands::colour(size_t hand, const Snapshot* scene) const {
   return channels(theme[Token::Accent]);
 }
 
-/// 0..1, of what a hand feels of the forces on a body that it leads.
-double VrHands::strengthOf(const Snapshot* scene, const std::string& body) {
-  if (!scene) return 0;
-  const auto found = std::find_if(scene->tools.begin(), scene->tools.end(),
-                                  [&](const ToolContact& contact) { return contact.body == body; });
-  if (found == scene->tools.end()) return 0;
-  return preferences::vibration() / 100.0 * (1 - std::exp(-found->force.norm() / kFirm));
+/// Of the body that it leads, or of the matter that it heats or cools.
+vr::Feeling VrHands::feeling(size_t hand, const Snapshot* scene) const {
+  if (!scene) return {};
+  if (m_held[hand].active()) {
+    const std::string& body = m_held[hand].body();
+    const auto found = std::find_if(scene->tools.begin(), scene->tools.end(),
+                                    [&](const ToolContact& contact) { return contact.body == body; });
+    return found == scene->tools.end() ? vr::Feeling{} : feelingOf(*found);
+  }
+  const std::optional<Vector3>& tip = m_seen.hands[hand].tip;
+  return tip && m_brushes[hand].heats() ? feelingOf(*scene, *tip, m_tools.brush().radius) : vr::Feeling{};
 }
 
 void VrHands::describe(vr::HeadsetView& view) {
@@ -164,7 +169,8 @@ void VrHands::describe(vr::HeadsetView& view) {
     std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
     brush.colour = colour(hand, view.matter.get());
     view.ticks[hand] = m_brushes[hand].begun() + m_taken[hand];
-    view.pressed[hand] = m_held[hand].active() ? strengthOf(view.matter.get(), m_held[hand].body()) : 0;
+    view.felt[hand] = feeling(hand, view.matter.get());
+    view.felt[hand].strength *= preferences::vibration() / 100.0;
   }
 }
 

@@ -36,7 +36,7 @@ class VrHands : public QObject {
  private:
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
   bool lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene);
-  static double strengthOf(const Snapshot* scene, const std::string& body);
+  vr::Feeling feeling(size_t hand, const Snapshot* scene) const;
   void press(size_t hand, const vr::HandInput& now, double seconds);
   std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
   void choose(const vr::HandInput& now, double seconds);
