@@ -29,6 +29,7 @@ Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function
     (void)QTest::qWaitFor([&] { return own.ending().has_value(); }, kPatience);
     stay.ending = own.ending();
     stay.frames = own.frames();
+    stay.hertz = own.hertz();
   }
   return stay;
 }

@@ -8,6 +8,7 @@ namespace ps {
 struct Stay {
   std::optional<vr::Ending> ending;  ///< nothing where it lasted longer than a test waits
   uint64_t frames = 0;
+  double hertz = 0;  ///< of the headset, when it ended
   SceneRecord record;
 };
 

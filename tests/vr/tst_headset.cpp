@@ -246,21 +246,30 @@ void HeadsetTest::takenOffIsNotTheEnd() {
 }
 
 void HeadsetTest::floorIsFound_data() {
-  QTest::addColumn<bool>("localFloor");
-  QTest::newRow("the floor below where one stands") << true;
-  QTest::newRow("the stage") << false;
+  QTest::addColumn<QString>("extension");
+  QTest::addColumn<bool>("stage");
+  QTest::addColumn<double>("x");
+  QTest::addColumn<double>("y");
+  QTest::newRow("the floor below where one stands") << R"(, "XR_EXT_local_floor")" << true << 0.5 << 1.0;
+  QTest::newRow("without a stage") << R"(, "XR_EXT_local_floor")" << false << 0.5 << 1.0;
+  QTest::newRow("the stage") << "" << true << 2.5 << 1.0;
+  // The eyes are at 1.2 m, and are taken to be at 1.6.
+  QTest::newRow("none") << "" << false << 0.5 << 1.4;
 }
 
 void HeadsetTest::floorIsFound() {
-  QFETCH(bool, localFloor);
+  QFETCH(QString, extension);
+  QFETCH(bool, stage);
+  QFETCH(double, x);
+  QFETCH(double, y);
   // The place where one sits is 2 m to the side in the stage.
-  const QString script = R"({"extensions": ["XR_KHR_opengl_enable", "XR_MNDX_egl_enable"%1],
+  const QString script = R"({"extensions": ["XR_KHR_opengl_enable", "XR_MNDX_egl_enable"%1], "stage": %2,
                              "events": [{"recentre": [2, 1.2, 0]}],
                              "keys": [{"frame": 0, "left": {"grip": [2.5, 1, 0]}}]})";
-  const ScriptedRun run(script.arg(localFloor ? R"(, "XR_EXT_local_floor")" : "").toStdString());
+  const ScriptedRun run(script.arg(extension, stage ? "true" : "false").toStdString());
   const Stay stay = stayInHeadset(m_context);
   QVERIFY(stay.record.frames.size() >= 20);
-  QVERIFY(near(stay.record.frames[10].hands[0].grip->position, {localFloor ? 0.5 : 2.5, 1, 0}));
+  QVERIFY(near(stay.record.frames[10].hands[0].grip->position, {x, y, 0}));
 }
 
 void HeadsetTest::everyFaultEndsInASentence_data() {

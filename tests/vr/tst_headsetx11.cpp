@@ -72,6 +72,7 @@ void HeadsetX11Test::windowsContextIsShared() {
 void HeadsetX11Test::validationIsSilent_data() {
   QTest::addColumn<QString>("events");
   QTest::newRow("a stay") << "";
+  QTest::newRow("another rate") << R"({"frame": 9, "refresh_rate": 120})";
   QTest::newRow("a headset taken off and on") << R"({"frame": 8, "state": "IDLE"}, {"frame": 30, "state": "FOCUSED"})";
   QTest::newRow("focus lost") << R"({"frame": 8, "state": "VISIBLE"}, {"frame": 14, "state": "FOCUSED"})";
   QTest::newRow("left in the headset's menu") << R"({"frame": 9, "state": "EXITING"})";
@@ -82,7 +83,8 @@ void HeadsetX11Test::validationIsSilent_data() {
 
 void HeadsetX11Test::validationIsSilent() {
   QFETCH(QString, events);
-  const QString script = R"({"extensions": ["XR_KHR_opengl_enable"], "view": {"width": 64, "height": 64},
+  const QString script =
+      R"({"extensions": ["XR_KHR_opengl_enable", "XR_FB_display_refresh_rate"], "view": {"width": 64, "height": 64},
                              "events": [%1]})";
   const ScriptedRun run(script.arg(events).toStdString());
   validate();

@@ -57,7 +57,7 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
   const qint64 returned = clock.elapsed();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 4, kLong);
   const qint64 entered = clock.elapsed();
-  QTRY_VERIFY(status().contains(QStringLiteral("In VR")));
+  QTRY_VERIFY(status().contains(QStringLiteral("In VR, 50 Hz")));
   QVERIFY(session().playing());
   const double before = session().now();
   QTRY_VERIFY_WITH_TIMEOUT(session().now() > before, kLong);

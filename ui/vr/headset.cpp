@@ -4,7 +4,9 @@
 #include "ui/vr/cardclock.h"
 #include "ui/vr/detail.h"
 #include "ui/vr/eyepicture.h"
+#include "ui/vr/floor.h"
 #include "ui/vr/hands.h"
+#include "ui/vr/refreshrate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -50,11 +52,13 @@ class Current {
 /// What there is during a stay; made in this order, and put away in the other.
 class Headset::Loop {
  public:
-  Loop(const HeadsetSetup& setup, std::atomic<double>& shown)
+  Loop(const HeadsetSetup& setup, std::atomic<double>& shown, std::atomic<double>& hertz)
       : m_setup(setup),
         m_shown(shown),
-        m_runtime({XR_MNDX_EGL_ENABLE_EXTENSION_NAME, "XR_EXT_local_floor"}),
+        m_hertz(hertz),
+        m_runtime({XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension}),
         m_session(m_runtime),
+        m_rate(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
         m_scene(setup.makeScene()) {
     const auto sizes = recommendedSizes(m_runtime);
@@ -62,6 +66,10 @@ class Headset::Loop {
   }
 
   Session& session() { return m_session; }
+  void handleEvents() {
+    m_session.handleEvents([this](const XrEventDataBuffer& event) { m_rate.notice(event); });
+    m_hertz = m_rate.hertz();
+  }
 
   void frame() {
     const XrFrameState state = m_session.waitFrame();
@@ -120,9 +128,10 @@ class Headset::Loop {
   }
 
   const HeadsetSetup& m_setup;
-  std::atomic<double>& m_shown;
+  std::atomic<double>&m_shown, &m_hertz;
   Runtime m_runtime;
   Session m_session;
+  RefreshRate m_rate;
   Hands m_hands;
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;
@@ -156,11 +165,11 @@ void Headset::run() {
 
 Ending Headset::stay() {
   const Current current(m_setup);
-  Loop loop(m_setup, m_detail);
+  Loop loop(m_setup, m_detail, m_hertz);
   Session& session = loop.session();
   std::optional<steady_clock::time_point> asked;
   for (;;) {
-    session.handleEvents();
+    loop.handleEvents();
     if (session.ending()) return *session.ending();
     if (m_leave && !session.running()) return {};
     if (m_leave && !asked) {

@@ -56,6 +56,8 @@ class Headset {
   uint64_t frames() const { return m_frames; }  ///< that were submitted
   /// Pixels along a side of the eyes' pictures, of those that the headset asks for: fewer while frames come late.
   double detail() const { return m_detail; }
+  /// Pictures a second that it shows; 0: it does not say.
+  double hertz() const { return m_hertz; }
 
  private:
   void run();
@@ -65,7 +67,7 @@ class Headset {
   HeadsetSetup m_setup;
   std::atomic<bool> m_leave = false;
   std::atomic<uint64_t> m_frames = 0;
-  std::atomic<double> m_detail = 1;
+  std::atomic<double> m_detail = 1, m_hertz = 0;
   mutable std::mutex m_mutex;
   std::optional<Ending> m_ending;
   std::thread m_thread;

@@ -1,36 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/session.h"
 
+#include "ui/vr/floor.h"
 #include "ui/vr/graphics.h"
-
-#include <algorithm>
-#include <vector>
 
 namespace ps::vr {
 namespace {
 
-// XR_EXT_local_floor is younger than Debian 12's headers.
-constexpr auto kLocalFloor = static_cast<XrReferenceSpaceType>(1000426000);
-constexpr float kEyeHeight = 1.6f;  // m above a floor of which the headset knows nothing
-
 const char* const kLost = "The headset is about to be lost; see that it is connected, and enter VR again.";
 const char* const kStopping = "The headset's software is about to stop; when it runs again, enter VR again.";
-
-std::vector<XrReferenceSpaceType> offeredSpaces(XrSession session) {
-  constexpr const char* kCall = "xrEnumerateReferenceSpaces";
-  uint32_t count = 0;
-  check(xrEnumerateReferenceSpaces(session, 0, &count, nullptr), kCall);
-  std::vector<XrReferenceSpaceType> types(count);
-  check(xrEnumerateReferenceSpaces(session, count, &count, types.data()), kCall);
-  return types;
-}
 
 }  // namespace
 
 Session::Session(Runtime& runtime) : m_runtime(runtime) {
   create();
   try {
-    makeFloor();
+    m_floor = Floor(runtime, m_session).space();
   } catch (...) {
     xrDestroySession(m_session);
     throw;
@@ -51,31 +36,15 @@ void Session::create() {
   check(xrCreateSession(m_runtime.instance(), &info, &m_session), "xrCreateSession");
 }
 
-void Session::makeFloor() {
-  const auto offered = offeredSpaces(m_session);
-  const auto has = [&](XrReferenceSpaceType type) {
-    return std::find(offered.begin(), offered.end(), type) != offered.end();
-  };
-  auto info = structure<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
-  info.poseInReferenceSpace.orientation.w = 1;
-  if (has(kLocalFloor)) {
-    info.referenceSpaceType = kLocalFloor;
-  } else if (has(XR_REFERENCE_SPACE_TYPE_STAGE)) {
-    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_STAGE;
-  } else {
-    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_LOCAL;
-    info.poseInReferenceSpace.position.y = -kEyeHeight;
-  }
-  check(xrCreateReferenceSpace(m_session, &info, &m_floor), "xrCreateReferenceSpace");
-}
-
-void Session::handleEvents() {
+void Session::handleEvents(const std::function<void(const XrEventDataBuffer&)>& others) {
   while (const auto event = m_runtime.nextEvent()) {
     if (event->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
       const auto& change = reinterpret_cast<const XrEventDataSessionStateChanged&>(*event);
       if (change.session == m_session) enter(change.state);
     } else if (event->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
       m_ending = {true, kStopping};
+    } else if (others) {
+      others(*event);
     }
     if (m_ending) return;
   }

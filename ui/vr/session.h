@@ -4,6 +4,7 @@
 #include "ui/vr/runtime.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -21,7 +22,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Follows what the runtime says: begins the session when the headset is put on, and ends it when it is taken off.
-  void handleEvents();
+  /// `others` get the events that are not the session's.
+  void handleEvents(const std::function<void(const XrEventDataBuffer&)>& others = {});
   bool running() const { return m_running; }  ///< there are frames to draw
   bool focused() const { return m_state == XR_SESSION_STATE_FOCUSED; }
   const std::optional<Ending>& ending() const { return m_ending; }
@@ -39,7 +41,6 @@ class Session {
 
  private:
   void create();
-  void makeFloor();
   void enter(XrSessionState state);
 
   Runtime& m_runtime;

@@ -228,6 +228,7 @@ void VrMode::showState() {
   m_action.setChecked(m_headset != nullptr);
   m_without.setChecked(m_window != nullptr);
   QString in = QStringLiteral("In VR");
+  if (m_headset && m_headset->hertz() > 0) in += QStringLiteral(", %1 Hz").arg(std::lround(m_headset->hertz()));
   if (m_headset && m_headset->detail() < 1)
     in += QStringLiteral(", pictures at %1 %, to be in time").arg(std::lround(100 * m_headset->detail()));
   m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")

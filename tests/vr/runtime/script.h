@@ -46,8 +46,10 @@ class Script {
   double period = 1.0 / 90;            ///< s, of a frame
   bool realTime = false;               ///< frames last as long as they say
   std::vector<std::string> extensions;
-  std::vector<int64_t> formats;     ///< of OpenGL, the preferred one first
-  std::vector<ScriptEvent> events;  ///< by frame
+  std::vector<float> refreshRates = {72, 90, 120};  ///< Hz, that can be asked for
+  bool stage = true;                                ///< there is a space of the floor
+  std::vector<int64_t> formats;                     ///< of OpenGL, the preferred one first
+  std::vector<ScriptEvent> events;                  ///< by frame
 
  private:
   struct Key {

@@ -114,6 +114,12 @@ void ScriptReader::readTop(Script& script, const std::string& key, const json& v
     script.realTime = boolean(value, pointer);
   } else if (key == "extensions") {
     readExtensions(script, value);
+  } else if (key == "refresh_rates") {
+    script.refreshRates.clear();
+    for (const json& rate : list(value, pointer))
+      script.refreshRates.push_back(static_cast<float>(number(rate, pointer, 1, 1000)));
+  } else if (key == "stage") {
+    script.stage = boolean(value, pointer);
   } else if (key == "formats") {
     readFormats(script, value);
   } else if (key == "keys") {

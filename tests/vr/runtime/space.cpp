@@ -23,8 +23,8 @@ struct Place {
 };
 
 std::vector<XrReferenceSpaceType> offeredSpaces(const Instance& instance) {
-  std::vector<XrReferenceSpaceType> types = {XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL,
-                                             XR_REFERENCE_SPACE_TYPE_STAGE};
+  std::vector<XrReferenceSpaceType> types = {XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL};
+  if (instance.script.stage) types.push_back(XR_REFERENCE_SPACE_TYPE_STAGE);
   if (has(instance, "XR_EXT_local_floor")) types.push_back(kLocalFloor);
   return types;
 }

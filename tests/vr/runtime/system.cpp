@@ -12,7 +12,6 @@ namespace ps::scripted {
 namespace {
 
 constexpr XrSystemId kHeadset = 1;
-constexpr std::array<float, 3> kRefreshRates = {72, 90, 120};  // Hz
 
 void checkSystem(XrSystemId system) {
   require(system == kHeadset, XR_ERROR_SYSTEM_INVALID, "there is no system of that number");
@@ -115,7 +114,7 @@ XrResult getVisibilityMask(Instance& instance, XrSession handle, XrViewConfigura
 XrResult enumerateDisplayRefreshRates(Instance& instance, XrSession handle, uint32_t capacity, uint32_t* count,
                                       float* rates) {
   sessionOf(instance, handle);
-  return enumerate(kRefreshRates, capacity, count, rates);
+  return enumerate(instance.script.refreshRates, capacity, count, rates);
 }
 
 XrResult getDisplayRefreshRate(Instance& instance, XrSession handle, float* rate) {
@@ -127,7 +126,8 @@ XrResult getDisplayRefreshRate(Instance& instance, XrSession handle, float* rate
 XrResult requestDisplayRefreshRate(Instance& instance, XrSession handle, float rate) {
   sessionOf(instance, handle);
   if (rate == 0) return XR_SUCCESS;  // no wish
-  require(std::find(kRefreshRates.begin(), kRefreshRates.end(), rate) != kRefreshRates.end(),
+  const std::vector<float>& offered = instance.script.refreshRates;
+  require(std::find(offered.begin(), offered.end(), rate) != offered.end(),
           XR_ERROR_DISPLAY_REFRESH_RATE_UNSUPPORTED_FB, "that refresh rate was not among those that were listed");
   changeRefreshRate(instance, rate);
   return XR_SUCCESS;

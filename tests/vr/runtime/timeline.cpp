@@ -79,6 +79,7 @@ void changeRefreshRate(Instance& instance, float rate) {
   auto event = structure<XrEventDataDisplayRefreshRateChangedFB>(XR_TYPE_EVENT_DATA_DISPLAY_REFRESH_RATE_CHANGED_FB);
   event.fromDisplayRefreshRate = 1e9f / static_cast<float>(instance.clock.period);
   event.toDisplayRefreshRate = rate;
+  instance.log.write({{"refresh_rate", rate}, {"frame", instance.frame}});
   instance.clock = {instance.frame, timeOf(instance, instance.frame), std::llround(1e9 / double(rate))};
   if (has(instance, XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME)) post(instance, event);
 }

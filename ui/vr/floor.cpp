@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/floor.h"
+
+#include <algorithm>
+
+namespace ps::vr {
+namespace {
+
+// XR_EXT_local_floor is younger than Debian 12's headers.
+constexpr auto kLocalFloor = static_cast<XrReferenceSpaceType>(1000426000);
+constexpr float kEyeHeight = 1.6f;  // m above a floor of which the headset knows nothing
+
+std::vector<XrReferenceSpaceType> offeredSpaces(XrSession session) {
+  constexpr const char* kCall = "xrEnumerateReferenceSpaces";
+  uint32_t count = 0;
+  check(xrEnumerateReferenceSpaces(session, 0, &count, nullptr), kCall);
+  std::vector<XrReferenceSpaceType> types(count);
+  check(xrEnumerateReferenceSpaces(session, count, &count, types.data()), kCall);
+  return types;
+}
+
+}  // namespace
+
+Floor::Floor(const Runtime& runtime, XrSession session) {
+  const auto offered = offeredSpaces(session);
+  const auto has = [&](XrReferenceSpaceType type) {
+    return std::find(offered.begin(), offered.end(), type) != offered.end();
+  };
+  auto info = structure<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+  info.poseInReferenceSpace.orientation.w = 1;
+  if (runtime.has(kExtension) && has(kLocalFloor)) {
+    info.referenceSpaceType = kLocalFloor;
+  } else if (has(XR_REFERENCE_SPACE_TYPE_STAGE)) {
+    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_STAGE;
+  } else {
+    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_LOCAL;
+    info.poseInReferenceSpace.position.y = -kEyeHeight;
+  }
+  check(xrCreateReferenceSpace(session, &info, &m_space), "xrCreateReferenceSpace");
+}
+
+}  // namespace ps::vr
