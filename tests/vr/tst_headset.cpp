@@ -144,6 +144,14 @@ void HeadsetTest::controllersAreUnderstood_data() {
   row("Windows", "microsoft/motion_controller", R"({"/input/trackpad/click": true, "/input/squeeze/click": true})",
       R"({"/input/menu/click": true, "/input/thumbstick/x": -1, "/input/thumbstick/y": 0.5})", "hold 1 first",
       "steer -1 0.5 second");
+  row("HP", "hp/mixed_reality_controller", R"({"/input/x/click": true, "/input/squeeze/value": 0.5})",
+      R"({"/input/b/click": true, "/input/trigger/value": 0.75})", "hold 0.5 first", "draw 0.75 second");
+  row("Cosmos", "htc/vive_cosmos_controller", R"({"/input/y/click": true, "/input/squeeze/click": true})",
+      R"({"/input/a/click": true, "/input/thumbstick/x": 1})", "hold 1 second", "steer 1 0 first");
+  row("hands, as Microsoft has them", "microsoft/hand_interaction", R"({"/input/select/value": 0.75})",
+      R"({"/input/squeeze/value": 1})", "draw 0.75", "hold 1");
+  row("hands", "ext/hand_interaction_ext", R"({"/input/pinch_ext/value": 0.75})",
+      R"({"/input/pinch_ext/value": 0.25, "/input/grasp_ext/value": 1})", "draw 0.75", "draw 0.25 hold 1");
 }
 
 static QString inWords(const ps::vr::HandInput& input) {
@@ -170,6 +178,7 @@ void HeadsetTest::controllersAreUnderstood() {
   QVERIFY(stay.record.frames.size() >= 20);
   QCOMPARE(inWords(stay.record.frames[4].hands[0]), QString());
   QCOMPARE(inWords(stay.record.frames[18].hands[0]), leftInput);
+  QVERIFY(stay.record.frames[18].hands[0].aim && stay.record.frames[18].hands[1].grip);
   QCOMPARE(inWords(stay.record.frames[18].hands[1]), rightInput);
 }
 

@@ -72,6 +72,7 @@ void Hands::makeActions() {
 
 void Hands::suggest() {
   for (const Suggestion& suggestion : suggestions()) {
+    if (!suggestion.extension.empty() && !m_runtime.has(suggestion.extension)) continue;
     std::vector<XrActionSuggestedBinding> bindings;
     const auto bind = [&](XrAction action, size_t hand, std::string_view part) {
       if (!part.empty()) bindings.push_back({action, m_runtime.path(kHands[hand] + std::string(part))});
@@ -85,7 +86,7 @@ void Hands::suggest() {
       bind(m_steerPress, hand, suggestion.steerPress);
       bind(m_first, hand, hand == kLeft ? suggestion.leftFirst : suggestion.rightFirst);
       bind(m_second, hand, hand == kLeft ? suggestion.leftSecond : suggestion.rightSecond);
-      bind(m_feel, hand, "/output/haptic");
+      bind(m_feel, hand, suggestion.vibrates ? "/output/haptic" : "");
     }
     auto info = structure<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     info.interactionProfile = m_runtime.path(std::string(suggestion.profile));

@@ -7,6 +7,7 @@
 #include "ui/vr/floor.h"
 #include "ui/vr/hands.h"
 #include "ui/vr/refreshrate.h"
+#include "ui/vr/suggestions.h"
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,13 @@ Eye eyeOf(const XrView& view, double near, double far) {
                     std::tan(double(fov.angleDown)), std::tan(double(fov.angleUp)), near, far);
 }
 
+/// Extensions that are used where they are offered.
+std::vector<std::string> wishes() {
+  std::vector<std::string> names = extensionsOfControllers();
+  names.insert(names.end(), {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension});
+  return names;
+}
+
 /// Makes the context current for as long as it lives.
 class Current {
  public:
@@ -56,7 +64,7 @@ class Headset::Loop {
       : m_setup(setup),
         m_shown(shown),
         m_hertz(hertz),
-        m_runtime({XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension}),
+        m_runtime(wishes()),
         m_session(m_runtime),
         m_rate(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),

@@ -19,8 +19,25 @@ const std::vector<Suggestion>& suggestions() {
       {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value", "/input/squeeze/click",
        "/input/thumbstick", "/input/thumbstick/click", "/input/trackpad/click", "/input/menu/click",
        "/input/trackpad/click", "/input/menu/click"},
+      {"/interaction_profiles/hp/mixed_reality_controller", "/input/trigger/value", "/input/squeeze/value",
+       "/input/thumbstick", "/input/thumbstick/click", "/input/x/click", "/input/y/click", "/input/a/click",
+       "/input/b/click", "XR_EXT_hp_mixed_reality_controller"},
+      {"/interaction_profiles/htc/vive_cosmos_controller", "/input/trigger/value", "/input/squeeze/click",
+       "/input/thumbstick", "/input/thumbstick/click", "/input/x/click", "/input/y/click", "/input/a/click",
+       "/input/b/click", "XR_HTC_vive_cosmos_controller_interaction"},
+      {"/interaction_profiles/microsoft/hand_interaction", "/input/select/value", "/input/squeeze/value", "", "", "",
+       "", "", "", "XR_MSFT_hand_interaction", false},
+      {"/interaction_profiles/ext/hand_interaction_ext", "/input/pinch_ext/value", "/input/grasp_ext/value", "", "", "",
+       "", "", "", "XR_EXT_hand_interaction", false},
   };
   return kSuggestions;
+}
+
+std::vector<std::string> extensionsOfControllers() {
+  std::vector<std::string> names;
+  for (const Suggestion& suggestion : suggestions())
+    if (!suggestion.extension.empty()) names.emplace_back(suggestion.extension);
+  return names;
 }
 
 }  // namespace ps::vr

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,10 +12,14 @@ struct Suggestion {
   std::string_view profile;  ///< "/interaction_profiles/..."
   std::string_view draw, hold, steer, steerPress;
   std::string_view leftFirst, leftSecond, rightFirst, rightSecond;
+  std::string_view extension = "";  ///< that brings it
+  bool vibrates = true;             ///< it has /output/haptic
 };
 
-/// Of the controllers that OpenXR 1.0 knows without extensions. Each has /input/grip/pose, /input/aim/pose and
-/// /output/haptic as well.
+/// Of controllers, and of bare hands that the headset sees: a pinch is a trigger, a fist a grip. Each has
+/// /input/grip/pose and /input/aim/pose as well.
 const std::vector<Suggestion>& suggestions();
+/// What brings the ones that OpenXR 1.0 does not know by itself.
+std::vector<std::string> extensionsOfControllers();
 
 }  // namespace ps::vr

@@ -58,6 +58,11 @@ const std::vector<InteractionProfile>& interactionProfiles() {
        "/input/x/click /input/y/click /input/menu/click", "/input/a/click /input/b/click /input/system/click"},
       {"/interaction_profiles/microsoft/hand_interaction", "XR_MSFT_hand_interaction",
        "/input/select/value /input/squeeze/value /input/grip/pose /input/aim/pose", "", ""},
+      {"/interaction_profiles/ext/hand_interaction_ext", "XR_EXT_hand_interaction",
+       "/input/pinch_ext/value /input/pinch_ext/ready_ext /input/pinch_ext/pose /input/aim_activate_ext/value "
+       "/input/aim_activate_ext/ready_ext /input/grasp_ext/value /input/grasp_ext/ready_ext /input/poke_ext/pose "
+       "/input/grip/pose /input/aim/pose",
+       "", ""},
       {"/interaction_profiles/google/daydream_controller", "",
        "/input/select/click /input/trackpad/x /input/trackpad/y /input/trackpad/click /input/trackpad/touch "
        "/input/grip/pose /input/aim/pose",

@@ -17,7 +17,8 @@ const std::vector<std::string>& knownExtensions() {
                                                        "XR_EXT_local_floor",
                                                        "XR_EXT_hp_mixed_reality_controller",
                                                        "XR_HTC_vive_cosmos_controller_interaction",
-                                                       "XR_MSFT_hand_interaction"};
+                                                       "XR_MSFT_hand_interaction",
+                                                       "XR_EXT_hand_interaction"};
   return kExtensions;
 }
 
