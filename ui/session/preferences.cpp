@@ -18,7 +18,7 @@ constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *
                      *kPivot = "handles/pivot", *kSnap = "handles/snap", *kSurfaces = "handles/surfaces",
                      *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
                      *kScaleStep = "handles/scaleStep", *kBrushes = "sketch/favouriteBrushes",
-                     *kVibration = "vr/vibration";
+                     *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye";
 constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
 constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
@@ -112,6 +112,9 @@ void setHandles(const HandleSettings& settings) {
 
 int vibration() { return number(kVibration, 60, 0, 100); }
 void setVibration(int percent) { set(kVibration, percent); }
+
+bool showsEye() { return QSettings().value(QLatin1String(kShowsEye), false).toBool(); }
+void setShowsEye(bool on) { set(kShowsEye, on); }
 
 QByteArray favouriteBrushes() { return QSettings().value(QLatin1String(kBrushes)).toByteArray(); }
 void setFavouriteBrushes(const QByteArray& text) { set(kBrushes, text); }

@@ -55,6 +55,10 @@ void setHandles(const HandleSettings& settings);
 int vibration();
 void setVibration(int percent);
 
+/// Whether the window shows what the left eye sees while a headset is on; else it shows its view.
+bool showsEye();
+void setShowsEye(bool on);
+
 /// As textOf() of ui/tools/favouritebrush.h has them; "": none.
 QByteArray favouriteBrushes();
 void setFavouriteBrushes(const QByteArray& text);

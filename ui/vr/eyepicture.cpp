@@ -58,15 +58,14 @@ EyePicture::~EyePicture() {
 }
 
 RenderTarget EyePicture::acquire(double scale) {
-  uint32_t index = 0;
-  check(xrAcquireSwapchainImage(m_swapchain, nullptr, &index), "xrAcquireSwapchainImage");
+  check(xrAcquireSwapchainImage(m_swapchain, nullptr, &m_index), "xrAcquireSwapchainImage");
   auto wait = structure<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
   wait.timeout = XR_INFINITE_DURATION;
   check(xrWaitSwapchainImage(m_swapchain, &wait), "xrWaitSwapchainImage");
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffer);
-  glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m_textures.at(index), 0);
+  glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, m_textures.at(m_index), 0);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
   const auto part = [scale](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
   m_used = {part(m_size.width), part(m_size.height), false};

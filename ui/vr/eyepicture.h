@@ -20,6 +20,7 @@ class EyePicture {
   /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off. `scale`: pixels along a side that are used, of those there
   /// are.
   RenderTarget acquire(double scale);
+  uint32_t texture() const { return m_textures.at(m_index); }  ///< that was acquired
   void release();
   XrSwapchainSubImage shown() const;  ///< for a layer
 
@@ -27,6 +28,7 @@ class EyePicture {
   PictureSize m_size, m_used;
   XrSwapchain m_swapchain = XR_NULL_HANDLE;
   std::vector<uint32_t> m_textures;
+  uint32_t m_index = 0;
   uint32_t m_framebuffer = 0;
 };
 

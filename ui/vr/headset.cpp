@@ -6,6 +6,7 @@
 #include "ui/vr/eyepicture.h"
 #include "ui/vr/floor.h"
 #include "ui/vr/hands.h"
+#include "ui/vr/mirror.h"
 #include "ui/vr/refreshrate.h"
 #include "ui/vr/suggestions.h"
 
@@ -43,11 +44,14 @@ std::vector<std::string> wishes() {
   return names;
 }
 
-/// Makes the context current for as long as it lives.
+/// Makes the context current for as long as it lives, and puts away what the stay has shared at its end.
 class Current {
  public:
   explicit Current(const HeadsetSetup& setup) : m_setup(setup) { setup.makeCurrent(); }
-  ~Current() { m_setup.release(); }
+  ~Current() {
+    if (m_setup.mirror) m_setup.mirror->close();
+    m_setup.release();
+  }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
 
@@ -127,6 +131,7 @@ class Headset::Loop {
     const RenderTarget target = picture.acquire(m_detail.scale());
     m_waited += std::chrono::duration<double>(steady_clock::now() - asked).count();
     m_scene->draw(eye, eyeOf(view, m_setup.nearPlane, m_setup.farPlane), target);
+    if (eye == kLeft && m_setup.mirror) m_setup.mirror->offer(picture.texture(), target.size);
     picture.release();
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
     shown.pose = view.pose;

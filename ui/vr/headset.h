@@ -14,6 +14,8 @@
 
 namespace ps::vr {
 
+class Mirror;
+
 /// A frame as it is about to be drawn.
 struct HeadsetFrame {
   double time = 0;                 ///< s, when it will be shown, on a clock that only goes on
@@ -36,6 +38,7 @@ struct HeadsetSetup {
   /// Of an OpenGL context that the headset's thread has for itself, and that shares with the others' what it shows.
   std::function<void()> makeCurrent, release;
   std::function<std::unique_ptr<HeadsetScene>()> makeScene;
+  std::shared_ptr<Mirror> mirror;           ///< gets the left eye's pictures; nullptr: nobody looks on
   double nearPlane = 0.03, farPlane = 100;  ///< m
 };
 

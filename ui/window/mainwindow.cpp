@@ -291,6 +291,7 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("simulation.vr")));
   m_actions.add(menu, QStringLiteral("simulation.tryVr"), QStringLiteral("Try VR without a headset"), {}, {});
+  m_actions.add(menu, QStringLiteral("simulation.mirror"), QStringLiteral("Show what the headset shows"), {}, {});
 }
 
 /// In the header of the dock, beside the graphs alone.

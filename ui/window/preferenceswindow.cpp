@@ -173,6 +173,11 @@ void Preferences::addHeadset() {
           "brush that heats or cools, and what melts or boils. Ticks of panels and strokes stay."),
       {{QStringLiteral("None"), 0}, {text(30), 30}, {text(60), 60}, {text(100), 100}}, preferences::vibration(), text,
       [](int percent) { preferences::setVibration(percent); });
+  QAction* mirror = m_window.action(QStringLiteral("simulation.mirror"));
+  choice(
+      QStringLiteral("In the window"), QStringLiteral("What it shows while the headset is on."),
+      {{QStringLiteral("The view, as without"), 0}, {QStringLiteral("What the left eye sees"), 1}}, mirror->isChecked(),
+      [](int) { return QString(); }, [mirror](int eye) { mirror->setChecked(eye == 1); });
 }
 
 void Preferences::addAutosave() {

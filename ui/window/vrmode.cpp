@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "ui/document/document.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -11,12 +12,14 @@
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/vr/livescene.h"
+#include "ui/vr/mirror.h"
 #include "ui/window/actions.h"
 #include "ui/window/headsetcontext.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
 #include "ui/window/statusline.h"
 #include "ui/window/vrhands.h"
+#include "ui/window/vrmirror.h"
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
@@ -45,11 +48,17 @@ VrMode::VrMode(const Parts& parts)
     : m_parts(parts),
       m_action(*parts.actions.find(QStringLiteral("simulation.vr"))),
       m_without(*parts.actions.find(QStringLiteral("simulation.tryVr"))),
+      m_mirrors(*parts.actions.find(QStringLiteral("simulation.mirror"))),
       m_hands(std::make_unique<VrHands>(parts.session, parts.tools)) {
   m_timer.setInterval(kLook);
   m_timer.setTimerType(Qt::PreciseTimer);
   connect(&m_timer, &QTimer::timeout, this, &VrMode::look);
-  for (QAction* action : {&m_action, &m_without}) action->setCheckable(true);
+  for (QAction* action : {&m_action, &m_without, &m_mirrors}) action->setCheckable(true);
+  m_mirrors.setChecked(preferences::showsEye());
+  connect(&m_mirrors, &QAction::toggled, this, [this](bool on) {
+    preferences::setShowsEye(on);
+    showMirror();
+  });
   connect(&m_action, &QAction::triggered, this, [this](bool on) { on ? enter() : leave(); });
   connect(&m_without, &QAction::triggered, this, [this](bool on) { on ? enterWithout() : leave(); });
   connect(m_hands.get(), &VrHands::boardWanted, this, [this] {
@@ -103,7 +112,9 @@ void VrMode::enter() {
     setup.makeCurrent = [this] { m_context->makeCurrent(); };
     setup.release = [this] { m_context->release(); };
     setup.makeScene = [link = m_link] { return std::make_unique<vr::LiveScene>(link); };
+    setup.mirror = m_pictures = std::make_shared<vr::Mirror>();
     m_headset = std::make_unique<vr::Headset>(std::move(setup));
+    showMirror();
   } catch (const std::exception& error) {
     end({true, error.what()});
   }
@@ -202,6 +213,7 @@ void VrMode::showHands() {
 /// The thread is done by then, or as good as.
 void VrMode::end(const vr::Ending& ending) {
   m_timer.stop();
+  m_mirror.reset();
   m_headset.reset();
   if (m_window) {
     m_window->disconnect(this);
@@ -222,6 +234,12 @@ void VrMode::end(const vr::Ending& ending) {
   if (!said.isEmpty()) m_parts.notices.message(level, kTopic, said);
   Q_EMIT ended(said);
   if (std::exchange(m_triesNext, false)) enterWithout();
+}
+
+void VrMode::showMirror() {
+  const bool shown = m_headset && m_mirrors.isChecked();
+  if (shown == (m_mirror != nullptr)) return;
+  m_mirror = shown ? std::make_unique<VrMirror>(m_pictures, *m_parts.view) : nullptr;
 }
 
 void VrMode::showState() {

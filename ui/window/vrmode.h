@@ -14,6 +14,7 @@ namespace ps {
 namespace vr {
 class Headset;
 class HeadsetLink;
+class Mirror;
 struct Ending;
 }  // namespace vr
 
@@ -26,6 +27,7 @@ class StatusLine;
 class Toolbox;
 class Viewport;
 class VrHands;
+class VrMirror;
 class VrPanels;
 class VrWithout;
 
@@ -44,7 +46,7 @@ class VrMode : public QObject {
     Notices& notices;
     StatusLine& status;
     CurveTarget& curves;
-    const Actions& actions;  ///< "simulation.vr" and "simulation.tryVr" among them
+    const Actions& actions;  ///< "simulation.vr", "simulation.tryVr" and "simulation.mirror" among them
   };
   explicit VrMode(const Parts& parts);
   ~VrMode() override;
@@ -55,6 +57,7 @@ class VrMode : public QObject {
   bool active() const { return m_link != nullptr; }
   uint64_t frames() const;  ///< that the headset got in this stay, or the window
   VrWithout* window() const { return m_window; }
+  VrMirror* mirror() const { return m_mirror.get(); }  ///< nullptr: the window shows the view
   VrPanels* panels() const { return m_panels.get(); }  ///< nullptr: nobody is in VR
 
  Q_SIGNALS:
@@ -69,14 +72,17 @@ class VrMode : public QObject {
   void showHands();  ///< they alone have changed
   void end(const vr::Ending& ending);
   void showState();
+  void showMirror();
 
   const Parts m_parts;
-  QAction &m_action, &m_without;  ///< by a headset, and without one
+  QAction &m_action, &m_without, &m_mirrors;  ///< by a headset, and without one; what the window shows meanwhile
   std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
   std::unique_ptr<VrHands> m_hands;
   std::shared_ptr<VrPanels> m_panels;  ///< of a stay; a menu that is open there keeps them until it closes
   std::unique_ptr<vr::Headset> m_headset;
+  std::shared_ptr<vr::Mirror> m_pictures;
+  std::unique_ptr<VrMirror> m_mirror;
   VrWithout* m_window = nullptr;
   bool m_leaving = false;
   bool m_triesNext = false;  ///< VR without a headset was asked for, and a stay in one has yet to end
