@@ -399,9 +399,11 @@ void VrHandsTest::validationIsSilent() {
   qputenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text");
   qputenv("XR_CORE_VALIDATION_FILE_NAME", said.toUtf8());
   const vr::Stand s = stand();
-  const ScriptedRun run(vrScript(QStringLiteral(R"(, "extensions": ["XR_KHR_opengl_enable"])"),
-                                 key(5, "right", s, {0, 0.5, 0}, {}) + key(10, "right", s, {0, 0.5, 0}, kPulled) +
-                                     key(30, "right", s, {0.1, 0.5, 0}, kLetGo)));
+  const ScriptedRun run(vrScript(
+      QStringLiteral(
+          R"(, "extensions": ["XR_KHR_opengl_enable", "XR_KHR_composition_layer_depth", "XR_FB_display_refresh_rate"])"),
+      key(5, "right", s, {0, 0.5, 0}, {}) + key(10, "right", s, {0, 0.5, 0}, kPulled) +
+          key(30, "right", s, {0.1, 0.5, 0}, kLetGo)));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   leave();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/renderer.h"
-#include "ui/vr/session.h"
+#include "ui/vr/swapchain.h"
 
-#include <vector>
+#include <array>
 
 namespace ps::vr {
 
@@ -12,24 +12,18 @@ class EyePicture {
  public:
   /// Throws Failure, and Error where the runtime has no sRGB.
   EyePicture(const Session& session, const PictureSize& size);
-  ~EyePicture();
-  EyePicture(const EyePicture&) = delete;
-  EyePicture& operator=(const EyePicture&) = delete;
 
   /// Takes the next picture; what is drawn into the target is shown after release(). Values are written as they are: a
   /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off. `scale`: pixels along a side that are used, of those there
   /// are.
   RenderTarget acquire(double scale);
-  uint32_t texture() const { return m_textures.at(m_index); }  ///< that was acquired
-  void release();
+  uint32_t texture() const { return m_pictures.texture(); }  ///< that was acquired
+  void release() { m_pictures.release(); }
   XrSwapchainSubImage shown() const;  ///< for a layer
 
  private:
   PictureSize m_size, m_used;
-  XrSwapchain m_swapchain = XR_NULL_HANDLE;
-  std::vector<uint32_t> m_textures;
-  uint32_t m_index = 0;
-  uint32_t m_framebuffer = 0;
+  Swapchain m_pictures;
 };
 
 /// What the runtime recommends for each eye.

@@ -2,6 +2,7 @@
 #include "ui/vr/headset.h"
 
 #include "ui/vr/cardclock.h"
+#include "ui/vr/depthlayer.h"
 #include "ui/vr/detail.h"
 #include "ui/vr/eyepicture.h"
 #include "ui/vr/floor.h"
@@ -40,7 +41,8 @@ Eye eyeOf(const XrView& view, double near, double far) {
 /// Extensions that are used where they are offered.
 std::vector<std::string> wishes() {
   std::vector<std::string> names = extensionsOfControllers();
-  names.insert(names.end(), {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension});
+  names.insert(names.end(),
+               {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension, DepthLayer::kExtension});
   return names;
 }
 
@@ -75,6 +77,7 @@ class Headset::Loop {
         m_scene(setup.makeScene()) {
     const auto sizes = recommendedSizes(m_runtime);
     for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
+    if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, setup.nearPlane, setup.farPlane);
   }
 
   Session& session() { return m_session; }
@@ -129,14 +132,22 @@ class Headset::Loop {
     EyePicture& picture = *m_pictures[eye];
     const steady_clock::time_point asked = steady_clock::now();
     const RenderTarget target = picture.acquire(m_detail.scale());
+    const bool hasDepth = m_depth && m_depth->isTaken();
+    const RenderTarget depth = hasDepth ? m_depth->acquire(eye) : RenderTarget();
     m_waited += std::chrono::duration<double>(steady_clock::now() - asked).count();
-    m_scene->draw(eye, eyeOf(view, m_setup.nearPlane, m_setup.farPlane), target);
+    const Eye seen = eyeOf(view, m_setup.nearPlane, m_setup.farPlane);
+    m_scene->draw(eye, seen, target);
+    if (hasDepth) {
+      m_scene->drawDepth(eye, seen, depth);
+      m_depth->release(eye);
+    }
     if (eye == kLeft && m_setup.mirror) m_setup.mirror->offer(picture.texture(), target.size);
     picture.release();
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
     shown.pose = view.pose;
     shown.fov = view.fov;
     shown.subImage = picture.shown();
+    if (hasDepth) shown.next = m_depth->shown(eye);
     return shown;
   }
 
@@ -148,6 +159,7 @@ class Headset::Loop {
   Hands m_hands;
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;
+  std::optional<DepthLayer> m_depth;
   Detail m_detail;
   double m_waited = 0;  ///< s of this frame, for pictures that the runtime still had
   CardClock m_clock;

@@ -32,6 +32,10 @@ class HeadsetScene {
   /// Once a frame, before its eyes are drawn; says what either hand shall feel.
   virtual std::array<std::optional<Vibration>, 2> prepare(const HeadsetFrame& frame) = 0;
   virtual void draw(size_t eye, const Eye& view, const RenderTarget& target) = 0;
+  /// Whether it knows how far what it draws is.
+  virtual bool hasDepth() const { return false; }
+  /// Of the same into the depth of a target, after that: 0 at the near plane, 1 at the far one.
+  virtual void drawDepth(size_t, const Eye&, const RenderTarget&) {}
 };
 
 struct HeadsetSetup {

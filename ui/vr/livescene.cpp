@@ -74,7 +74,9 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
       addVolume(m_props, m_moving.stand().toScene(tipOf(*aim)), brush);
   }
   m_panels.addTo(m_props, m_moving.stand(), *m_view);
+  m_panelsThere = m_props.panels.size();
   m_moving.addTo(m_props, frame, m_view->accent);
+  m_depthShown = false;
   m_renderer.show(m_props);
 }
 
@@ -107,6 +109,17 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
 double LiveScene::share(const HeadsetFrame& frame) const {
   if (!m_before || m_lasts <= 0) return 1;
   return std::clamp((frame.time + frame.period - m_came) / m_lasts, 0.0, 1.0);
+}
+
+void LiveScene::drawDepth(size_t, const Eye& view, const RenderTarget& target) {
+  static const Snapshot kEmpty;
+  if (!m_depth) m_depth.emplace();
+  if (m_depthPrepared != m_view->picture)
+    m_depth->prepare(m_view->matter ? *m_view->matter : kEmpty, m_view->scene, m_view->look);
+  m_depthPrepared = m_view->picture;
+  if (!m_depthShown) m_depth->show(m_props, m_panelsThere);
+  m_depthShown = true;
+  m_depth->draw(m_moving.stand().toScene(view), target);
 }
 
 void LiveScene::draw(size_t, const Eye& view, const RenderTarget& target) {

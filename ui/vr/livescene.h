@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/vr/depthpass.h"
 #include "ui/vr/headset.h"
 #include "ui/vr/headsetlink.h"
 #include "ui/vr/moving.h"
@@ -16,6 +17,8 @@ class LiveScene : public HeadsetScene {
 
   std::array<std::optional<Vibration>, 2> prepare(const HeadsetFrame& frame) override;
   void draw(size_t eye, const Eye& view, const RenderTarget& target) override;
+  bool hasDepth() const override { return true; }
+  void drawDepth(size_t eye, const Eye& view, const RenderTarget& target) override;
 
  private:
   void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);
@@ -32,7 +35,11 @@ class LiveScene : public HeadsetScene {
   Moving m_moving;
   std::array<uint64_t, 2> m_felt{};  ///< ticks
   Panels m_panels;
-  Props m_props;  ///< kept for its memory
+  Props m_props;                     ///< kept for its memory
+  size_t m_panelsThere = 0;          ///< of those in it: the others are before the eye
+  std::optional<DepthPass> m_depth;  ///< once it was asked for
+  uint64_t m_depthPrepared = 0;
+  bool m_depthShown = false;  ///< what hands hold, in this frame
   /// What the renderer has prepared: while only head and hands move, it stays.
   uint64_t m_prepared = 0;
   double m_share = -1;  ///< nothing yet

@@ -49,6 +49,28 @@ class TextureReader {
   GLuint m_own = 0;
 };
 
+/// The same of depths.
+class DepthReader {
+ public:
+  explicit DepthReader(GLuint texture) {
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &m_framebuffer);
+    glGenFramebuffers(1, &m_own);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, m_own);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+    glReadBuffer(GL_NONE);
+  }
+  ~DepthReader() {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(m_framebuffer));
+    glDeleteFramebuffers(1, &m_own);
+  }
+  DepthReader(const DepthReader&) = delete;
+  DepthReader& operator=(const DepthReader&) = delete;
+
+ private:
+  GLint m_framebuffer = 0;
+  GLuint m_own = 0;
+};
+
 // IEC 61966-2-1.
 uint8_t encoded(float linear) {
   const float bounded = std::clamp(linear, 0.0f, 1.0f);
@@ -70,6 +92,21 @@ QImage pictureOf(const Swapchain& swapchain, const XrSwapchainSubImage& image) {
   return picture.mirrored(false, true).convertToFormat(QImage::Format_RGB888);  // OpenGL's first row is the lowest
 }
 
+/// 0 nearest, 65535 farthest.
+QImage depthsOf(const Swapchain& swapchain, const XrRect2Di& rect) {
+  const DepthReader reader(swapchain.textures[*swapchain.released]);
+  std::vector<float> depths(size_t(rect.extent.width) * size_t(rect.extent.height));
+  glReadPixels(rect.offset.x, rect.offset.y, rect.extent.width, rect.extent.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+               depths.data());
+  QImage picture(rect.extent.width, rect.extent.height, QImage::Format_Grayscale16);
+  for (int y = 0; y < picture.height(); ++y) {
+    auto* line = reinterpret_cast<uint16_t*>(picture.scanLine(picture.height() - 1 - y));
+    for (int x = 0; x < picture.width(); ++x)
+      line[x] = static_cast<uint16_t>(std::lround(65535 * depths[size_t(y) * size_t(picture.width()) + size_t(x)]));
+  }
+  return picture;
+}
+
 }  // namespace
 
 void takePictures(Instance& instance, const XrFrameEndInfo& info, int64_t frame) {
@@ -85,6 +122,11 @@ void takePictures(Instance& instance, const XrFrameEndInfo& info, int64_t frame)
           std::string(folder) + "/frame" + std::to_string(frame) + (eye == 0 ? "-left.png" : "-right.png");
       const bool saved =
           pictureOf(instance.session->swapchains.at(image.swapchain), image).save(QString::fromStdString(name), "PNG");
+      const auto* depth =
+          chained<XrCompositionLayerDepthInfoKHR>(layer.views[eye].next, XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR);
+      if (depth)
+        depthsOf(instance.session->swapchains.at(depth->subImage.swapchain), depth->subImage.imageRect)
+            .save(QString::fromStdString(name.substr(0, name.size() - 4) + "-depth.png"), "PNG");
       instance.log.write({{"picture", name}, {"saved", saved}, {"frame", frame}});
     }
     return;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "ui/vr/swapchain.h"
+
+#include <array>
+#include <optional>
+
+namespace ps::vr {
+
+/// How far what each eye sees is (XR_KHR_composition_layer_depth): with it a headset that shows a picture a little late
+/// moves what is near by more than what is far. It needs fewer pixels than colours do. A headset that does not take
+/// it, or no format of it, gets none.
+class DepthLayer {
+ public:
+  static constexpr const char* kExtension = XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME;
+
+  /// `sizes`: of the eyes' pictures; planes of their windows in m. Throws Failure.
+  DepthLayer(const Runtime& runtime, const Session& session, const std::array<PictureSize, 2>& sizes, double near,
+             double far);
+  bool isTaken() const { return m_eyes[0].has_value(); }
+  /// Takes the next picture; depths 0..1 from the near plane to the far one are drawn into the target.
+  RenderTarget acquire(size_t eye);
+  void release(size_t eye) { m_eyes.at(eye)->release(); }
+  /// For an eye's view of a layer, until the next one.
+  const XrCompositionLayerDepthInfoKHR* shown(size_t eye) const { return &m_shown.at(eye); }
+
+ private:
+  std::array<std::optional<Swapchain>, 2> m_eyes;
+  std::array<PictureSize, 2> m_sizes;
+  std::array<XrCompositionLayerDepthInfoKHR, 2> m_shown{};
+};
+
+}  // namespace ps::vr
