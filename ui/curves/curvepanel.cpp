@@ -81,7 +81,8 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
       m_value(field(QStringLiteral("Value of the point"))),
       m_slope(field(QStringLiteral("Slope at the point"))) {
   m_slopeLabel->setText(QStringLiteral("Slope"));
-  m_slope->setMinimumWidth(84);
+  m_value->setMinimumWidth(98);
+  m_slope->setMinimumWidth(72);
   m_slope->setMaximumWidth(132);
   m_slope->setPlaceholderText(QStringLiteral("–"));
   m_between->setAccessibleName(QStringLiteral("Between points"));

@@ -65,10 +65,12 @@ GLuint linked(const char* vertex, const char* fragment) {
   GLint fine = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &fine);
   if (fine) return program;
+  GLsizei length = 0;
   std::string said(500, '\0');
-  glGetProgramInfoLog(program, static_cast<GLsizei>(said.size()), nullptr, said.data());
+  glGetProgramInfoLog(program, static_cast<GLsizei>(said.size()), &length, said.data());
+  said.resize(static_cast<size_t>(length));
   glDeleteProgram(program);
-  throw Error("The graphics driver draws no depths for the headset: " + std::string(said.c_str()));
+  throw Error("The graphics driver draws no depths for the headset: " + said);
 }
 
 void set(GLuint program, const char* name, const Matrix4& matrix) {
