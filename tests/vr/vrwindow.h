@@ -29,7 +29,8 @@ inline Eye scriptEye(bool right) {
 /// Frames as long as a headset's, so that the window has its share of the machine. `keys`: further ones, `more`: other
 /// keys of the script, each with a comma before it.
 inline std::string vrScript(const QString& more = {}, const QString& keys = {}) {
-  return QStringLiteral(R"({"real_time": true, "period": 0.02, "refresh_rates": [50], "view": {"width": %1, "height": %1},
+  return QStringLiteral(R"({"real_time": true, "period": 0.02, "refresh_rates": [50],
+                            "view": {"width": %1, "height": %1},
                             "profile": "/interaction_profiles/oculus/touch_controller",
                             "keys": [{"frame": 0, "head": [0.1, 1.5, 0.2, -0.25, 0, 0, 0.9682458]}%2]%3})")
       .arg(QString::number(kSide), keys, more)
