@@ -17,6 +17,8 @@ layout(std140, binding = 0) uniform Frame {
 };
 
 const float kFar = 1e6;
+// What a surface belongs to, in the fourth channel of its normal: to a hand, to walls and floors, or it is matter.
+const float kHand = 0.0, kFurniture = 2.0 / 3.0, kMatter = 1.0;
 
 // The sRGB curves without powers, within 0.3 % (I. Taylor, "sRGB approximations for HLSL", 2013): a third of the time
 // where a processor draws.
@@ -43,6 +45,11 @@ float decay(float x) {
 
 // The window need not be centred on the line of sight: projection[2] says by how much it is not.
 vec3 viewRay(vec2 uv) { return vec3((uv * 2.0 - 1.0 + projection[2].xy) * lens.xy, -1.0); }
+// How the ray from the eye, 1 m along the view, changes from a pixel of the picture to the next.
+vec3 rayToTheRight() { return inverseView[0].xyz * (2.0 * size.z * lens.x); }
+vec3 rayUpwards() { return inverseView[1].xyz * (2.0 * size.w * lens.y); }
+float nearestShown() { return lens.w / (lens.z - 1.0); }  // distances of the planes between which things show
+float farthestShown() { return lens.w / (lens.z + 1.0); }
 float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
 
 // The studio around the scene as surfaces mirror it, linear: a soft gradient and a large box around the key light.

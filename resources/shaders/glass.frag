@@ -4,10 +4,12 @@ in vec3 worldNormal;
 in vec3 worldPosition;
 flat in vec4 look;
 uniform sampler2D noiseTexture;
+uniform sampler2D distanceTexture;
 uniform sampler2D fluidTexture;
 uniform int fluidScale;  // 0: no liquid
 out vec4 colour;
 void main() {
+  if (windowDepth(texelFetch(distanceTexture, ivec2(gl_FragCoord.xy), 0).r) < gl_FragCoord.z) discard;
   ivec2 at = ivec2(gl_FragCoord.xy) / max(fluidScale, 1);
   if (fluidScale > 0 && texelFetch(fluidTexture, at, 0).r < 1.0 / gl_FragCoord.w) discard;
   vec3 n = normalize(worldNormal), v = normalize(eye.xyz - worldPosition);

@@ -4,7 +4,6 @@ uniform sampler2D surfaceTexture;
 uniform sampler2D normalTexture;
 uniform sampler2D distanceTexture;
 uniform sampler2D openTexture;
-uniform sampler2DShadow shadowTexture;
 uniform sampler2D contactTexture;  // rgb mean colour of what stands above the floor, a how much
 uniform int shadowTaps;
 
@@ -16,19 +15,17 @@ struct Surface {
 float keyVisible(vec3 p, vec3 n) {
   vec3 s = (shadow * vec4(p + n * matter.x * 0.6, 1.0)).xyz;
   if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;
-  vec2 texel = 1.0 / vec2(textureSize(shadowTexture, 0));
+  vec2 texel = shadowTexel();
   float sum = 0.0;
   vec2 a = vec2(1.5, 0.6) * texel;
   for (int i = 0; i < shadowTaps; ++i) {
-    sum += textureLod(shadowTexture, vec3(s.xy + a, s.z), 0.0);
+    sum += reachesLight(vec3(s.xy + a, s.z));
     a = i == 3 ? vec2(2.6, 2.6) * texel : i % 2 == 0 ? -a : vec2(a.y, -a.x);
   }
   return sum / float(shadowTaps);
 }
 
-
-Surface surfaceAt(vec2 uv, vec3 ray) {
-  ivec2 here = ivec2(gl_FragCoord.xy);
+Surface surfaceAt(ivec2 here, vec2 uv, vec3 ray) {
   vec4 look = texelFetch(surfaceTexture, here, 0);
   Surface s;
   s.base = toLinear(look.rgb);
@@ -42,4 +39,6 @@ Surface surfaceAt(vec2 uv, vec3 ray) {
   return s;
 }
 
-vec4 finished(vec3 c) { return vec4(toScreen(tone(c)) + (ditherAt(gl_FragCoord.xy + 7.0) - 0.5) / 255.0, 1.0); }
+vec4 finished(vec3 c, ivec2 here) {
+  return vec4(toScreen(tone(c)) + (ditherAt(vec2(here) + 7.5) - 0.5) / 255.0, 1.0);
+}

@@ -156,8 +156,8 @@ void TestRenderViews::onePrepareServesEveryView() {
   for (const View& view : views) {
     Renderer fresh;
     fresh.prepare(snapshot, nullptr, 1, tray(), shot.look);
-    const auto& [framebuffer, x, y, size] = view.target;
-    QVERIFY(sheet.read(x, y, size.width, size.height) == renderImage(fresh, view.eye, size));
+    const RenderTarget& to = view.target;
+    QVERIFY(sheet.read(to.x, to.y, to.size.width, to.size.height) == renderImage(fresh, view.eye, to.size));
   }
   QVERIFY(sheet.read(0, 0, 300, 240) != sheet.read(301, 3, 300, 240));
   // What lies between the pictures is as it was.

@@ -9,14 +9,15 @@
 namespace ps::render {
 namespace {
 
-GLuint compile(GLenum stage, const char* file, const char* library) {
+GLuint compile(GLenum stage, const Program::Files& files) {
   std::string source = "#version 430 core\n";
   source += embeddedText("frame.glsl");
-  if (*library) source += embeddedText(library);
-  const std::string_view own = embeddedText(file);
-  if (own.empty()) throw Error(std::string("shader ") + file + " is not built in");
-  source += "#line 1\n";
-  source += own;
+  for (const char* file : files) {
+    const std::string_view text = embeddedText(file);
+    if (text.empty()) throw Error(std::string("shader ") + file + " is not built in");
+    source += "#line 1\n";
+    source += text;
+  }
   const GLuint shader = glCreateShader(stage);
   const char* text = source.c_str();
   glShaderSource(shader, 1, &text, nullptr);
@@ -27,33 +28,45 @@ GLuint compile(GLenum stage, const char* file, const char* library) {
   std::array<char, 2048> log{};
   glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
   glDeleteShader(shader);
-  throw Error(std::string("shader ") + file + " does not compile: " + log.data());
+  throw Error(std::string("shader ") + files.back() + " does not compile: " + log.data());
 }
 
 }  // namespace
 
-Program::Program(const char* vertex, const char* fragment, const char* vertexLibrary, const char* fragmentLibrary) {
-  const GLuint first = compile(GL_VERTEX_SHADER, vertex, vertexLibrary);
+Program::Program(const Files& vertex, const Files& fragment) {
+  const GLuint first = compile(GL_VERTEX_SHADER, vertex);
   GLuint second = 0;
   try {
-    second = compile(GL_FRAGMENT_SHADER, fragment, fragmentLibrary);
+    second = compile(GL_FRAGMENT_SHADER, fragment);
   } catch (...) {
     glDeleteShader(first);
     throw;
   }
   m_program = glCreateProgram();
-  glAttachShader(m_program, first);
-  glAttachShader(m_program, second);
+  for (const GLuint shader : {first, second}) {
+    glAttachShader(m_program, shader);
+    glDeleteShader(shader);
+  }
+  link(std::string("shaders ") + vertex.back() + " and " + fragment.back() + " do");
+}
+
+Program::Program(const Files& compute) {
+  const GLuint shader = compile(GL_COMPUTE_SHADER, compute);
+  m_program = glCreateProgram();
+  glAttachShader(m_program, shader);
+  glDeleteShader(shader);
+  link(std::string("shader ") + compute.front() + " does");
+}
+
+void Program::link(const std::string& what) {
   glLinkProgram(m_program);
-  glDeleteShader(first);
-  glDeleteShader(second);
   GLint ok = 0;
   glGetProgramiv(m_program, GL_LINK_STATUS, &ok);
   if (ok) return;
   std::array<char, 2048> log{};
   glGetProgramInfoLog(m_program, static_cast<GLsizei>(log.size()), nullptr, log.data());
   glDeleteProgram(m_program);
-  throw Error(std::string("shaders ") + vertex + " and " + fragment + " do not link: " + log.data());
+  throw Error(what + " not link: " + log.data());
 }
 
 Program::~Program() { glDeleteProgram(m_program); }
@@ -87,6 +100,8 @@ void Texture::resize(int width, int height) {
     upload(width, height, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, nullptr);
   else if (m_internalFormat == GL_DEPTH_COMPONENT24)
     upload(width, height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  else if (m_internalFormat == GL_R32UI)
+    upload(width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
   else
     upload(width, height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
 }
@@ -99,6 +114,10 @@ void Texture::upload(int width, int height, GLenum format, GLenum type, const vo
     glTexImage2D(GL_TEXTURE_2D, 0, m_internalFormat, width, height, 0, format, type, data);
   m_width = width;
   m_height = height;
+}
+
+void Texture::bindImage(GLuint unit, GLenum access) const {
+  glBindImageTexture(unit, m_name, 0, GL_FALSE, 0, access, static_cast<GLenum>(m_internalFormat));
 }
 
 BufferTexture::BufferTexture() { glGenTextures(1, &m_name); }
@@ -116,6 +135,31 @@ Buffer::~Buffer() { glDeleteBuffers(1, &m_name); }
 void Buffer::upload(GLenum target, const void* data, size_t bytes) {
   glBindBuffer(target, m_name);
   glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+  m_bytes = bytes;
+}
+
+void Buffer::reserve(GLenum target, size_t bytes) {
+  glBindBuffer(target, m_name);
+  if (bytes <= m_bytes) return;
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
+  m_bytes = bytes;
+}
+
+WritableView::WritableView(GLuint texture) {
+  if (!texture) return;
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  GLint format = 0, fixed = GL_FALSE;
+  glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+  glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_IMMUTABLE_FORMAT, &fixed);
+  if (format == GL_RGBA8) m_own = texture;
+  if (format != GL_SRGB8_ALPHA8 || !fixed) return;  // only storage that never changes can be seen in two ways
+  glGenTextures(1, &m_view);
+  glTextureView(m_view, GL_TEXTURE_2D, texture, GL_RGBA8, 0, 1, 0, 1);
+}
+
+WritableView::~WritableView() {
+  if (m_view) glDeleteTextures(1, &m_view);
 }
 
 Target::Target(std::initializer_list<const Texture*> colours, const Texture* depth) {

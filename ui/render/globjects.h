@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <vector>
 
 // Owners of OpenGL objects. Textures, buffers and programs are shared among contexts of a group; framebuffers and
 // vertex arrays are not, so those live for one frame only and a renderer may be used and destroyed in any context of
@@ -15,9 +16,10 @@ namespace ps::render {
 
 class Program {
  public:
-  /// Names of embedded files; the libraries are put before the stages, after frame.glsl ("" for none). Throws Error
-  /// with the compiler's words.
-  Program(const char* vertex, const char* fragment, const char* vertexLibrary = "", const char* fragmentLibrary = "");
+  using Files = std::vector<const char*>;
+  /// Names of embedded files, which follow frame.glsl in this order. Throws Error with the compiler's words.
+  Program(const Files& vertex, const Files& fragment);
+  explicit Program(const Files& compute);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -29,6 +31,8 @@ class Program {
   void texture(const char* uniform, int unit, GLuint name, GLenum target = GL_TEXTURE_2D) const;
 
  private:
+  void link(const std::string& what);
+
   GLuint m_program = 0;
   mutable std::map<std::string, GLint, std::less<>> m_uniforms;
 };
@@ -43,6 +47,8 @@ class Texture {
   /// New storage when the size differs. Contents are undefined then.
   void resize(int width, int height);
   void upload(int width, int height, GLenum format, GLenum type, const void* data);
+  /// For programs that compute, as the image of that number.
+  void bindImage(GLuint unit, GLenum access = GL_WRITE_ONLY) const;
   GLuint name() const { return m_name; }
   bool hasStencil() const { return m_internalFormat == GL_DEPTH24_STENCIL8; }
   int width() const { return m_width; }
@@ -77,10 +83,27 @@ class Buffer {
 
   /// Replaces the contents; what the GPU still reads of the old ones stays.
   void upload(GLenum target, const void* data, size_t bytes);
+  /// Room for so many bytes or more, undefined; bound to `target` afterwards. Never less than before: new storage for
+  /// every list in turn would cost more than it saves.
+  void reserve(GLenum target, size_t bytes);
   GLuint name() const { return m_name; }
 
  private:
   GLuint m_name = 0;
+  size_t m_bytes = 0;
+};
+
+/// Somebody's texture as one of RGBA8 that programs may write, bit by bit: itself, or a view of it where it is sRGB.
+class WritableView {
+ public:
+  explicit WritableView(GLuint texture);  ///< two-dimensional; or 0
+  ~WritableView();
+  WritableView(const WritableView&) = delete;
+  WritableView& operator=(const WritableView&) = delete;
+  GLuint name() const { return m_view ? m_view : m_own; }  ///< 0 where there is no such view
+
+ private:
+  GLuint m_own = 0, m_view = 0;
 };
 
 /// Binds a framebuffer over textures for as long as it lives, with a viewport of their size.

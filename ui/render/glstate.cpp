@@ -10,7 +10,21 @@ GLint integer(GLenum name) {
   return value;
 }
 
+GLint integer(GLenum name, GLuint index) {
+  GLint value = 0;
+  glGetIntegeri_v(name, index, &value);
+  return value;
+}
+
 void enable(GLenum capability, GLboolean on) { on ? glEnable(capability) : glDisable(capability); }
+
+void bindRange(GLenum target, GLuint index, GLint buffer, GLint64 start, GLint64 size) {
+  if (size > 0)
+    glBindBufferRange(target, index, static_cast<GLuint>(buffer), static_cast<GLintptr>(start),
+                      static_cast<GLsizeiptr>(size));
+  else
+    glBindBufferBase(target, index, static_cast<GLuint>(buffer));
+}
 
 }  // namespace
 
@@ -73,6 +87,7 @@ GlState::GlState()
     glBindSampler(static_cast<GLuint>(unit), 0);
   }
   for (const Capability& capability : m_capabilities) glDisable(capability.name);
+  readComputing();
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthRange(0, 1);
@@ -101,11 +116,8 @@ GlState::~GlState() {
   glBindVertexArray(static_cast<GLuint>(m_vertexArray));
   glBindBuffer(GL_ARRAY_BUFFER, static_cast<GLuint>(m_arrayBuffer));
   glBindBuffer(GL_TEXTURE_BUFFER, static_cast<GLuint>(m_textureBuffer));
-  if (m_uniformSize0 > 0)
-    glBindBufferRange(GL_UNIFORM_BUFFER, 0, static_cast<GLuint>(m_uniformBuffer0),
-                      static_cast<GLintptr>(m_uniformStart0), static_cast<GLsizeiptr>(m_uniformSize0));
-  else
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, static_cast<GLuint>(m_uniformBuffer0));
+  bindRange(GL_UNIFORM_BUFFER, 0, m_uniformBuffer0, m_uniformStart0, m_uniformSize0);
+  restoreComputing();
   glBindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(m_uniformBuffer));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(m_packBuffer));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(m_unpackBuffer));
@@ -132,6 +144,35 @@ GlState::~GlState() {
   glClearColor(m_clearColour[0], m_clearColour[1], m_clearColour[2], m_clearColour[3]);
   glClearDepth(static_cast<GLdouble>(m_clearDepth));
   glColorMask(m_colourMask[0], m_colourMask[1], m_colourMask[2], m_colourMask[3]);
+}
+
+void GlState::readComputing() {
+  m_storageBuffer = integer(GL_SHADER_STORAGE_BUFFER_BINDING);
+  for (GLuint i = 0; i < kImages; ++i) {
+    Image& image = m_images[i];
+    image = {integer(GL_IMAGE_BINDING_NAME, i),   integer(GL_IMAGE_BINDING_LEVEL, i),
+             integer(GL_IMAGE_BINDING_LAYER, i),  integer(GL_IMAGE_BINDING_ACCESS, i),
+             integer(GL_IMAGE_BINDING_FORMAT, i), GL_FALSE};
+    glGetBooleani_v(GL_IMAGE_BINDING_LAYERED, i, &image.layered);
+  }
+  for (GLuint i = 0; i < kStorages; ++i) {
+    m_storages[i] = {integer(GL_SHADER_STORAGE_BUFFER_BINDING, i), 0, 0};
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, i, &m_storages[i].start);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, i, &m_storages[i].size);
+  }
+}
+
+void GlState::restoreComputing() const {
+  for (GLuint i = 0; i < kImages; ++i) {
+    const Image& image = m_images[i];
+    glBindImageTexture(i, static_cast<GLuint>(image.name), image.level, image.layered, image.layer,
+                       static_cast<GLenum>(image.access), static_cast<GLenum>(image.format));
+  }
+  for (GLuint i = 0; i < kStorages; ++i) {
+    const Storage& storage = m_storages[i];
+    bindRange(GL_SHADER_STORAGE_BUFFER, i, storage.buffer, storage.start, storage.size);
+  }
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(m_storageBuffer));
 }
 
 }  // namespace ps::render

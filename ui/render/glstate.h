@@ -11,6 +11,7 @@ namespace ps::render {
 class GlState {
  public:
   static constexpr int kUnits = 8;
+  static constexpr int kImages = 3, kStorages = 7;  ///< of programs that compute
   GlState();
   ~GlState();
   GlState(const GlState&) = delete;
@@ -23,6 +24,17 @@ class GlState {
     GLenum name;
     GLboolean on;
   };
+  struct Image {
+    GLint name, level, layer, access, format;
+    GLboolean layered;
+  };
+  struct Storage {
+    GLint buffer;
+    GLint64 start, size;
+  };
+  void readComputing();
+  void restoreComputing() const;
+
   struct Unit {
     GLint texture, buffer, sampler;
   };
@@ -41,6 +53,9 @@ class GlState {
   std::array<GLboolean, 4> m_colourMask;
   std::array<Capability, 11> m_capabilities;
   std::array<Unit, kUnits> m_unitStates;
+  std::array<Image, kImages> m_images;
+  std::array<Storage, kStorages> m_storages;
+  GLint m_storageBuffer;
 };
 
 }  // namespace ps::render

@@ -33,7 +33,7 @@ Layers& LayerPool::at(int width, int height) {
     found = m_layers.emplace(m_layers.end());
     found->width = width;
     found->height = height;
-    for (Texture* texture : {&found->surface, &found->normal, &found->distance, &found->depth, &found->picture})
+    for (Texture* texture : {&found->surface, &found->normal, &found->distance, &found->picture})
       texture->resize(width, height);
   }
   found->used = m_draws;

@@ -34,8 +34,9 @@ struct Layers {
   std::array<bool, 4> drawn{};  ///< the driver has shown that it can: liquid, vapour, an outline, a ghost
   uint64_t used = 0;            ///< when, in draws
   Texture surface{GL_RGBA8, GL_NEAREST}, normal{GL_RGB10_A2, GL_NEAREST}, distance{GL_R32F, GL_NEAREST};
+  Texture triangles{GL_R32UI, GL_NEAREST};  ///< where surfaces are computed
   Texture depth{GL_DEPTH24_STENCIL8, GL_NEAREST}, open{GL_R8, GL_LINEAR};
-  Texture picture{GL_RGBA8, GL_LINEAR}, behind{GL_RGBA8, GL_LINEAR};
+  Texture picture{GL_RGBA8, GL_LINEAR}, behind{GL_RGBA8, GL_LINEAR}, finished{GL_RGBA8, GL_NEAREST};
   Texture fluid{GL_R32F, GL_NEAREST}, fluidOther{GL_R32F, GL_NEAREST}, fluidColour{GL_RGBA16F, GL_LINEAR};
   Texture fluidClear{GL_R16F, GL_LINEAR}, fluidNormal{GL_RGB10_A2, GL_LINEAR};
   Texture fluidDepth{GL_DEPTH_COMPONENT24, GL_NEAREST};

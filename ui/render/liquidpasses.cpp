@@ -4,23 +4,25 @@
 
 namespace ps::render {
 
-void Passes::drawFluidDepth(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
-  const Target target({&layers.fluid}, &layers.fluidDepth);
+/// How far the nearest of some spheres is.
+void Passes::drawNearest(const Job& job, const Texture& to, Texture& depth, Range range, float growth) {
+  if (m_quality.compute) return computeNearest(to, range, growth);
+  depth.resize(to.width(), to.height());
+  const Target target({&to}, &depth);
   clearDepth();
   clearColour(0, kFar, 0, 0, 0);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  m_programs.fluidDepth.use();
-  glUniform1f(m_programs.fluidDepth.at("growth"), 1.25f);
-  drawParticles(m_programs.fluidDepth, plain, m_particles, prepared.instances.liquidRange(frame.amongLiquids));
+  m_drawing->fluidDepth.use();
+  glUniform1f(m_drawing->fluidDepth.at("growth"), growth);
+  drawParticles(m_drawing->fluidDepth, job.plain, m_particles, range);
   glDisable(GL_DEPTH_TEST);
 }
 
 /// Into the lower left corner of a picture that has room for the finest scale: the scale changes with every step of the
 /// camera, storage does not.
 void Passes::drawThickness(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
+  const auto& [prepared, frame, layers, plain, clock] = job;
   const bool one = prepared.instances.clearness.has_value();
   const Target target =
       one ? Target({&layers.fluidColour}, nullptr) : Target({&layers.fluidColour, &layers.fluidClear}, nullptr);
@@ -29,7 +31,7 @@ void Passes::drawThickness(const Job& job) {
   if (!one) clearColour(1, 0, 0, 0, 0);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
-  const Program& program = m_programs.fluidColour;
+  const Program& program = m_drawing->fluidColour;
   program.use();
   program.texture("distanceTexture", 0, layers.distance.name());
   glUniform1i(program.at("scale"), frame.thicknessScale);
@@ -39,20 +41,23 @@ void Passes::drawThickness(const Job& job) {
 }
 
 void Passes::drawFluid(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
+  const auto& [prepared, frame, layers, plain, clock] = job;
   const int scale = m_quality.fluidScale, width = reduced(frame.width, scale), height = reduced(frame.height, scale);
-  for (Texture* texture : {&layers.fluid, &layers.fluidOther, &layers.fluidColour, &layers.fluidClear,
-                           &layers.fluidDepth, &layers.fluidNormal})
+  for (Texture* texture :
+       {&layers.fluid, &layers.fluidOther, &layers.fluidColour, &layers.fluidClear, &layers.fluidNormal})
     texture->resize(width, height);
   layers.behind.resize(frame.width, frame.height);
-  drawFluidDepth(job);
-  drawThickness(job);
+  drawNearest(job, layers.fluid, layers.fluidDepth, prepared.instances.liquidRange(frame.amongLiquids), 1.25f);
+  clock.mark("liquid's distance");
+  if (m_quality.compute)
+    computeThickness(job);
+  else
+    drawThickness(job);
+  clock.mark("liquid's thickness");
   smoothFluid(job);
-
-  copyPicture(layers.picture, layers.behind, {0, 0, frame.width, frame.height});
-  const Target target({&layers.picture}, nullptr);
-  glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  clock.mark("liquid's smoothing");
+  // Programs that compute have put the picture there in the first place.
+  if (!m_quality.compute) copyPicture(layers.picture, layers.behind, {0, 0, frame.width, frame.height});
   const Program& program = m_programs.fluidLight;
   program.use();
   program.texture("fluidTexture", 0, layers.fluid.name());
@@ -66,34 +71,38 @@ void Passes::drawFluid(const Job& job) {
   const auto used = [thickness](int pixels) { return static_cast<float>(pixels) / thickness; };
   glUniform2f(program.at("thicknessSize"), used(frame.width), used(frame.height));
   glUniform1f(program.at("oneClearness"), prepared.instances.clearness.value_or(-1));
-  drawTiles(m_liquidTiles, frame.liquidTiles);
-  glDisable(GL_BLEND);
+  workOver(job, program, layers.behind, {m_liquidTiles, frame.liquidTiles}, {0, 0, frame.width, frame.height});
+  clock.mark("liquid's light");
 }
 
 void Passes::smoothFluid(const Job& job) {
-  const auto& [prepared, frame, layers, plain] = job;
+  const auto& [prepared, frame, layers, plain, clock] = job;
+  const Tiles tiles{m_liquidTiles, frame.liquidTiles};
+  if (!m_quality.compute) {
+    const Target target({&layers.fluidOther}, nullptr), normal({&layers.fluidNormal}, nullptr);
+    clearColour(0, 0.5f, 0.5f, 1, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    clearColour(0, kFar, 0, 0, 0);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);  // where there is liquid
+  }
+  const Texture* depth = m_quality.compute ? nullptr : &layers.fluidDepth;
   const Program& program = m_programs.fluidSmooth;
   program.use();
   glUniform1i(program.at("limit"), m_quality.fluidTaps * (frame.still ? 2 : 1));
-  glDepthMask(GL_FALSE);
-  glEnable(GL_DEPTH_TEST);
   for (int pass = 0; pass < 2 * m_quality.fluidRounds; ++pass) {
     const Texture& from = pass % 2 ? layers.fluidOther : layers.fluid;
     const Texture& to = pass % 2 ? layers.fluid : layers.fluidOther;
-    const Target target({&to}, &layers.fluidDepth);
-    glDepthFunc(GL_GREATER);  // where there is liquid
-    if (pass == 0) clearColour(0, kFar, 0, 0, 0);
     program.texture("fluidTexture", 0, from.name());
     glUniform2i(program.at("direction"), pass % 2 ? 0 : 1, pass % 2 ? 1 : 0);
     glUniform1f(program.at("width"), prepared.instances.radius * (pass < 2 ? 1.5f : 0.8f));
     glUniform1i(program.at("fine"), pass >= 2);
-    drawTiles(m_liquidTiles, frame.liquidTiles);
+    work(program, to, tiles, depth);
   }
-  const Target target({&layers.fluidNormal}, &layers.fluidDepth);
-  clearColour(0, 0.5f, 0.5f, 1, 1);
   m_programs.fluidNormal.use();
   m_programs.fluidNormal.texture("fluidTexture", 0, layers.fluid.name());
-  drawTiles(m_liquidTiles, frame.liquidTiles);
+  work(m_programs.fluidNormal, layers.fluidNormal, tiles, depth);
   glDisable(GL_DEPTH_TEST);
 }
 

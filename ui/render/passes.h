@@ -2,100 +2,116 @@
 #pragma once
 #include <epoxy/gl.h>
 
+#include "ui/render/bins.h"
 #include "ui/render/globjects.h"
 #include "ui/render/layers.h"
+#include "ui/render/passclock.h"
 #include "ui/render/prepared.h"
+#include "ui/render/programs.h"
 #include "ui/render/viewframe.h"
 
+#include <array>
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace ps::render {
 
-/// What a machine can afford. Software renderers get fewer samples and smaller soft layers.
+/// What a machine can afford. Software renderers get fewer samples and smaller soft layers, and draw what others
+/// compute: a processor skips what no triangle touches, works out both ways of a branch, and takes 3.5 times as long to
+/// compute a picture as to draw it. Cards made for computing draw it 13 times as slowly.
 struct Quality {
   int shadowSize = 2048, shadowTaps = 8;
   int occlusionScale = 1, occlusionSamples = 12;
   int fluidScale = 2, fluidTaps = 12, fluidRounds = 2;
   int steamScale = 2, steamSprites = 4;
   int outlineScale = 1;
-  bool cull = false;  ///< the processor leaves out hidden spheres
+  bool cull = false;    ///< the processor leaves out hidden spheres
+  bool compute = true;  ///< surfaces and pixels by programs that compute, else by drawing triangles
 };
-Quality qualityOf(const char* rendererName);
+Quality qualityOf(const char* rendererName, PixelWork work);
+/// Of the buffer's corners of triangles, MeshVertex or EdgeVertex, in the vertex array that is bound.
+void meshAttributes(GLuint buffer);
 
 inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
 
-/// Shaders, textures and buffers, and the passes in their order: the shadow picture once for everything that is
-/// prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost, final, outline, panels for each picture.
+/// Shaders, textures and buffers, and the passes in their order, most of which are drawn or computed (Quality): the
+/// shadow picture once for everything that is prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost,
+/// final, outline, panels for each picture.
 class Passes {
  public:
-  Passes();
+  explicit Passes(PixelWork work);
   int largestPicture() const { return m_largest; }  ///< pixels along each side
   const Quality& quality() const { return m_quality; }
   void prepare(const Prepared& prepared);
   void show(const Props& props);
+  void timePasses(std::vector<PassTime>* times) { m_times = times; }
   /// What was prepared last, into the framebuffer that the frame names.
   void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
 
  private:
-  struct Programs {
-    Program sphere{"sphere.vert", "sphere.frag", "particle.glsl"};
-    Program mesh{"mesh.vert", "mesh.frag"};
-    Program shadow{"shadow.vert", "shadow.frag", "particle.glsl"};
-    Program occlusion{"tiles.vert", "occlusion.frag"};
-    Program background{"fullscreen.vert", "background.frag"};
-    Program lightMetal{"fullscreen.vert", "lightmetal.frag", "", "light.glsl"};
-    Program lightMatter{"fullscreen.vert", "lightmatter.frag", "", "light.glsl"};
-    Program fluidDepth{"fluid.vert", "fluiddepth.frag", "particle.glsl"};
-    Program fluidColour{"fluid.vert", "fluidcolour.frag", "particle.glsl"};
-    Program fluidSmooth{"tiles.vert", "fluidsmooth.frag"};
-    Program fluidNormal{"tiles.vert", "fluidnormal.frag"};
-    Program fluidLight{"tiles.vert", "fluidlight.frag"};
-    Program steam{"steam.vert", "steam.frag", "particle.glsl"};
-    Program steamOver{"fullscreen.vert", "steamover.frag"};
-    Program glass{"glass.vert", "glass.frag"};
-    Program edge{"edge.vert", "edge.frag"};
-    Program outlineMask{"outlinemask.vert", "outlinemask.frag", "particle.glsl"};
-    Program ghost{"tiles.vert", "ghost.frag"};
-    Program panel{"panel.vert", "panel.frag"};
-    Program outline{"tiles.vert", "outline.frag"};
-    Program final{"tiles.vert", "final.frag"}, still{"fullscreen.vert", "final.frag"};
-  };
-
   /// What the passes of one picture share.
   struct Job {
     const Prepared& prepared;
     const ViewFrame& frame;
     Layers& layers;
     const VertexArray& plain;
+    PassClock& clock;
+  };
+  /// The parts of a picture that need a pass.
+  struct Tiles {
+    const Buffer& buffer;
+    const std::vector<TileSet::Corner>& corners;
   };
 
   void uploadPrepared(const Prepared& prepared);
   void uploadFrame(const ViewFrame& frame);
   void drawShadow(const Prepared& prepared, const VertexArray& plain);
+  void computeShadow(const Prepared& prepared);
   void drawSurfaces(const Job& job);
+  void drawMesh(const Program& program, const Buffer& buffer, const std::vector<MeshVertex>& mesh);
+  void computeSurfaces(const Job& job);
   void drawOcclusion(const Job& job);
   const Texture& drawBackground(const Job& job);
   void drawLight(const Job& job);
+  void computeLight(const Job& job);
+  void lightTextures(const Program& program, const Layers& layers);
   void drawFluid(const Job& job);
-  void drawFluidDepth(const Job& job);
+  void drawNearest(const Job& job, const Texture& to, Texture& depth, Range range, float growth);
   void drawThickness(const Job& job);
+  void computeThickness(const Job& job);
+  void sortSpheres(Range range, float growth, const Bins::Field& field);
+  void computeNearest(const Texture& to, Range range, float growth);
+  void work(const Program& program, const Texture& to, const Tiles& tiles, const Texture* depth = nullptr);
+  void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles,
+                const std::array<int, 4>& box);
   void smoothFluid(const Job& job);
+  void drawOver(const Job& job);
   void drawSteam(const Job& job);
+  void computeSteam(const Job& job, int sprites);
+  void tellSprites(const Program& program, int sprites, bool data);
+  void steamTextures(const Program& program, const Layers& layers);
   void drawGlass(const Job& job);
   void drawGhost(const Job& job);
   void drawOutline(const Job& job, const PicturePlace& place);
   void drawFinal(const Job& job);
+  void computeFinal(const Job& job);
   void drawPanels(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
                      int triangles = 1);
-  void drawTiles(const Buffer& buffer, const std::vector<TileSet::Corner>& tiles);
+  void tellParticles(const Program& program, const Buffer& particles, Range range);
+  void drawTiles(const Tiles& tiles);
 
   Quality m_quality;
+  std::vector<PassTime>* m_times = nullptr;
   GLint m_largest = 0;
   Programs m_programs;
-  Texture m_shadow{GL_DEPTH_COMPONENT24, GL_LINEAR}, m_contact{GL_RGBA8, GL_LINEAR};
+  std::optional<DrawingPrograms> m_drawing;  // one of the two
+  std::optional<ComputingPrograms> m_computing;
+  Bins m_bins;
+  Texture m_shadow, m_contact{GL_RGBA8, GL_LINEAR};
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
@@ -107,9 +123,9 @@ class Passes {
     std::shared_ptr<const PanelImage> image;  ///< that it holds
   };
   std::list<PanelPicture> m_panelPictures;
-  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles,
-      m_ghostTiles;  // of the picture being drawn
-  Fence m_fence;     // behind the last call, whose context may have been another
+  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles, m_ghostTiles,
+      m_allTiles;  // of the picture being drawn
+  Fence m_fence;   // behind the last call, whose context may have been another
 };
 
 }  // namespace ps::render

@@ -28,20 +28,22 @@ GLenum takeErrors() {
 
 struct Renderer::Impl {
   // The state is put back after the constructor's passes are made, so that a context in use stays as it was.
-  static std::unique_ptr<render::Passes> makePasses() {
+  static std::unique_ptr<render::Passes> makePasses(PixelWork work) {
     if (epoxy_gl_version() < 43)
       throw Error("the graphics driver offers OpenGL " + std::to_string(epoxy_gl_version() / 10) + "." +
                   std::to_string(epoxy_gl_version() % 10) + "; the view needs 4.3 or newer");
     const render::GlState state;
-    return std::make_unique<render::Passes>();
+    return std::make_unique<render::Passes>(work);
   }
-  std::unique_ptr<render::Passes> passes = makePasses();
+  explicit Impl(PixelWork work) : passes(makePasses(work)) {}
+
+  std::unique_ptr<render::Passes> passes;
   render::LayerPool pool;
   render::Prepared prepared;
   render::ViewFrame frame;  // kept for its memory
 };
 
-Renderer::Renderer() : m(std::make_unique<Impl>()) {}
+Renderer::Renderer(PixelWork work) : m(std::make_unique<Impl>(work)) {}
 Renderer::~Renderer() = default;
 
 void Renderer::checkSize(const PictureSize& size) const {
@@ -58,6 +60,8 @@ void Renderer::prepare(const Snapshot& now, const Snapshot* previous, double ble
   const render::GlState state;
   m->passes->prepare(m->prepared);
 }
+
+void Renderer::timePasses(std::vector<PassTime>* times) { m->passes->timePasses(times); }
 
 void Renderer::show(const Props& props) {
   m->prepared.props = props;

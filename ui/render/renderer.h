@@ -71,6 +71,9 @@ struct RenderTarget {
   uint32_t framebuffer = 0;  ///< its name in the context that is current; 0: the window's own
   int x = 0, y = 0;          ///< lower left corner, pixels
   PictureSize size;
+  /// Two-dimensional texture that is all the framebuffer has of colour, so that programs may compute into it; 0:
+  /// unknown.
+  uint32_t texture = 0;
 };
 
 /// The scene's furniture that is drawn around particles.
@@ -105,13 +108,24 @@ struct Props {
 
 struct Eye;
 
+/// What the graphics card took for one of the passes that make a picture.
+struct PassTime {
+  std::string pass;
+  double milliseconds = 0;
+};
+
+/// How a renderer works out surfaces and pixels: by drawing triangles, or by programs that compute. The pictures are
+/// the same but for rounding.
+enum class PixelWork { AsSuitsTheCard, Drawn, Computed };
+
 /// Draws snapshots: each is prepared once and then drawn any number of times, for two eyes, a mirror, a thumbnail, a
 /// frame of a film. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless), which may be
 /// another one for every call as long as all share their objects; knows no widgets. One thread at a time; views on
 /// several threads have a Renderer and a context each. All calls restore the OpenGL state that they change.
 class Renderer {
  public:
-  Renderer();   ///< throws Error when shaders do not compile or the context is too old
+  /// Throws Error when shaders do not compile or the context is too old.
+  explicit Renderer(PixelWork work = PixelWork::AsSuitsTheCard);
   ~Renderer();  ///< the same context (or one that shares with it) must be current
   /// Throws Error when the driver cannot draw a picture that large, as draw() does before it changes anything.
   void checkSize(const PictureSize& size) const;
@@ -123,6 +137,9 @@ class Renderer {
   /// Draws what was prepared last. Throws Error when nothing was, and when the driver runs out of memory. The same
   /// picture whatever was drawn before, and for two sizes in turn without new storage.
   void draw(const Eye& eye, const RenderTarget& target);
+  /// From now on prepare() and draw() wait for the graphics card and add what each pass took, as long as `times` is not
+  /// nullptr: to find out what is slow.
+  void timePasses(std::vector<PassTime>* times);
 
  private:
   struct Impl;

@@ -38,6 +38,8 @@ void TileSet::markLine(float x0, float y0, float x1, float y1, float reach) {
 
 void TileSet::markAll() { std::fill(m_marks.begin(), m_marks.end(), 1); }
 
+bool TileSet::full() const { return std::find(m_marks.begin(), m_marks.end(), 0) == m_marks.end(); }
+
 void TileSet::triangles(std::vector<Corner>& out) const {
   out.clear();
   const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(m_width); };

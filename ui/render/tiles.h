@@ -20,6 +20,7 @@ class TileSet {
   /// Marks the tiles along a line.
   void markLine(float x0, float y0, float x1, float y1, float reach);
   void markAll();
+  bool full() const;  ///< all are marked
   bool marked(int column, int row) const { return m_marks[static_cast<size_t>(row * m_columns + column)] != 0; }
   /// Two triangles for each run of tiles in a row, in place of what `out` held.
   void triangles(std::vector<Corner>& out) const;

@@ -66,6 +66,7 @@ int innerScale(const PictureSize& size) { return size.still ? 2 : 1; }
 void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarget& target, const Quality& quality) {
   const int scale = innerScale(target.size);
   place = {target.framebuffer, target.x, target.y};
+  texture = target.texture;
   width = target.size.width * scale;
   height = target.size.height * scale;
   still = target.size.still;
@@ -124,7 +125,9 @@ void ViewFrame::chooseThickness(const Prepared& prepared, const Eye& eye, int fi
 
 /// What shows, which parts of the picture have liquid, and which have edges to smooth or crevices to darken.
 void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
-  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost}) tiles->reset(width, height);
+  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost, &all}) tiles->reset(width, height);
+  all.markAll();
+  all.triangles(allTiles);
   if (culled) {
     const Instances& instances = prepared.instances;
     const Projector projector(eye, width, height);

@@ -17,22 +17,24 @@ struct Quality;
 struct ViewFrame {
   FrameUniforms uniforms;
   PicturePlace place;
+  uint32_t texture = 0;       ///< behind the framebuffer, where that is known
   int width = 0, height = 0;  ///< of the inner targets, pixels
   bool still = false;         ///< inner targets have two pixels for one of the picture, along each side
   bool culled = false;        ///< `visible` has the spheres that show; else all do
   bool lidInFront = true;     ///< the eye is above the lid
   bool amongSpheres = false;  ///< the eye is among them, and sees what is buried
   bool amongLiquids = false;
-  int thicknessScale = 2;                     ///< inner pixels along a side for one of the liquid's thickness
-  float lineWidth = 0, haloWidth = 0;         ///< of the outline, inner pixels
-  std::vector<Instance> visible;              ///< nearest first
-  float ghostWidth = 0;                       ///< of the line around a ghost, inner pixels
-  TileSet liquid, detail, outline, ghost;     ///< what the next four are made of
-  std::vector<TileSet::Corner> liquidTiles;   ///< where liquid may be
-  std::vector<TileSet::Corner> detailTiles;   ///< where edges and crevices may be
-  std::vector<TileSet::Corner> outlineTiles;  ///< where the outline may be
-  std::vector<TileSet::Corner> ghostTiles;    ///< where the ghost may be
-  std::array<int, 4> vapourBox{};             ///< x, y, width, height of the pixels that vapour may touch
+  int thicknessScale = 2;                       ///< inner pixels along a side for one of the liquid's thickness
+  float lineWidth = 0, haloWidth = 0;           ///< of the outline, inner pixels
+  std::vector<Instance> visible;                ///< nearest first
+  float ghostWidth = 0;                         ///< of the line around a ghost, inner pixels
+  TileSet liquid, detail, outline, ghost, all;  ///< what the next five are made of
+  std::vector<TileSet::Corner> liquidTiles;     ///< where liquid may be
+  std::vector<TileSet::Corner> detailTiles;     ///< where edges and crevices may be
+  std::vector<TileSet::Corner> outlineTiles;    ///< where the outline may be
+  std::vector<TileSet::Corner> ghostTiles;      ///< where the ghost may be
+  std::vector<TileSet::Corner> allTiles;        ///< the whole picture
+  std::array<int, 4> vapourBox{};               ///< x, y, width, height of the pixels that vapour may touch
 
   /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card
   /// draws all of it faster than a processor finds out.

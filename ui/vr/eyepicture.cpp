@@ -24,7 +24,7 @@ RenderTarget EyePicture::acquire(double scale) {
   m_pictures.acquire();
   const auto part = [scale](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
   m_used = {part(m_size.width), part(m_size.height), false};
-  return {m_pictures.framebuffer(), 0, 0, m_used};
+  return {m_pictures.framebuffer(), 0, 0, m_used, m_pictures.texture()};
 }
 
 XrSwapchainSubImage EyePicture::shown() const {

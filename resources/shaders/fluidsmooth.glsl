@@ -6,10 +6,12 @@ uniform ivec2 direction;
 uniform float width;  // m, standard deviation of the filter
 uniform int limit;    // taps to each side
 uniform int fine;     // 1: neighbouring texels only, which removes the comb that wider steps leave
-out float distance;
-void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(fluidTexture, 0) - 1;
+
+bool shade(ivec2 here, vec2 uv, vec3 ray, out vec4 distance) {
+  ivec2 last = textureSize(fluidTexture, 0) - 1;
   float centre = texelFetch(fluidTexture, here, 0).r;
+  distance = vec4(centre);
+  if (centre > kFar * 0.5) return true;
   float sigma = width / centre / lens.y * 0.5 * float(last.y + 1);
   if (fine == 1) sigma = min(sigma, 0.5 * float(limit));
   float range = width * 1.6, step = max(1.0, ceil(2.0 * sigma / float(limit)));
@@ -23,5 +25,6 @@ void main() {
     sum += keep * (max(a, centre - range) + max(b, centre - range));
     weights += 2.0 * keep;
   }
-  distance = sum / weights;
+  distance = vec4(sum / weights);
+  return true;
 }

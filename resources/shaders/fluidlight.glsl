@@ -9,10 +9,6 @@ uniform vec2 thicknessSize;          // texels that the picture takes of the las
 uniform float oneClearness;          // of all liquid; below 0: as fluidClear says
 uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
-uniform sampler2DShadow shadowTexture;
-in vec2 uv;
-in vec3 worldRay;
-out vec4 colour;
 
 // Distance at a place of the picture, interpolated among the neighbours that are liquid; y: their share.
 vec2 distanceAt(vec2 at) {
@@ -30,10 +26,11 @@ vec2 distanceAt(vec2 at) {
   return vec2(dot(w, min(d, vec4(kFar))) / max(sum, 1e-5), sum);
 }
 
-void main() {
+// Multiplied by its opacity.
+bool shade(ivec2 here, vec2 uv, vec3 worldRay, out vec4 colour) {
   vec2 centre = distanceAt(uv);
-  float front = texelFetch(distanceTexture, ivec2(gl_FragCoord.xy), 0).r;
-  if (centre.y < 0.05 || centre.x > front + matter.x * 0.25) discard;
+  float front = texelFetch(distanceTexture, here, 0).r;
+  if (centre.y < 0.05 || centre.x > front + matter.x * 0.25) return false;
 
   vec3 nView = normalize(textureLod(fluidNormal, uv, 0.0).xyz * 2.0 - 1.0);
   vec3 n = mat3(inverseView) * nView;
@@ -55,7 +52,7 @@ void main() {
   vec3 reflected = softStudio(mirrored) * 1.25 + vec3(1.7, 1.65, 1.6) * box;
   vec3 h = normalize(v + light.xyz);
   vec3 s = (shadow * vec4(world + n * matter.x, 1.0)).xyz;
-  float key = textureLod(shadowTexture, s, 0.0);
+  float key = reachesLight(s);
   float shine = max(dot(n, h), 0.0);
   shine *= shine;
   shine *= shine;
@@ -92,5 +89,6 @@ void main() {
       c = mix(dense + reflected * (fresnel * 0.5 + 0.03) + shine * 0.7, c, clear);
     }
   }
-  colour = vec4(toScreen(tone(c)), edge);
+  colour = vec4(toScreen(tone(c)) * edge, edge);
+  return true;
 }

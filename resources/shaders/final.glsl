@@ -3,8 +3,6 @@
 // light.
 uniform sampler2D picture;
 uniform int still;
-uniform ivec2 origin;  // of the picture in its framebuffer, pixels
-out vec4 colour;
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
 
 vec3 averaged(ivec2 p) {
@@ -13,11 +11,10 @@ vec3 averaged(ivec2 p) {
   return toScreen(sum * 0.25);
 }
 
-void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy) - origin;
+bool shade(ivec2 here, vec2 place, vec3 ray, out vec4 colour) {
   if (still == 1) {
     colour = vec4(averaged(here * 2), 1.0);
-    return;
+    return true;
   }
   ivec2 last = ivec2(size.xy) - 1;
   vec3 middle = texelFetch(picture, here, 0).rgb;
@@ -31,7 +28,8 @@ void main() {
   float least = max((nw + ne + sw + se) * 0.03125, 1.0 / 128.0);
   along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -1.5, 1.5) * size.zw;
   along *= high - low < max(0.03, high * 0.10) ? 0.0 : 1.0;
-  vec2 uv = (gl_FragCoord.xy - vec2(origin)) * size.zw;
+  vec2 uv = (vec2(here) + 0.5) * size.zw;
   vec3 both = textureLod(picture, uv - along * 0.5, 0.0).rgb + textureLod(picture, uv + along * 0.5, 0.0).rgb;
   colour = vec4(0.5 * both, 1.0);
+  return true;
 }
