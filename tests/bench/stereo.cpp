@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a second eye costs: milliseconds to prepare matter and to draw it for one eye and for two, without a display.
 //
-//   stereo [PARTICLES [WIDTH HEIGHT [FRAMES]]]     without them 100000 particles, 1280 x 720 pixels, 60 frames
+//   stereo [PARTICLES [WIDTH HEIGHT [FRAMES [drawn|computed]]]]
 //
+// Without them 100000 particles, 1280 x 720 pixels, 60 frames, and pixels worked out as suits the card.
+//
+// Below each: what the card took for each pass of a frame, both eyes together.
 // With as many particles of another run as a ghost over it, too.
 // Each stage is waited for, so that it has its own time; the head moves from frame to frame, so that nothing of one
 // serves the next.
@@ -15,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 using namespace ps;
 using namespace ps::testing;
@@ -77,7 +81,14 @@ class Clock {
   std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
-void measure(const char* kind, bool ghost, size_t particles, const PictureSize& size, int frames) {
+/// What the card takes for each pass of a frame with both eyes, ms.
+void printPasses(const std::vector<PassTime>& times, int frames) {
+  for (const PassTime& time : times)
+    if (time.milliseconds / frames > 0.005)
+      std::printf("  %-20s %8.3f\n", time.pass.c_str(), time.milliseconds / frames);
+}
+
+void measure(const char* kind, bool ghost, size_t particles, const PictureSize& size, int frames, PixelWork work) {
   Snapshot before = matter(particles, kind), now = before;
   for (api::Float4& p : now.position) p.y += 0.002f;
   Look look;
@@ -91,10 +102,10 @@ void measure(const char* kind, bool ghost, size_t particles, const PictureSize& 
   glGenFramebuffers(1, &framebuffer);
   glGenTextures(1, &picture);
   glBindTexture(GL_TEXTURE_2D, picture);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 2 * size.width, size.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, 2 * size.width, size.height);  // as headsets have it
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture, 0);
-  Renderer renderer;
+  Renderer renderer(work);
   Camera camera{{0, 0.2, 0}, 1.6, 35, 25, 35};
   std::vector<double> prepare, first, second, card;
   for (int frame = -5; frame < frames; ++frame) {
@@ -107,9 +118,9 @@ void measure(const char* kind, bool ghost, size_t particles, const PictureSize& 
     Clock clock;
     renderer.prepare(now, &before, 0.5, scene, look);
     const double prepared = clock.lap();
-    renderer.draw(eyes[0], {framebuffer, 0, 0, size});
+    renderer.draw(eyes[0], {framebuffer, 0, 0, size, picture});
     const double one = clock.lap();
-    renderer.draw(eyes[1], {framebuffer, size.width, 0, size});
+    renderer.draw(eyes[1], {framebuffer, size.width, 0, size, picture});
     const double two = clock.lap();
     if (frame < 0) continue;
     prepare.push_back(prepared);
@@ -117,9 +128,19 @@ void measure(const char* kind, bool ghost, size_t particles, const PictureSize& 
     second.push_back(two);
     card.push_back(clock.card);
   }
+  // Once more, since asking for the time of each pass takes some itself.
+  std::vector<PassTime> times;
+  renderer.timePasses(&times);
+  const std::array<Eye, 2> eyes{eyeOf(camera, size.width, size.height), eyeOf(camera, size.width, size.height)};
+  for (int frame = 0; frame < frames; ++frame) {
+    renderer.prepare(now, &before, 0.5, scene, look);
+    for (const int i : {0, 1})
+      renderer.draw(eyes[static_cast<size_t>(i)], {framebuffer, i * size.width, 0, size, picture});
+  }
   const double a = median(prepare), b = median(first), c = median(second);
   std::printf("%-7s %-5s %8zu %5dx%-5d %8.2f %8.2f %8.2f %8.1f %% %8.2f\n", kind, ghost ? "yes" : "no", particles,
               size.width, size.height, a, b, c, 100 * c / (a + b), median(card));
+  printPasses(times, frames);
   glDeleteFramebuffers(1, &framebuffer);
   glDeleteTextures(1, &picture);
 }
@@ -131,16 +152,20 @@ int main(int count, char** words) {
   const int particles = number(1, 100000), frames = number(4, 60);
   const PictureSize size{number(2, 1280), number(3, 720), false};
   if (particles < 1 || size.width < 1 || size.height < 1 || frames < 1) {
-    std::fprintf(stderr, "stereo [PARTICLES [WIDTH HEIGHT [FRAMES]]]\n");
+    std::fprintf(stderr, "stereo [PARTICLES [WIDTH HEIGHT [FRAMES [drawn|computed]]]]\n");
     return 2;
   }
+  const std::string how = count > 5 ? words[5] : "";
+  const PixelWork work = how == "drawn"      ? PixelWork::Drawn
+                         : how == "computed" ? PixelWork::Computed
+                                             : PixelWork::AsSuitsTheCard;
   try {
     HeadlessContext context;
     std::printf("%s\n", context.description().c_str());
     std::printf("%-7s %-5s %8s %11s %8s %8s %8s %10s %8s\n", "matter", "ghost", "particles", "an eye", "prepare",
                 "first", "second", "of a view", "card");
     for (const char* kind : {"solid", "liquid", "mixed"}) {
-      for (const bool ghost : {false, true}) measure(kind, ghost, static_cast<size_t>(particles), size, frames);
+      for (const bool ghost : {false, true}) measure(kind, ghost, static_cast<size_t>(particles), size, frames, work);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
