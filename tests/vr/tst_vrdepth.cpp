@@ -103,6 +103,8 @@ void VrDepthTest::nothingIsToldWhereNobodyAsks_data() {
   QTest::addColumn<QString>("more");
   QTest::newRow("without the extension") << R"(, "extensions": ["XR_KHR_opengl_enable"])";
   QTest::newRow("without a format for it") << R"(, "formats": ["SRGB8_ALPHA8"])";
+  QTest::newRow("where its pictures are refused")
+      << R"(, "events": [{"fail": "xrCreateSwapchain", "result": "XR_ERROR_RUNTIME_FAILURE", "after": 2}])";
 }
 
 void VrDepthTest::nothingIsToldWhereNobodyAsks() {

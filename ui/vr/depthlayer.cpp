@@ -24,19 +24,28 @@ DepthLayer::DepthLayer(const Runtime& runtime, const Session& session, const std
     : m_sizes(sizes) {
   const int64_t format = runtime.has(kExtension) ? formatOf(session.handle()) : 0;
   if (format == 0) return;
-  for (size_t eye = 0; eye < m_eyes.size(); ++eye) {
-    PictureSize& size = m_sizes[eye];
-    size = {std::max(1, size.width / kShare), std::max(1, size.height / kShare), false};
-    m_eyes[eye].emplace(
-        session.handle(), size,
-        Swapchain::Kind{format, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT,
-                        GL_DEPTH_ATTACHMENT});
-    auto& shown = m_shown[eye] = structure<XrCompositionLayerDepthInfoKHR>(XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR);
-    shown.subImage = {m_eyes[eye]->handle(), {{0, 0}, {size.width, size.height}}, 0};
+  for (PictureSize& size : m_sizes) size = {std::max(1, size.width / kShare), std::max(1, size.height / kShare), false};
+  try {
+    for (size_t eye = 0; eye < m_eyes.size(); ++eye) makeEye(eye, session, format);
+  } catch (const Failure&) {  // the stay does without; where more is amiss, the next call says so
+    for (auto& eye : m_eyes) eye.reset();
+    return;
+  }
+  for (XrCompositionLayerDepthInfoKHR& shown : m_shown) {
     shown.maxDepth = 1;
     shown.nearZ = static_cast<float>(near);
     shown.farZ = static_cast<float>(far);
   }
+}
+
+void DepthLayer::makeEye(size_t eye, const Session& session, int64_t format) {
+  const PictureSize& size = m_sizes[eye];
+  m_eyes[eye].emplace(
+      session.handle(), size,
+      Swapchain::Kind{format, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT,
+                      GL_DEPTH_ATTACHMENT});
+  m_shown[eye] = structure<XrCompositionLayerDepthInfoKHR>(XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR);
+  m_shown[eye].subImage = {m_eyes[eye]->handle(), {{0, 0}, {size.width, size.height}}, 0};
 }
 
 RenderTarget DepthLayer::acquire(size_t eye) {

@@ -20,6 +20,10 @@ std::optional<XrResult> answerInstead(Instance& instance, std::string_view funct
   if (ofSession && instance.session && instance.session->lost) return note(XR_ERROR_SESSION_LOST);
   const auto failure = instance.failures.find(function);
   if (failure == instance.failures.end()) return {};
+  if (failure->second.after > 0) {
+    --failure->second.after;
+    return {};
+  }
   const XrResult result = failure->second.result;
   if (--failure->second.times == 0) instance.failures.erase(failure);
   return note(result);

@@ -231,13 +231,14 @@ void ScriptReader::checkEvent(const std::string& kind, const json& value, const 
       refuse(pointer + "/" + key, "must be a result of OpenXR, such as XR_ERROR_RUNTIME_FAILURE");
   };
   for (const auto& [key, part] : value.items())
-    if (!holds(std::initializer_list<std::string_view>{"frame", kind, "result", "times", "hand"}, key))
+    if (!holds(std::initializer_list<std::string_view>{"frame", kind, "result", "times", "after", "hand"}, key))
       refuse(pointer + "/" + key, "no such key");
   if (kind == "state" && !holds(kStates, text(value[kind], place))) refuse(place, "no such state");
   if (kind == "fail") {
     if (!text(value[kind], place).starts_with("xr")) refuse(place, "must be a function of OpenXR");
     result("result");
     if (value.contains("times")) number(value["times"], pointer + "/times", 1, kAnyFrame);
+    if (value.contains("after")) number(value["after"], pointer + "/after", 0, kAnyFrame);
   }
   if (kind == "dies") result("dies");
   if (kind == "session_lost" || kind == "instance_loss") boolean(value[kind], place);

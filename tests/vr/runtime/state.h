@@ -85,6 +85,7 @@ struct Session {
 struct Failure {
   XrResult result = XR_ERROR_RUNTIME_FAILURE;
   int64_t times = 0;
+  int64_t after = 0;  ///< calls that go well before
 };
 
 /// From the frame on, frames have this period, and the frame has this time.

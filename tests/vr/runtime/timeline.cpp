@@ -45,7 +45,7 @@ void apply(Instance& instance, const json& what) {
     allow(instance, *stateNamed(what["state"].get<std::string>()));
   } else if (kind == "fail") {
     instance.failures[what["fail"]] = {*resultNamed(what["result"].get<std::string>()),
-                                       what.value("times", int64_t{-1})};
+                                       what.value("times", int64_t{-1}), what.value("after", int64_t{0})};
   } else if (kind == "dies") {
     instance.death = *resultNamed(what["dies"].get<std::string>());
   } else if (kind == "session_lost") {
