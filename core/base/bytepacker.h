@@ -70,6 +70,7 @@ class ByteUnpacker {
     const auto size = value<uint32_t>();
     return {next(size), size};
   }
+  bool atEnd() const { return m_at == m_bytes.size(); }
   /// Throws where something is left.
   void finish() const {
     if (m_at != m_bytes.size()) fail();

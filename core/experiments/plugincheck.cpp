@@ -72,6 +72,9 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   const api::ParameterList list = plugins.parameters(info.id);
   for (size_t i = 0; i < list.count; ++i) setup.parameters.push_back(list[i].defaultValue);
   const std::vector<api::StrokeSample> samples{{{0, 0, 0}, 1, 0, {}}, {{0.02, 0, 0}, 0.5, 0.01, {1, 0, 0}, {1, 0, 0}}};
+  VoxelShape::Stamp block;
+  block.cells = {{0, 0, 0, 2, 0}, {0, 1, 0, 2, 0}, {0, 0, 1, 2, 0}};
+  setup.stamp = stampCells(block);
   const api::BrushPlugin& brush = *plugins.brush(info.id);
   if (plugins.needs(info.id, api::kTouchesMatter)) {
     if (touchesOf(brush, setup, api::EditKind::Add, samples).empty())

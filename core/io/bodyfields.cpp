@@ -19,7 +19,9 @@ const FieldTable<VoxelShape::Paint>& paintFields() {
   static const FieldTable<Paint> table{
       .help = "what cells are made of",
       .rows = {field("material", &Paint::material, MaterialId{}, "").required(),
-               field("temperature", &Paint::temperature, Number{1, 10000, "K"}, "").required()},
+               field("temperature", &Paint::temperature, Number{1, 10000, "K"}, "").required(),
+               field("colour", &Paint::colour, ColourText{}, "of its own, red, green and blue")
+                   .omittedWhen([](const Paint& paint) { return paint.colour.empty(); })},
       .unknown = &Paint::unknown};
   return table;
 }
@@ -35,14 +37,35 @@ const FieldTable<VoxelShape::Symmetry>& symmetryFields() {
   return table;
 }
 
+const Integer kCoordinate{-1'000'000, 1'000'000};
+
+const FieldTable<VoxelShape::Stamp>& stampFields() {
+  using Stamp = VoxelShape::Stamp;
+  using Run = VoxelShape::Run;
+  const Tuple<Run> run{
+      "x, y, z, length",
+      {memberPart<&Run::x, Run>(kCoordinate), memberPart<&Run::y, Run>(kCoordinate),
+       memberPart<&Run::z, Run>(kCoordinate), memberPart<&Run::length, Run>({1, 1'000'000}, "cells along x")}};
+  static const FieldTable<Stamp> table{
+      .help = "the shape of a body, as it was stamped",
+      .rows = {field("spacing", &Stamp::spacing, Number{0.0005, 10, "m"}, "edge of a cell").required(),
+               field("cells", &Stamp::cells, List{run}, "as runs along x").required(),
+               field("rotation", &Stamp::rotation, Vector{"°"}, "of its lattice, about the x, then y, then z axis")},
+      .unknown = &Stamp::unknown};
+  return table;
+}
+
 const FieldTable<VoxelShape::Stroke>& strokeFields() {
   using Stroke = VoxelShape::Stroke;
-  using Sample = std::array<double, 5>;
+  using Sample = std::array<double, 8>;
+  const Number turn{-10, 10, "rad"};
   const Number place{-kFarthest, kFarthest, "m"};
   const Tuple<Sample> sample{
-      "x, y, z, pressure, time",
+      "x, y, z, pressure, time, and the turn of a pen or a hand as an axis of that length",
       {elementPart<0, Sample>(place), elementPart<1, Sample>(place), elementPart<2, Sample>(place),
-       elementPart<3, Sample>({0, 1}), elementPart<4, Sample>({0, 1e9, "s"})}};
+       elementPart<3, Sample>({0, 1}), elementPart<4, Sample>({0, 1e9, "s"}), elementPart<5, Sample>(turn),
+       elementPart<6, Sample>(turn), elementPart<7, Sample>(turn)},
+      5};
   static const FieldTable<Stroke> table{
       .help = "how cells were drawn",
       .rows = {field("brush", &Stroke::brush,
@@ -55,6 +78,7 @@ const FieldTable<VoxelShape::Stroke>& strokeFields() {
                                 "the brush's own parameters"),
                field("up", &Stroke::up, Direction{}, "away from what it was drawn on"),
                field("symmetry", &Stroke::symmetry, Optional{Object{symmetryFields()}}, ""),
+               field("stamp", &Stroke::stamp, Optional{Object{stampFields()}}, "what was stamped"),
                field("samples", &Stroke::samples, List{sample}, "where the hand went").required()},
       .unknown = &Stroke::unknown};
   return table;
@@ -64,11 +88,10 @@ const FieldTable<VoxelShape::Stroke>& strokeFields() {
 
 const FieldTable<VoxelShape>& voxelFields() {
   using Run = VoxelShape::Run;
-  const Integer coordinate{-1'000'000, 1'000'000};
   const Tuple<Run> run{
       "x, y, z, length, palette",
-      {memberPart<&Run::x, Run>(coordinate), memberPart<&Run::y, Run>(coordinate), memberPart<&Run::z, Run>(coordinate),
-       memberPart<&Run::length, Run>({1, 1'000'000}, "cells along x"),
+      {memberPart<&Run::x, Run>(kCoordinate), memberPart<&Run::y, Run>(kCoordinate),
+       memberPart<&Run::z, Run>(kCoordinate), memberPart<&Run::length, Run>({1, 1'000'000}, "cells along x"),
        memberPart<&Run::palette, Run>({0, 65535}, "index into the palette")}};
   static const FieldTable<VoxelShape> table{
       .help = "sketched cells",

@@ -86,6 +86,11 @@ struct Axis : Plain {
   Json write(int value) const { return std::string(1, static_cast<char>('x' + value)); }
 };
 
+/// A colour that matter has of its own: red, green and blue,
+/// sRGB, as "#rrggbb".
+struct ColourText : Text {
+  Json schema() const { return {{"type", "string"}, {"pattern", "^#[0-9a-f]{6}$"}}; }
+};
 /// Something's own name, or that of something else of the scene.
 struct Id : Text {
   Json schema() const { return definitionSchema("id"); }
@@ -199,22 +204,27 @@ struct Tuple : Plain {
   };
   const char* help = "";
   std::vector<Part> parts;
-  Tuple(const char* words, std::vector<Part> all) : help(words), parts(std::move(all)) {}
+  size_t needed;  ///< of the first ones; zeros of the others at the end are left out
+  Tuple(const char* words, std::vector<Part> all) : help(words), parts(std::move(all)), needed(parts.size()) {}
+  Tuple(const char* words, std::vector<Part> all, size_t least) : help(words), parts(std::move(all)), needed(least) {}
   Json schema() const {
     Json items = Json::array();
     for (const Part& part : parts) items.push_back(part.schema);
     return {{"type", "array"},
             {"prefixItems", items},
-            {"minItems", parts.size()},
+            {"minItems", needed},
             {"maxItems", parts.size()},
             {"description", help}};
   }
   void read(Json& value, V& out, const PluginRegistry&) const {
-    for (size_t i = 0; i < parts.size(); ++i) parts[i].set(out, value[i].template get<double>());
+    for (size_t i = 0; i < std::min(parts.size(), value.size()); ++i)
+      parts[i].set(out, value[i].template get<double>());
   }
   Json write(const V& value) const {
+    size_t count = parts.size();
+    while (count > needed && parts[count - 1].get(value) == 0) --count;
     Json out = Json::array();
-    for (const Part& part : parts) out.push_back(jsonNumber(part.get(value)));
+    for (size_t i = 0; i < count; ++i) out.push_back(jsonNumber(parts[i].get(value)));
     return out;
   }
 };

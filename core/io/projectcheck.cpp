@@ -137,6 +137,8 @@ class ProjectChecker : public FieldVisitor {
     }
     checkOverlaps(shape.runs, pointer + "/runs");
     for (size_t i = 0; i < shape.strokes.size(); ++i) {
+      if (shape.strokes[i].stamp)
+        checkOverlaps(shape.strokes[i].stamp->cells, at(pointer + "/strokes", i) + "/stamp/cells");
       if (shape.strokes[i].palette < colours) continue;
       fail(at(pointer + "/strokes", i) + "/palette", "the palette has no such entry");
     }

@@ -158,6 +158,8 @@ std::string headOf(const FrameKey& key) {
   for (const FieldPtr& field : key.fields) pack(packer, *field);
   packer.value(static_cast<uint32_t>(key.ranges.size()));
   for (const Steps& steps : key.ranges) packer.value(steps);
+  // Only of scenes that have some: others are as they were before there were any.
+  for (const uint32_t colour : key.colours) packer.value(colour);
   return packer.bytes();
 }
 
@@ -192,7 +194,7 @@ FrameKey readKey(const std::string& head, const std::string& where) {
   }
   if (unpacker.value<uint32_t>() != numbers) unpacker.fail();
   for (; numbers > 0; --numbers) key.ranges.push_back(unpacker.value<Steps>());
-  unpacker.finish();
+  while (!unpacker.atEnd()) key.colours.push_back(unpacker.value<uint32_t>());
   if (!(key.look.spacing > 0 && key.look.spacing <= 1e6)) unpacker.fail();
   for (const auto& look : key.look.materialLook) {
     for (const float part : look) {

@@ -142,7 +142,7 @@ const FieldTable<PaintCells>& paintCellsFields() {
   static const FieldTable<PaintCells> table{
       .rows = {field("lattice", &PaintCells::lattice, Object{voxelFields()}, "").required(),
                field("cells", &PaintCells::cells, Cells{}, "").required(),
-               field("material", &PaintCells::material, Id{}, "").required(),
+               field("material", &PaintCells::material, Text{}, "").required(),
                field("spared", &PaintCells::spared, List{Id{}}, ""), field("key", &PaintCells::key, Key{}, "")}};
   return table;
 }
@@ -171,7 +171,7 @@ const FieldTable<NameMatter>& nameFields() {
       .rows = {field("key", &NameMatter::key, Key{}, ""), field("body", &NameMatter::body, Id{}, "").required(),
                field("lattice", &NameMatter::lattice, Object{voxelFields()}, "").required(),
                field("cells", &NameMatter::cells, Cells{}, "").required(),
-               field("painted_from", &NameMatter::paintedFrom, Id{}, "").omittedWhen([](const NameMatter& named) {
+               field("painted_from", &NameMatter::paintedFrom, Text{}, "").omittedWhen([](const NameMatter& named) {
                  return named.paintedFrom.empty();
                })}};
   return table;

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/statestream.h"
+#include "core/particles/colourfield.h"
 
 #include <algorithm>
 #include <cstring>
@@ -338,6 +339,9 @@ void ParticleStore::save(StateWriter& writer) const {
   writer.value("particles/count", uint64_t{m_size});
   writer.value("particles/next_id", m_nextId);
   for (const auto& f : m_fields) {
+    const std::byte* first = f->data.get();
+    const auto isZero = [](std::byte value) { return value == std::byte{0}; };
+    if (f->info.name == kColourField && std::all_of(first, first + m_size * f->elementSize, isZero)) continue;
     writer.open({kFieldRoom, f->info.name}, stateTypeOf(f->info.type), m_size);
     writer.put(f->data.get(), m_size * f->elementSize);
     writer.close();

@@ -71,6 +71,7 @@ struct VoxelShape {
   struct Paint {
     std::string material;
     double temperature = 293.15;  ///< K
+    std::string colour{};         ///< of its own, "#rrggbb" (sRGB); "": that of the material
     Unknown unknown{};
     bool operator==(const Paint&) const = default;
   };
@@ -82,6 +83,15 @@ struct VoxelShape {
     Unknown unknown{};
     bool operator==(const Symmetry&) const = default;
   };
+  /// The shape of a body, as a brush stamped it: kept with the stroke, so that it is drawn again whatever becomes of
+  /// the body.
+  struct Stamp {
+    double spacing = 0.02;      ///< m, edge of a cell
+    std::vector<Run> cells;     ///< as runs along x, of no palette, in the order of cells
+    Vector3 rotation{0, 0, 0};  ///< degrees about x, then y, then z, of their lattice
+    Unknown unknown{};
+    bool operator==(const Stamp&) const = default;
+  };
   struct Stroke {
     std::string brush;  ///< plugin id
     bool erase = false;
@@ -90,7 +100,9 @@ struct VoxelShape {
     ParameterSet parameters;
     Vector3 up{0, 1, 0};  ///< away from what it was drawn on; any length but zero
     std::optional<Symmetry> symmetry;
-    std::vector<std::array<double, 5>> samples;  ///< x, y, z in m, pressure, time in s
+    std::optional<Stamp> stamp{};  ///< that was stamped; none of brushes that stamp no shape
+    /// x, y, z in m, pressure, time in s, and the turn of a pen or a hand (api::StrokeSample::turn) in rad
+    std::vector<std::array<double, 8>> samples;
     Unknown unknown{};
     bool operator==(const Stroke&) const = default;
   };

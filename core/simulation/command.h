@@ -74,12 +74,12 @@ struct PutBack {
   MatterKey key = 0;
   std::vector<AddCells> cells{};
 };
-/// What stands in cells of a lattice becomes of a material, except matter of some bodies: see Engine::paint(). Refused
-/// where the scene has no such material.
+/// What stands in cells of a lattice becomes of a material, or gets a colour, except matter of some bodies: see
+/// Engine::paint(). Refused where the scene has no such material.
 struct PaintCells {
   VoxelShape lattice;  ///< see latticeOf()
   CellIndices cells;
-  std::string material;               ///< SceneMaterial::id
+  std::string material;               ///< SceneMaterial::id, or a colour: see core/scene/coat.h
   std::vector<std::string> spared{};  ///< Body::id
   MatterKey key = 0;                  ///< notes what each particle was
 };
@@ -95,8 +95,8 @@ struct NameMatter {
   std::string body;    ///< Body::id
   VoxelShape lattice;  ///< see latticeOf()
   CellIndices cells;
-  /// "": the key made it; else the key painted it, and UndoTouch makes it of this material again. Matter of several
-  /// materials is named one after the other.
+  /// "": the key made it; else the key painted it, and UndoTouch gives it this material, or this colour, again. Matter
+  /// of several materials is named one after the other.
   std::string paintedFrom{};
 };
 /// Puts the matter that was taken with a body back; where the key names nothing, the body comes as it is at the start,

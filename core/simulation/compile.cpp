@@ -8,6 +8,7 @@
 #include "core/matter/material.h"
 #include "core/matter/stablephase.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/coat.h"
 #include "core/scene/pose.h"
 #include "core/scene/scenewall.h"
 #include "core/scene/shownname.h"
@@ -38,8 +39,8 @@ api::Phase birthPhase(const std::string& asked, const api::Caloric& caloric, dou
 }
 
 /// Everything but positions, material, temperature and the index of the body, which the engine gives.
-Spawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body& body) {
-  Spawn spawn;
+ColouredSpawn spawnOf(const Project& project, const PluginRegistry& plugins, const Body& body) {
+  ColouredSpawn spawn;
   spawn.fixed = toggleOf(body.parameters, bodyParameters(), "fixed") || isPlaceholder(project, body, plugins);
   spawn.held = isHeld(body);
   return spawn;
@@ -118,10 +119,10 @@ void setFields(Spawn& spawn, const Body& body, const Vector3& centre, const api:
 
 /// Takes the particles that stand in one of the body's pins, or are held by its shape, out of `spawn`: a batch of fixed
 /// ones.
-Spawn takePinned(Spawn& spawn, const Body& body, double spacing) {
+ColouredSpawn takePinned(ColouredSpawn& spawn, const Body& body, double spacing) {
   std::optional<SolidForm> form;
   if (const auto* solid = std::get_if<SolidShape>(&body.shape)) form.emplace(*solid);
-  Spawn pinned = spawn;
+  ColouredSpawn pinned = spawn;
   pinned.position.clear();
   pinned.fixed = true;
   std::erase_if(spawn.position, [&](const api::Double3& p) {
@@ -292,12 +293,12 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 
 bool isHeld(const Body& body) { return toggleOf(body.parameters, bodyParameters(), "held"); }
 
-std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
-                               std::span<const BakedMaterial> materials, const Body& body) {
+std::vector<ColouredSpawn> compileBody(const Project& project, const PluginRegistry& plugins,
+                                       std::span<const BakedMaterial> materials, const Body& body) {
   const double spacing = compileSettings(project).spacing;
-  std::vector<Spawn> spawns;
+  std::vector<ColouredSpawn> spawns;
   if (!std::holds_alternative<VoxelShape>(body.shape)) {
-    Spawn spawn = spawnOf(project, plugins, body);
+    ColouredSpawn spawn = spawnOf(project, plugins, body);
     if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
       SolidMatter matter = solidMatter(*solid, spacing);
       spawn.position = std::move(matter.places);
@@ -321,11 +322,11 @@ std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plu
   const double jitter = numberOf(body.parameters, bodyParameters(), "jitter");
   const double seed = numberOf(body.parameters, bodyParameters(), "seed");
   const Vector3 centre = centreOf(body, spacing);
-  std::vector<Spawn> all;
-  for (Spawn& spawn : spawns) {
+  std::vector<ColouredSpawn> all;
+  for (ColouredSpawn& spawn : spawns) {
     // By place in the lattice: disorder does not decide who is pinned.
-    Spawn pinned = takePinned(spawn, body, spacing);
-    for (Spawn* part : {&pinned, &spawn}) {
+    ColouredSpawn pinned = takePinned(spawn, body, spacing);
+    for (ColouredSpawn* part : {&pinned, &spawn}) {
       setFields(*part, body, centre, materials[part->material].caloric());
       disturb(part->position, spacing, jitter, static_cast<uint32_t>(seed));
     }
@@ -356,13 +357,15 @@ std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<s
   return heat;
 }
 
-Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing) {
+ColouredSpawn compileCells(const Project& project, const PluginRegistry& plugins,
+                           std::span<const BakedMaterial> materials, const Body& body, int palette,
+                           const std::vector<std::array<int, 3>>& cells, double spacing) {
   const auto& voxels = std::get<VoxelShape>(body.shape);
   const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(palette));
-  Spawn spawn = spawnOf(project, plugins, body);
+  ColouredSpawn spawn = spawnOf(project, plugins, body);
   spawn.position = cellCentres(voxels, spacing, cells);
   setMatter(spawn, project, materials, paint.material, paint.temperature, body);
+  spawn.colour = colourNumber(paint.colour);
   return spawn;
 }
 

@@ -42,10 +42,15 @@ bool isPlaceholder(const Project& project, const Body& body, const PluginRegistr
 
 /// Whether its matter stands still until it is let go.
 bool isHeld(const Body& body);
+/// Particles to be, with the colour of their own (see colourNumber(); 0: none) that the store gets beside them.
+struct ColouredSpawn : Spawn {
+  uint32_t colour = 0;
+};
+
 /// The particles of a body at the start, one batch per palette entry, pinned ones before those that move; Spawn::body
 /// and the constraints are the engine's to set. `materials`: the scene's, baked.
-std::vector<Spawn> compileBody(const Project& project, const PluginRegistry& plugins,
-                               std::span<const BakedMaterial> materials, const Body& body);
+std::vector<ColouredSpawn> compileBody(const Project& project, const PluginRegistry& plugins,
+                                       std::span<const BakedMaterial> materials, const Body& body);
 /// How a fixed body moves; none of others.
 BodyMotion compileMotion(const Body& body, double spacing);
 /// Heat that each body is given, by the index that its particles carry; bodies that have left the project get none.
@@ -53,8 +58,9 @@ BodyMotion compileMotion(const Body& body, double spacing);
 std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
                                      std::span<const uint8_t> fixed);
 /// One batch of a sketched body's cells, filled with particles of `spacing` m.
-Spawn compileCells(const Project& project, const PluginRegistry& plugins, std::span<const BakedMaterial> materials,
-                   const Body& body, int palette, const std::vector<std::array<int, 3>>& cells, double spacing);
+ColouredSpawn compileCells(const Project& project, const PluginRegistry& plugins,
+                           std::span<const BakedMaterial> materials, const Body& body, int palette,
+                           const std::vector<std::array<int, 3>>& cells, double spacing);
 
 /// One layer of an emitter's jet, the places of its Mouth for particles `spacing` m apart, `offset` m down the jet.
 Spawn compileLayer(const Project& project, std::span<const BakedMaterial> materials, const Emitter& emitter,

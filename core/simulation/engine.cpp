@@ -113,7 +113,7 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
   return solver->spawn(spawn);
 }
 
-std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
+std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body) {
   if (toggleOf(body.parameters, bodyParameters(), "fixed")) {
     const uint32_t index = bodyIndex(body.id);
     fixedBodies.resize(bodyIds->size());
@@ -128,7 +128,10 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const Body& body) {
       spawn.constraintSets.push_back(set);
     }
   }
-  return born(std::move(spawn), body.id, body.name);
+  const uint32_t colour = spawn.colour;
+  std::vector<uint32_t> ids = born(Spawn(std::move(spawn)), body.id, body.name);
+  if (colour != 0) giveColour(solver->particles(), ids, colour);
+  return ids;
 }
 
 /// Emitters and sinks, after a frame.

@@ -72,6 +72,9 @@ class Engine {
   void putBack(const ExtractedMatter& matter);
   /// Makes particles of another material, a SceneMaterial::id: see Solver::paint(). What an emitter holds stays.
   PaintedMatter paint(const std::vector<uint32_t>& ids, const std::string& material);
+  /// Gives particles a colour of their own (see colourNumber()), or with 0 that of their material. Their ids with what
+  /// they had before, of those that had another one.
+  std::vector<std::pair<uint32_t, uint32_t>> colour(const std::vector<uint32_t>& ids, uint32_t colour);
   void unpaint(const PaintedMatter& painted);
   /// Gives particles heat between two frames: see Solver::addHeat().
   bool addHeat(std::span<double> joules);

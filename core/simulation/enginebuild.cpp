@@ -49,13 +49,13 @@ void Engine::Impl::build() {
   const Bounds bounds = compileBounds(project);
   OccupiedPlaces occupied(kOverlap * spacing, static_cast<size_t>(count),
                           Period(bounds.minimum, bounds.maximum, bounds.periodic));
-  std::vector<std::pair<Spawn, const Body*>> spawns;
+  std::vector<std::pair<ColouredSpawn, const Body*>> spawns;
   if (t_progress) t_progress->expect(workOf(project, plugins));
   beginStage("Placing particles", count, 3 * count);
   for (const Body& body : project.bodies) {
     bodyIndex(body.id);  // of one without particles too
     size_t dropped = 0;
-    for (Spawn& spawn : compileBody(project, plugins, tables.tables(), body)) {
+    for (ColouredSpawn& spawn : compileBody(project, plugins, tables.tables(), body)) {
       dropped += dropOccupied(spawn, occupied);
       spawns.emplace_back(std::move(spawn), &body);
     }

@@ -25,6 +25,10 @@ inline std::vector<std::string> idsOf(const std::vector<SceneMaterial>& material
   return ids;
 }
 
+/// See Engine::colour().
+std::vector<std::pair<uint32_t, uint32_t>> giveColour(ParticleStore& store, const std::vector<uint32_t>& ids,
+                                                      uint32_t colour);
+
 struct Engine::Impl {
   Impl(const Project& source, PluginRegistry& registry)
       : project(source),
@@ -66,7 +70,7 @@ struct Engine::Impl {
   void carry(const Body& from, const RigidMove& move, bool led = false);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
-  std::vector<uint32_t> born(Spawn spawn, const Body& body);
+  std::vector<uint32_t> born(ColouredSpawn spawn, const Body& body);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   /// Without those that an emitter holds.
   std::vector<uint32_t> notHeld(const std::vector<uint32_t>& ids) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What comes into a scene that runs, goes out of it, and is carried about in it.
 #include "core/base/error.h"
+#include "core/particles/colourfield.h"
 #include "core/scene/pose.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
@@ -50,7 +51,7 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
 std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
   const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
   m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
-  Spawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
+  ColouredSpawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   std::vector<uint32_t> ids;
   if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
@@ -78,7 +79,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   const OccupiedPlaces taken = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, 0);
   const Period& period = m->solver->particles().period();
   OccupiedPlaces own(kOverlap * m->spacing, static_cast<size_t>(particleCount(body, m->spacing)), period);
-  for (Spawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
+  for (ColouredSpawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {
     dropOccupied(spawn, own, &taken);
     if (spawn.position.empty()) continue;
     const bool isPacked = spawn.packed;
@@ -93,6 +94,19 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   m->bindTracks(m->solver->time());
   m->holdBodies();
   return ids;
+}
+
+std::vector<std::pair<uint32_t, uint32_t>> giveColour(ParticleStore& store, const std::vector<uint32_t>& ids,
+                                                      uint32_t colour) {
+  store.declare(kColourField, api::FieldType::UInt32, "", "Colour of its own");
+  auto* colours = static_cast<uint32_t*>(store.write(kColourField, api::FieldType::UInt32));
+  std::vector<std::pair<uint32_t, uint32_t>> before;
+  for (const uint32_t i : store.indicesOf(ids)) {
+    if (colours[i] == colour) continue;
+    before.emplace_back(store.id()[i], colours[i]);
+    colours[i] = colour;
+  }
+  return before;
 }
 
 std::vector<uint32_t> Engine::Impl::notHeld(const std::vector<uint32_t>& ids) const {
@@ -112,6 +126,12 @@ PaintedMatter Engine::paint(const std::vector<uint32_t>& ids, const std::string&
   return m->solver->paint(m->notHeld(ids), static_cast<uint32_t>(index));
 }
 void Engine::unpaint(const PaintedMatter& painted) { m->solver->unpaint(painted); }
+
+/// Nothing moves or warms otherwise by it: the store alone hears of it.
+std::vector<std::pair<uint32_t, uint32_t>> Engine::colour(const std::vector<uint32_t>& ids, uint32_t colour) {
+  return giveColour(m->solver->particles(), m->notHeld(ids), colour);
+}
+
 bool Engine::addHeat(std::span<double> joules) { return m->solver->addHeat(joules); }
 void Engine::addVelocities(std::span<const Vector3> change) { m->solver->addVelocities(change); }
 TieChange Engine::cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared) {

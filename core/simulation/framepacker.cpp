@@ -76,10 +76,24 @@ uint64_t spanOf(size_t particles) {
   return span;
 }
 
+/// Ascending, without 0. They are few, and neighbours have the same.
+std::vector<uint32_t> coloursOf(const Snapshot& s) {
+  std::vector<uint32_t> colours;
+  uint32_t last = 0;
+  for (const uint32_t colour : s.colour) {
+    if (colour == last || colour == 0) continue;
+    last = colour;
+    const auto at = std::lower_bound(colours.begin(), colours.end(), colour);
+    if (at == colours.end() || *at != colour) colours.insert(at, colour);
+  }
+  return colours;
+}
+
 bool sameLook(const Snapshot& s, const FrameKey& key) {
   const Snapshot& a = key.look;
   return a.revision == s.revision && a.spacing == s.spacing && a.period == s.period && a.bodyIds == s.bodyIds &&
          a.heldBodies == s.heldBodies && a.materialIds == s.materialIds && a.materialLook == s.materialLook &&
+         key.colours == coloursOf(s) &&
          std::equal(s.fields.begin(), s.fields.end(), key.fields.begin(), key.fields.end(),
                     [](const FieldValues& shown, const FieldPtr& field) { return shown.field == field; });
 }
@@ -141,7 +155,7 @@ FrameLevels FramePacker::levelsOf(const Snapshot& s) const {
     levels.phase[k] = static_cast<uint8_t>(s.phase[i]);
     levels.motion[k] = static_cast<uint8_t>(s.motion[i]);
     levels.body[k] = s.body[i];
-    levels.material[k] = s.material[i];
+    levels.material[k] = s.colour.empty() ? s.material[i] : colourLevel(*m_key, s.material[i], s.colour[i]);
   }
   for (const FieldValues& shown : s.fields) {
     if (!shown.field->classes) continue;
@@ -154,6 +168,7 @@ FrameLevels FramePacker::levelsOf(const Snapshot& s) const {
 void FramePacker::makeKey(const Snapshot& snapshot) {
   auto key = std::make_shared<FrameKey>();
   key->look = lookOf(snapshot);
+  key->colours = coloursOf(snapshot);
   key->number = snapshot.stats.frame;
   for (const FieldValues& shown : snapshot.fields) key->fields.push_back(shown.field);
   eachNumbers(snapshot, [&](size_t row, const auto& value) {

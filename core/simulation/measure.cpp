@@ -2,6 +2,7 @@
 #include "core/simulation/measure.h"
 
 #include "core/base/parallel.h"
+#include "core/particles/colourfield.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,11 @@ void fillSnapshot(Snapshot& snapshot, const Solver& solver, std::span<const Fiel
   snapshot.id.assign(store.id(), store.id() + n);
   snapshot.body.assign(store.body(), store.body() + n);
   snapshot.material.assign(store.material(), store.material() + n);
+  if (const void* colours = store.read(kColourField, api::FieldType::UInt32)) {
+    const auto* first = static_cast<const uint32_t*>(colours);
+    if (std::any_of(first, first + n, [](uint32_t colour) { return colour != 0; }))
+      snapshot.colour.assign(first, first + n);
+  }
   for (size_t i = 0; i < n; ++i) {
     const api::Double3 p = store.wrappedPosition(i);
     const float volume = store.position()[i].w;

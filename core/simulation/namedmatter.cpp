@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/namedmatter.h"
 
+#include "core/scene/coat.h"
 #include "core/simulation/engine.h"
 #include "core/solver/solver.h"
 
@@ -167,7 +168,11 @@ void NamedMatter::apply(Engine& engine, const PutBack& command) {
 /// In their order; what has been done moves over.
 void NamedMatter::paint(Engine& engine, std::vector<Coat>& coats, std::vector<Coat>& painted) {
   for (Coat& coat : coats) {
-    coat.was = engine.paint(coat.ids, coat.material);
+    if (isColour(coat.material)) {
+      coat.colours = engine.colour(coat.ids, colourNumber(coat.material));
+    } else {
+      coat.was = engine.paint(coat.ids, coat.material);
+    }
     painted.push_back(std::move(coat));
   }
   coats.clear();
@@ -178,6 +183,8 @@ void NamedMatter::unpaint(Engine& engine, std::vector<Coat>& painted, std::vecto
   for (auto coat = painted.rbegin(); coat != painted.rend(); ++coat) {
     engine.unpaint(coat->was);
     coat->was = {};
+    for (const auto& [id, before] : coat->colours) engine.colour({id}, before);
+    coat->colours.clear();
   }
   std::move(painted.begin(), painted.end(), std::back_inserter(coats));
   painted.clear();
@@ -201,7 +208,7 @@ void NamedMatter::apply(Engine& engine, const PaintCells& command) {
       {sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared), command.material}};
   std::vector<Coat> painted;
   paint(engine, coats, painted);
-  if (command.key == 0 || painted[0].was.before.id.empty()) return;
+  if (command.key == 0 || painted[0].isNothing()) return;
   Entry& entry = m_entries[command.key];
   entry.afterStart = engine.solver().frame() > 0;
   entry.painted.push_back(std::move(painted[0]));

@@ -46,11 +46,13 @@ class NamedMatter {
   void apply(Engine& engine, const RedoTouch& command);
 
  private:
-  /// Particles, the material that they become, and what they were while they are of it.
+  /// Particles, the material that they become or the colour that they get, and what they were while they are so.
   struct Coat {
     std::vector<uint32_t> ids;
     std::string material;
     PaintedMatter was{};
+    std::vector<std::pair<uint32_t, uint32_t>> colours{};  ///< by their ids, where it is a colour
+    bool isNothing() const { return was.before.id.empty() && colours.empty(); }
   };
   struct Entry {
     std::vector<uint32_t> ids;               ///< born by the edit, or taken by it

@@ -35,6 +35,20 @@ bool isSound(const Snapshot& s) {
   return true;
 }
 
+/// The inverse of colourLevel().
+void setMaterials(Snapshot& s, const FrameKey& key, const std::vector<uint32_t>& levels) {
+  s.material = levels;
+  const auto materials = static_cast<uint32_t>(key.look.materialLook.size());
+  if (key.colours.empty() || materials == 0) return;
+  s.colour.resize(levels.size());
+  for (size_t k = 0; k < levels.size(); ++k) {
+    const uint32_t colour = levels[k] / materials;
+    if (colour > key.colours.size()) return;  // of no material either
+    s.material[k] = levels[k] % materials;
+    if (colour > 0) s.colour[k] = key.colours[colour - 1];
+  }
+}
+
 size_t namedFields(const FrameKey& key) {
   return static_cast<size_t>(
       std::count_if(key.fields.begin(), key.fields.end(), [](const FieldPtr& field) { return field->classes; }));
@@ -66,6 +80,12 @@ void setNumbers(Snapshot& s, const FrameLevels& levels, const std::vector<Steps>
 }
 
 }  // namespace
+
+uint32_t colourLevel(const FrameKey& key, uint32_t material, uint32_t colour) {
+  if (colour == 0) return material;
+  const auto at = std::lower_bound(key.colours.begin(), key.colours.end(), colour) - key.colours.begin();
+  return material + static_cast<uint32_t>((static_cast<size_t>(at) + 1) * key.look.materialLook.size());
+}
 
 size_t PackedFrame::bytes() const {
   return sizeof *this + sizeof *part + stats.probes.capacity() * sizeof(double) + limits.capacity() * sizeof(Limit);
@@ -134,7 +154,7 @@ SnapshotPtr FrameUnpacker::snapshot(const PackedFrame& frame, uint64_t revision)
   for (const uint8_t motion : levels->motion) s->motion.push_back(static_cast<api::Motion>(motion));
   s->id = *levels->id;
   s->body = levels->body;
-  s->material = levels->material;
+  setMaterials(*s, key, levels->material);
   if (!isSound(*s)) ByteUnpacker({}, kWhere).fail();
   return s;
 }

@@ -25,8 +25,14 @@ struct FrameKey {
   uint64_t number = 0;
   std::vector<Steps> ranges;  ///< x, y, z, radius in m, temperature in K, speed, density error, gas share, fields
   std::vector<std::shared_ptr<const ParticleField>> fields;
+  /// Of their own that particles have, see colourNumber(); packed with the material, by colourLevel().
+  std::vector<uint32_t> colours;
   std::shared_ptr<const PackedBytes> data;
 };
+
+/// One number for a material and a colour, which change as seldom as each other: that of the material where there is
+/// none of its own, and as many further on for each of the key's colours as it has materials.
+uint32_t colourLevel(const FrameKey& key, uint32_t material, uint32_t colour);
 
 /// The particles of one frame.
 struct FramePart {

@@ -82,6 +82,7 @@ struct Snapshot {
   std::vector<api::Phase> phase;
   std::vector<api::Motion> motion;
   std::vector<uint32_t> id, body, material;
+  std::vector<uint32_t> colour;     ///< of their own, see colourNumber(); empty: none has one
   std::vector<FieldValues> fields;  ///< those that were asked for beside what stands above, where particles have them
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
   std::vector<uint8_t> heldBodies;       ///< 1 for those whose matter is held until it is let go, by the same index

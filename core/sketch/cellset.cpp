@@ -2,6 +2,7 @@
 #include "core/sketch/cellset.h"
 
 #include "core/base/error.h"
+#include "core/scene/coat.h"
 #include "core/scene/pose.h"
 
 #include <algorithm>
@@ -144,23 +145,32 @@ CellSet VoxelCanvas::cells() const {
   return CellSet(result);
 }
 
-Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& material) {
+Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& coat) {
   Repainted result;
   std::vector<VoxelShape::Paint> palette = shape.palette;
-  const auto entryOf = [&](double temperature) {
+  const auto entryOf = [&](const VoxelShape::Paint& wanted) {
     const auto found = std::find_if(palette.begin(), palette.end(), [&](const VoxelShape::Paint& paint) {
-      return paint.material == material && paint.temperature == temperature;
+      return paint.material == wanted.material && paint.temperature == wanted.temperature &&
+             paint.colour == wanted.colour;
     });
     const auto entry = static_cast<int>(found - palette.begin());
-    if (found == palette.end()) result.added.push_back(palette.emplace_back(VoxelShape::Paint{material, temperature}));
+    if (found == palette.end())
+      result.added.push_back(
+          palette.emplace_back(VoxelShape::Paint{wanted.material, wanted.temperature, wanted.colour}));
     return entry;
   };
   const VoxelCanvas hit = VoxelCanvas(shape.runs).erase(cells);
   for (const VoxelCanvas::Entry& entry : hit.entries()) {
-    const VoxelShape::Paint paint = palette.at(static_cast<size_t>(entry.palette));
-    if (paint.material == material) continue;
+    const VoxelShape::Paint before = palette.at(static_cast<size_t>(entry.palette));
+    VoxelShape::Paint after = before;
+    if (isColour(coat)) {
+      after.colour = coat == kNoColour ? "" : coat;
+    } else {
+      after.material = coat;
+    }
+    if (after == before) continue;
     extend(result.before, entry.cell, entry.palette);
-    extend(result.after, entry.cell, entryOf(paint.temperature));
+    extend(result.after, entry.cell, entryOf(after));
   }
   return result;
 }

@@ -72,8 +72,9 @@ struct Repainted {
   std::vector<VoxelShape::Run> before, after;  ///< of the cells that change
   std::vector<VoxelShape::Paint> added;        ///< that its palette needs beyond its own
 };
-/// Those of some cells that are there become of a material, each as warm as it is.
-Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& material);
+/// Those of some cells that are there get a coat (core/scene/coat.h): they become of a material, each as warm as it is,
+/// or have a colour of their own.
+Repainted repainted(const VoxelShape& shape, const CellSet& cells, const std::string& coat);
 /// Puts runs in the place of what their cells hold.
 void replaceRuns(VoxelShape& shape, std::span<const VoxelShape::Run> runs);
 

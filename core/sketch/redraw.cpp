@@ -40,10 +40,12 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf
     const Smoothed smooth = edits.smoothed.empty() ? Smoothed{} : smoothed(canvas, edits.smoothed);
     canvas.erase(smooth.emptied);
     for (const auto& [palette, cells] : smooth.filled) canvas.paint(freeOf(grid, cells), palette);
-    if (edits.painted.empty()) continue;
+    const bool colours = !edits.coloured.empty();
+    if (!colours && edits.painted.empty()) continue;
     out.runs = canvas.runs();
-    const Repainted painted =
-        repainted(out, edits.painted, out.palette.at(static_cast<size_t>(stroke.palette)).material);
+    const std::string coat = colours ? colourOf(*brush, setupOf(*brush, stroke, grid))
+                                     : out.palette.at(static_cast<size_t>(stroke.palette)).material;
+    const Repainted painted = repainted(out, colours ? edits.coloured : edits.painted, coat);
     out.palette.insert(out.palette.end(), painted.added.begin(), painted.added.end());
     replaceRuns(out, painted.after);
     canvas = VoxelCanvas(out.runs);

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/shorttext.h"
+#include "core/scene/coat.h"
 #include "core/scene/scenewall.h"
 #include "core/sketch/symmetry.h"
 
@@ -18,7 +19,27 @@ double distance(const api::Double3& a, const api::Double3& b) { return std::hypo
 
 bool finite(const api::StrokeSample& s) {
   return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.position.z) &&
-         std::isfinite(s.pressure) && std::isfinite(s.time);
+         std::isfinite(s.pressure) && std::isfinite(s.time) && vectorOf(s.turn).allFinite();
+}
+
+constexpr double kNoTurn = 1e-9;  // rad
+
+Quaternion quaternionOf(const api::Double3& turn) {
+  const Vector3 v = vectorOf(turn);
+  const double angle = v.norm();
+  if (!(angle > kNoTurn)) return Quaternion::Identity();
+  return Quaternion(Eigen::AngleAxisd(angle, Vector3(v / angle)));
+}
+
+Vector3 turnOf(const Quaternion& turned) {
+  const Eigen::AngleAxisd turn(turned);
+  return turn.angle() > kNoTurn ? Vector3(turn.angle() * turn.axis()) : Vector3(Vector3::Zero());
+}
+
+/// By the shorter way (Shoemake 1985).
+api::Double3 turnBetween(const api::Double3& a, const api::Double3& b, double t) {
+  if (a.x == b.x && a.y == b.y && a.z == b.z) return a;
+  return double3Of(turnOf(quaternionOf(a).slerp(t, quaternionOf(b))));
 }
 
 /// Unit vector from one place to another one.
@@ -34,7 +55,9 @@ api::StrokeSample between(const api::StrokeSample& a, const api::StrokeSample& b
           std::lerp(a.pressure, b.pressure, t),
           std::lerp(a.time, b.time, t),
           directionOf(a.position, b.position),
-          b.velocity};
+          b.velocity,
+          turnBetween(a.turn, b.turn, t),
+          std::lerp(a.way, b.way, t)};
 }
 
 /// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
@@ -43,7 +66,7 @@ class Collector final : public api::EditSink {
   void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
     if (cells.size > kMaxStrokeCells) refuse();
     if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
-    if (kind > api::EditKind::Fill) throw BrushFault("it submitted cells for an edit that there is not");
+    if (kind > api::EditKind::Colour) throw BrushFault("it submitted cells for an edit that there is not");
     if (kind != m_kind) flush();
     m_kind = kind;
     m_pending.insert(m_pending.end(), cells.begin(), cells.end());
@@ -60,7 +83,7 @@ class Collector final : public api::EditSink {
     m_edits.of(m_kind).add(m_pending);
     size_t all = 0;
     for (const api::EditKind kind : {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint,
-                                     api::EditKind::Smooth, api::EditKind::Fill}) {
+                                     api::EditKind::Smooth, api::EditKind::Fill, api::EditKind::Colour}) {
       CellSet& cells = m_edits.of(kind);
       if (kind != m_kind && !cells.empty()) cells.remove(m_pending);
       all += cells.size();
@@ -99,19 +122,22 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   if (!m_last) {
     m_last = raw;
     m_last->direction = {0, 0, 0};
+    m_last->way = 0;
     m_sinceLast = 0;
     return {*m_last};
   }
   const double length = distance(m_last->position, raw.position);
+  api::StrokeSample here = raw;
+  here.way = m_last->way + length;
   const double first = m_spacing - m_sinceLast;  // arc length from m_last to the next dense sample
   double placed = 0;
   for (; first + placed * m_spacing <= length; ++placed) {
     if (placed > static_cast<double>(kMaxStrokeCells)) throw Error("The stroke is too long for its particle spacing");
-    dense.push_back(between(*m_last, raw, (first + placed * m_spacing) / length));
+    dense.push_back(between(*m_last, here, (first + placed * m_spacing) / length));
   }
   m_sinceLast = placed > 0 ? length - (first + (placed - 1) * m_spacing) : m_sinceLast + length;
   const api::Double3 direction = length > 0 ? directionOf(m_last->position, raw.position) : m_last->direction;
-  m_last = raw;
+  m_last = here;
   m_last->direction = direction;
   return dense;
 }
@@ -136,18 +162,44 @@ std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample>
   return dense;
 }
 
-api::StrokeContext contextOf(const StrokeSetup& setup) {
-  const Vector3 up = setup.up.norm() > 0 ? Vector3(setup.up.normalized()) : Vector3(0, 1, 0);
+Matrix3 strokeAxes(const Vector3& away) {
+  const Vector3 up = away.norm() > 0 ? Vector3(away.normalized()) : Vector3(0, 1, 0);
   const Vector3 helper = std::abs(up.x()) < 0.9 ? Vector3(1, 0, 0) : Vector3(0, 1, 0);
-  const Vector3 side = (helper - helper.dot(up) * up).normalized();
-  return {setup.grid.spacing,
-          double3Of(setup.grid.origin),
-          setup.radius,
-          double3Of(up),
-          double3Of(side),
-          double3Of(side.cross(up)),
-          {setup.parameters.data(), setup.parameters.size()},
-          double3Of(setup.look)};
+  Matrix3 axes;
+  axes.col(0) = (helper - helper.dot(up) * up).normalized();
+  axes.col(1) = up;
+  axes.col(2) = Vector3(axes.col(0)).cross(up);
+  return axes;
+}
+
+Vector3 turnBetween(const Matrix3& from, const Matrix3& to) {
+  return turnOf(Quaternion(Matrix3(to * from.transpose())).normalized());
+}
+
+Matrix3 turnMatrix(const Vector3& turn) { return quaternionOf(double3Of(turn)).toRotationMatrix(); }
+
+api::StrokeContext contextOf(const StrokeSetup& setup) {
+  const Matrix3 axes = strokeAxes(setup.up);
+  api::StrokeContext context{setup.grid.spacing,
+                             double3Of(setup.grid.origin),
+                             setup.radius,
+                             double3Of(axes.col(1)),
+                             double3Of(axes.col(0)),
+                             double3Of(axes.col(2)),
+                             {setup.parameters.data(), setup.parameters.size()},
+                             double3Of(setup.look)};
+  if (!setup.stamp) return context;
+  const StampCells& stamp = *setup.stamp;
+  context.shape = {stamp.cells.data(), stamp.cells.size()};
+  context.shapeSpacing = stamp.spacing;
+  context.shapeMiddle = double3Of(stamp.middle);
+  context.shapeHalf = double3Of(stamp.half);
+  // A body stands on what is drawn on as it does on the floor.
+  const Matrix3 lattice = axes * stamp.axes;
+  context.shapeX = double3Of(lattice.col(0));
+  context.shapeY = double3Of(lattice.col(1));
+  context.shapeZ = double3Of(lattice.col(2));
+  return context;
 }
 
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
@@ -194,16 +246,31 @@ api::EditKind kindOf(const api::BrushPlugin& brush, bool erase) {
   if (erase) return api::EditKind::Remove;
   if (brush.extension(api::kSmoothsMatter)) return api::EditKind::Smooth;
   if (brush.extension(api::kFillsHollows)) return api::EditKind::Fill;
+  if (brush.extension(api::kColoursMatter)) return api::EditKind::Colour;
   return brush.extension(api::kPaintsMatter) ? api::EditKind::Paint : api::EditKind::Add;
+}
+
+std::string colourOf(const api::BrushPlugin& brush, const StrokeSetup& setup) {
+  const auto* colours = static_cast<const api::ColourBrush*>(brush.extension(api::kColoursMatter));
+  return colours ? colourCoat(vectorOf(colours->colour(contextOf(setup)))) : kNoColour;
+}
+
+StrokeSetup setupOf(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
+  return {grid,
+          stroke.radius,
+          stroke.up,
+          numbersOf(stroke.parameters, brush.parameters()),
+          stroke.symmetry,
+          {0, 0, 0},
+          stroke.stamp ? stampCells(*stroke.stamp) : nullptr};
 }
 
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());
-  for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4], {}});
-  const StrokeSetup setup{grid, stroke.radius, stroke.up, numbersOf(stroke.parameters, brush.parameters()),
-                          stroke.symmetry};
-  return applyBrush(brush, setup, kindOf(brush, stroke.erase), resampleStroke(raw, grid.spacing));
+  for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4], {}, {}, {s[5], s[6], s[7]}});
+  return applyBrush(brush, setupOf(brush, stroke, grid), kindOf(brush, stroke.erase),
+                    resampleStroke(raw, grid.spacing));
 }
 
 }  // namespace ps

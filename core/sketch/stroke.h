@@ -2,11 +2,14 @@
 #pragma once
 #include "core/base/error.h"
 #include "core/sketch/cellset.h"
+#include "core/sketch/stampcells.h"
 
 #include <phasesketch/brush.h>
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace ps {
@@ -40,13 +43,15 @@ std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample>
 
 /// What a stroke asks for: sets without a common cell (the later edit of a cell wins).
 struct StrokeEdits {
-  CellSet added, removed, painted, smoothed, filled;
+  CellSet added, removed, painted, smoothed, filled, coloured;
   bool empty() const {
-    return added.empty() && removed.empty() && painted.empty() && smoothed.empty() && filled.empty();
+    return added.empty() && removed.empty() && painted.empty() && smoothed.empty() && filled.empty() &&
+           coloured.empty();
   }
   CellSet& of(api::EditKind kind) {
     if (kind == api::EditKind::Smooth) return smoothed;
     if (kind == api::EditKind::Fill) return filled;
+    if (kind == api::EditKind::Colour) return coloured;
     return kind == api::EditKind::Add ? added : kind == api::EditKind::Remove ? removed : painted;
   }
 };
@@ -58,7 +63,8 @@ struct StrokeSetup {
   Vector3 up{0, 1, 0};             ///< away from what is drawn on; any length, zero counts as upright
   std::vector<double> parameters;  ///< the brush's own, in the order of its declarations
   std::optional<VoxelShape::Symmetry> symmetry{};
-  Vector3 look{0, 0, 0};  ///< unit vector, or zero: see api::StrokeContext
+  Vector3 look{0, 0, 0};                      ///< unit vector, or zero: see api::StrokeContext
+  std::shared_ptr<const StampCells> stamp{};  ///< nullptr: none
 };
 
 /// A brush threw, or gave what cannot be.
@@ -70,8 +76,14 @@ class BrushFault : public Error {
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 
-/// What the brush knows of a stroke: up, and side and front along what is drawn on, as near to the world's axes as up
-/// allows. Borrows the setup's numbers.
+/// Unit vectors side, up and front of a stroke on what lies across `up`, as columns: as near to the world's axes as
+/// that allows. `up` of any length; zero counts as upright.
+Matrix3 strokeAxes(const Vector3& up);
+/// What turns one pair of axes into another one, as in api::StrokeSample.
+Vector3 turnBetween(const Matrix3& from, const Matrix3& to);
+Matrix3 turnMatrix(const Vector3& turn);
+
+/// What the brush knows of a stroke: up, side and front of strokeAxes(). Borrows the setup's numbers and its stamp.
 api::StrokeContext contextOf(const StrokeSetup& setup);
 
 /// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than
@@ -86,6 +98,10 @@ bool isInScene(const Environment& environment, const SketchGrid& grid, const api
 
 /// What a stroke asks a brush for.
 api::EditKind kindOf(const api::BrushPlugin& brush, bool erase);
+/// The coat (core/scene/coat.h) that a brush for colours gives; kNoColour of another one, and of what is no colour.
+std::string colourOf(const api::BrushPlugin& brush, const StrokeSetup& setup);
+/// How a saved stroke was drawn.
+StrokeSetup setupOf(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 /// Draws a saved stroke again (its samples are the raw ones).
 StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 

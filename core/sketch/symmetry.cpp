@@ -10,6 +10,11 @@ namespace {
 
 SketchImage about(const Matrix3& turn, const Vector3& centre) { return {turn, centre - turn * centre}; }
 
+/// An axis about which something turns: in a mirror it turns the other way round.
+Vector3 turned(const SketchImage& image, const Vector3& turn) {
+  return turn.isZero(0) ? turn : Vector3(image.turn.determinant() * (image.turn * turn));
+}
+
 }  // namespace
 
 std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry) {
@@ -36,6 +41,7 @@ std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& sam
     sample.position = double3Of(image.of(vectorOf(sample.position)));
     sample.direction = double3Of(image.turn * vectorOf(sample.direction));
     sample.velocity = double3Of(image.turn * vectorOf(sample.velocity));
+    sample.turn = double3Of(turned(image, vectorOf(sample.turn)));
   }
   return out;
 }
@@ -51,7 +57,11 @@ std::vector<VoxelShape::Stroke> carried(const VoxelShape::Stroke& stroke, const 
     part.up = move.turn * (image.turn * stroke.up);
     for (auto& sample : part.samples) {
       const Vector3 place = move.of(image.of({sample[0], sample[1], sample[2]}));
-      for (size_t a = 0; a < 3; ++a) sample[a] = place[static_cast<Eigen::Index>(a)];
+      const Vector3 turn = move.turn * turned(image, {sample[5], sample[6], sample[7]});
+      for (size_t a = 0; a < 3; ++a) {
+        sample[a] = place[static_cast<Eigen::Index>(a)];
+        sample[5 + a] = turn[static_cast<Eigen::Index>(a)];
+      }
     }
     parts.push_back(std::move(part));
   }
@@ -59,7 +69,8 @@ std::vector<VoxelShape::Stroke> carried(const VoxelShape::Stroke& stroke, const 
 }
 
 api::StrokeContext imageOf(api::StrokeContext context, const SketchImage& image) {
-  for (api::Double3* axis : {&context.up, &context.side, &context.front, &context.look})
+  for (api::Double3* axis :
+       {&context.up, &context.side, &context.front, &context.look, &context.shapeX, &context.shapeY, &context.shapeZ})
     *axis = double3Of(image.turn * vectorOf(*axis));
   return context;
 }

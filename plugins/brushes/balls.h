@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "stamp.h"
+#include "stamping.h"
 
 namespace ps::brushes {
 

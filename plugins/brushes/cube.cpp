@@ -2,7 +2,7 @@
 #include "cube.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 #include "turned.h"
 
 #include <string_view>
@@ -12,8 +12,10 @@ namespace {
 
 using ps::api::Double3;
 
-constexpr ps::api::ParameterDeclaration kParameters[] = {ps::brushes::rotation(
-    0.78539816339744831, "Turns the cube about the up direction.", "0° along the axes, 45° on its corner")};
+constexpr ps::api::ParameterDeclaration kParameters[] = {
+    ps::brushes::rotation(0.78539816339744831, "Turns the cube about the up direction.",
+                          "0° along the axes, 45° on its corner"),
+    ps::brushes::kFollowing};
 
 /// The cube's edges as unit vectors.
 ps::brushes::Frame axesOf(const ps::api::StrokeContext& context) {
@@ -35,16 +37,17 @@ CubeBrush::CubeBrush()
 
 void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
-  const ps::brushes::Frame frame = axesOf(context);
-  const Double3 extent = extentOf(frame, context.radius);
+  const ps::brushes::Frame upright = axesOf(context);
+  const double how = ps::brushes::parameter(context, 1, ps::brushes::kFollowsRotation);
   // Half open, so that an edge of n spacings holds n cells wherever it starts; the allowance is far above rounding.
   const double low = -context.radius - 1e-9 * context.spacing, high = context.radius - 1e-9 * context.spacing;
   std::vector<ps::api::Cell> cells;
   for (size_t s = 0; s < samples.count; ++s) {
     const ps::api::StrokeSample sample = samples.at(s);
+    const ps::brushes::Frame frame = ps::brushes::held(upright, sample.turn, how);
     cells.clear();
     ps::brushes::stamp(
-        context, sample.position, extent,
+        context, sample.position, extentOf(frame, context.radius),
         [&](const Double3& d) {
           for (const Double3& axis : {frame.up, frame.side, frame.front})
             if (const double along = ps::brushes::dot(d, axis); along < low || along >= high) return false;

@@ -2,7 +2,7 @@
 #include "fill.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 
 #include <string_view>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "line.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 #include "turned.h"
 
 #include <cmath>

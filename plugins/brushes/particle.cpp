@@ -2,7 +2,7 @@
 #include "particle.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 
 #include <vector>
 

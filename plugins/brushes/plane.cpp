@@ -2,7 +2,7 @@
 #include "plane.h"
 
 #include "sheet.h"
-#include "stamp.h"
+#include "stamping.h"
 #include "turned.h"
 
 #include <string_view>
@@ -12,7 +12,8 @@ namespace {
 using namespace ps::brushes;
 
 constexpr ps::api::ParameterDeclaration kParameters[] = {
-    rotation(0.78539816339744831, "Turns the sheet about its normal.", "0° along the axes, 45° on its corner")};
+    rotation(0.78539816339744831, "Turns the sheet about its normal.", "0° along the axes, 45° on its corner"),
+    kFollowing};
 
 }  // namespace
 
@@ -30,7 +31,8 @@ void PlaneBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind
   const auto inside = [&](double side, double front) {
     return reaches(side, context.radius, hair) && reaches(front, context.radius, hair);
   };
-  stampSheets(context, frameOf(context, parameter(context, 0, 0)), context.radius, samples, kind, inside, sink);
+  stampSheets(context, frameOf(context, parameter(context, 0, 0)), parameter(context, 1, kFollowsRotation),
+              context.radius, samples, kind, inside, sink);
 }
 
 ps::api::Double3 PlaneBrush::extent(const ps::api::StrokeContext& context) const noexcept {

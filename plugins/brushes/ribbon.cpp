@@ -2,7 +2,7 @@
 #include "ribbon.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spray.h"
 
-#include "stamp.h"
+#include "stamping.h"
 #include "vectors.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "tube.h"
 
 #include "frame.h"
-#include "stamp.h"
+#include "stamping.h"
 
 #include <algorithm>
 #include <cmath>

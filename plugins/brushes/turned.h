@@ -28,4 +28,29 @@ constexpr api::ParameterDeclaration rotation(double most, const char* help, cons
           ""};
 }
 
+/// Values of kFollowing.
+inline constexpr double kFollowsNothing = 0, kFollowsRotation = 1;
+/// What a brush follows of how a pen or a hand is turned; see following().
+inline constexpr api::ParameterDeclaration kFollowing = {
+    "follows",
+    "Follows the pen",
+    "",
+    "",
+    api::ParameterKind::Choice,
+    api::Scale::Linear,
+    kFollowsRotation,
+    0,
+    2,
+    0,
+    2,
+    "",
+    1,
+    0,
+    "nothing|rotation|pose",
+    "Brush",
+    "Whether it turns with a pen or a hand: not at all, about the up direction as far as they are turned about it, or "
+    "wholly, with the tilt of the pen and the pose of the hand. A mouse turns nothing.",
+    "rotation: the barrel of a pen, pose: a hand in VR",
+    ""};
+
 }  // namespace ps::brushes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "weld.h"
 
-#include "stamp.h"
+#include "stamping.h"
 #include "touching.h"
 
 #include <string_view>

@@ -149,7 +149,103 @@ class TestBrushWindow : public SampleWindowTest {
     QCOMPARE(strokes.back().samples.front()[3], 1.0);
   }
 
+  /// How a pen leans on the view, and how its barrel is turned, is in the stroke, and turns a cube; so is how hard it
+  /// presses, at each place.
+  void tiltAndRotationReachTheStroke() {
+    using Capability = QInputDevice::Capability;
+    const auto all = Capability::Pressure | Capability::XTilt | Capability::YTilt | Capability::Rotation;
+    take("cube");
+    const auto upright = penStroke(all, {0.5, 0, 0, 0});
+    QVERIFY(turnOf(upright).isZero(0));
+    QCOMPARE(upright.samples.front()[3], 0.5);
+    document().undoStack().undo();
+    const auto rolled = penStroke(all, {0.5, 0, 0, 30});
+    QVERIFY((turnOf(rolled) + M_PI / 6 * rolled.up.normalized()).norm() < 1e-6);  // clockwise, as one sees it
+    document().undoStack().undo();
+    const CameraFrame seen = frameOf(view()->navigator().camera());
+    const auto leaning = penStroke(all, {0.5, 40, 0, 0});
+    QVERIFY((turnOf(leaning) - 40 * M_PI / 180 * seen.up).norm() < 1e-6);
+    document().undoStack().undo();
+    const auto towards = penStroke(all, {0.5, 0, 40, 0});
+    QVERIFY((turnOf(towards) - 40 * M_PI / 180 * seen.right).norm() < 1e-6);
+    document().undoStack().undo();
+    // The barrel turns the cube, in its cells too.
+    const auto cells = [&](double degrees) {
+      penStroke(all, {1, 0, 0, degrees});
+      const auto runs = std::get<VoxelShape>(document().project().bodies.back().shape).runs;
+      document().undoStack().undo();
+      return runs;
+    };
+    QVERIFY(cells(0) == cells(0));
+    QVERIFY(cells(0) != cells(45));
+  }
+
+  /// A pen that does not tell how hard it presses, or how it leans, is as a mouse in that, whatever its events hold.
+  void whatAPenDoesNotTellIsAsWithAMouse() {
+    take("cube");
+    const auto stroke = penStroke(QInputDevice::Capability::Position, {0, 40, 20, 30});
+    QVERIFY(stroke.samples.size() > 2);
+    for (const auto& sample : stroke.samples) QCOMPARE(sample[3], 1.0);
+    QVERIFY(turnOf(stroke).isZero(0));
+    document().undoStack().undo();
+  }
+
+  /// Over the view, before it touches, the brush shows where it would draw, and the other end where it would erase.
+  void aPenThatHoversShowsTheBrush() {
+    take("cube");
+    for (const auto end : {QPointingDevice::PointerType::Pen, QPointingDevice::PointerType::Eraser}) {
+      const QPointingDevice device(QStringLiteral("pen"), 18, QInputDevice::DeviceType::Stylus, end,
+                                   QInputDevice::Capability::Pressure | QInputDevice::Capability::Hover, 1, 1);
+      m_window->tools().tool().leave();
+      tell(device, QEvent::TabletMove, at(kMiddle), {0, 0, 0, 0});
+      QMouseEvent move(QEvent::MouseMove, at(kMiddle), view()->mapToGlobal(at(kMiddle)), Qt::NoButton, Qt::NoButton,
+                       Qt::NoModifier);
+      QApplication::sendEvent(view(), &move);
+      const auto cursor = m_window->tools().tool().picture().cursor;
+      QVERIFY(cursor);
+      QCOMPARE(cursor->erase, end == QPointingDevice::PointerType::Eraser);
+      QCOMPARE(cursor->pressure, 1.0);  // as large as it can be
+    }
+  }
+
  private:
+  struct PenState {
+    double pressure, tiltX, tiltY, rotation;  ///< degrees
+  };
+  static Vector3 turnOf(const VoxelShape::Stroke& stroke) {
+    const auto& sample = stroke.samples.back();
+    return {sample[5], sample[6], sample[7]};
+  }
+  void take(const char* shape) {
+    BrushSettings brush = m_window->tools().brush();
+    brush.shape = shape;
+    m_window->tools().setBrush(brush);
+  }
+  void tell(const QPointingDevice& device, QEvent::Type type, const QPointF& place, const PenState& pen) {
+    const bool touches = type != QEvent::TabletMove || pen.pressure > 0;
+    QTabletEvent event(type, &device, place, view()->mapToGlobal(place), pen.pressure, static_cast<float>(pen.tiltX),
+                       static_cast<float>(pen.tiltY), 0, pen.rotation, 0, Qt::NoModifier, Qt::LeftButton,
+                       touches ? Qt::LeftButton : Qt::NoButton);
+    QApplication::sendEvent(view(), &event);
+  }
+  /// A pen's stroke, as Qt hands it on: its own event first, then the mouse's. What the document has of it.
+  VoxelShape::Stroke penStroke(QInputDevice::Capabilities capabilities, const PenState& pen) {
+    const QPointingDevice device(QStringLiteral("pen"), 19, QInputDevice::DeviceType::Stylus,
+                                 QPointingDevice::PointerType::Pen, capabilities, 1, 1);
+    const QPoint from = at({-40, 0});
+    tell(device, QEvent::TabletPress, from, pen);
+    QTest::mousePress(view(), Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 4; ++k) {
+      const QPoint to = from + QPoint(20 * k, 0);
+      tell(device, QEvent::TabletMove, to, pen);
+      QMouseEvent move(QEvent::MouseMove, to, view()->mapToGlobal(to), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+      QApplication::sendEvent(view(), &move);
+    }
+    tell(device, QEvent::TabletRelease, from + QPoint(80, 0), pen);
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, from + QPoint(80, 0));
+    const auto* voxels = std::get_if<VoxelShape>(&document().project().bodies.back().shape);
+    return voxels && !voxels->strokes.empty() ? voxels->strokes.back() : VoxelShape::Stroke{};
+  }
   static constexpr QPoint kMiddle{0, 0};  // of the view
   QPoint at(const QPoint& from) { return view()->rect().center() + from; }
   void press(Qt::MouseButton button, Qt::KeyboardModifiers keys, const QPoint& from) {

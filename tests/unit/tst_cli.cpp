@@ -404,7 +404,8 @@ void TestCli::pluginsAreListed() {
       {"grab", R"(["touches_matter"])"},        {"push", R"(["touches_matter"])"},
       {"stir", R"(["touches_matter"])"},        {"cut", R"(["touches_matter"])"},
       {"weld", R"(["touches_matter"])"},        {"paint", R"(["paints_matter"])"},
-      {"smooth", R"(["smooths_matter"])"},      {"fill", R"(["fills_hollows"])"}};
+      {"smooth", R"(["smooths_matter"])"},      {"fill", R"(["fills_hollows"])"},
+      {"stamp", R"(["stamps_shape"])"},         {"tint", R"(["colours_matter"])"}};
   for (const auto& plugin : list["plugins"]) {
     const auto found = capable.find(plugin["id"].get<std::string>());
     QCOMPARE(plugin["capabilities"].dump(), found == capable.end() ? "[]" : found->second);

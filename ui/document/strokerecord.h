@@ -39,8 +39,9 @@ using SceneEdit = std::variant<BodyEdit, CellsEdit, RepaintEdit>;
 /// One finished stroke.
 struct StrokeRecord {
   bool erase = false;
-  std::string material{};  ///< SceneMaterial::id that matter becomes; "": the stroke makes none of another material
-  std::string body;        ///< that an adding stroke paints
+  /// SceneMaterial::id that matter becomes, or the colour that it gets (core/scene/coat.h); "": it paints nothing
+  std::string material{};
+  std::string body;  ///< that an adding stroke paints
   int palette = 0;
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
   VoxelShape lattice;                     ///< see latticeOf()

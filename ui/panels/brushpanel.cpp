@@ -36,7 +36,7 @@ BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent) : ParameterPanel(parent)
   connect(&tools, &Toolbox::brushChanged, this, &BrushPanel::refresh);
   connect(&tools.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) refresh();
-    if (std::holds_alternative<MaterialsChanged>(event)) showMaterial();
+    if (std::holds_alternative<MaterialsChanged>(event) || m_tools.stampsShape()) showMaterial();
   });
   if (tools.document().plugins()) refresh();  // made later than they came
 }
@@ -133,7 +133,21 @@ void BrushPanel::showMaterial() {
               QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
     return;
   }
+  if (m_tools.colours()) {
+    setHeader(pluginLabel(m_tools.document().plugins(), m_tools.brush().shape),
+              QStringLiteral("Colours the matter that is there, and changes nothing else of it"),
+              QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
+    return;
+  }
   const std::string& id = m_tools.brush().material;
+  if (m_tools.stampsShape()) {
+    const QString name = QString::fromStdString(m_tools.shapeName());
+    setHeader(name.isEmpty() ? QStringLiteral("No shape yet") : QStringLiteral("Copies of %1").arg(name),
+              QStringLiteral("Of %1. Select another body for its shape, or click it with Alt")
+                  .arg(ownerLabel(m_tools.document().project(), {Owner::Material, id, ""})),
+              QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
+    return;
+  }
   setHeader(ownerLabel(m_tools.document().project(), {Owner::Material, id, ""}),
             QStringLiteral("Choose other matter under Materials"),
             QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));

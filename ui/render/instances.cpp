@@ -38,6 +38,10 @@ Colour towardsWhite(const Colour& c, float amount) {
 /// sRGB and clearness.
 std::array<float, 4> lookOf(const Snapshot& s, size_t i) {
   const size_t material = s.material[i];
+  if (const uint32_t own = i < s.colour.size() ? s.colour[i] : 0; own != 0) {
+    const auto part = [&](int shift) { return static_cast<float>((own >> shift) & 0xff) / 255; };
+    return {part(16), part(8), part(0), material < s.materialLook.size() ? s.materialLook[material][3] : 0};
+  }
   return material < s.materialLook.size() ? s.materialLook[material] : std::array<float, 4>{0.6f, 0.6f, 0.6f, 0};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/scenelink.h"
 
+#include "core/scene/coat.h"
 #include "core/scene/pose.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/lattice.h"
@@ -60,8 +61,10 @@ std::vector<NameMatter> paintedMatter(const StrokeRecord& stroke, const Document
       VoxelShape part;
       part.runs = painted->cells.before;
       CellIndices cells = cellsOf(part, static_cast<int>(palette));
-      if (!cells.empty())
-        named.push_back({*stroke.matter, body->id, lattice, std::move(cells), voxels->palette[palette].material});
+      if (cells.empty()) continue;
+      const VoxelShape::Paint& was = voxels->palette[palette];
+      const std::string coat = isColour(stroke.material) ? coatOf(colourNumber(was.colour)) : was.material;
+      named.push_back({*stroke.matter, body->id, lattice, std::move(cells), coat});
     }
   }
   return named;

@@ -18,6 +18,13 @@ constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes 
 
 DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {}
 
+/// A pen that is rolled about itself turns what it draws about the normal of what it draws on, and then it leans.
+Held DrawTool::heldBy(const Pointer& pointer) const {
+  const Matrix3 axes = strokeAxes(m_stroke.active() ? m_stroke.up() : m_plane.normal);
+  const Matrix3 twisted = turnMatrix(pointer.twist * Vector3(axes.col(1)));
+  return {pointer.pressure, turnBetween(axes, turnMatrix(pointer.lean) * twisted * axes)};
+}
+
 bool DrawTool::touches() const { return box().touchesMatter(); }
 bool DrawTool::meetsMatter() const { return touches() || box().reworks(); }
 
@@ -62,7 +69,7 @@ bool DrawTool::press(const Pointer& pointer) {
   m_trail.start(m_cursor->centre);
   static const Snapshot kNothing;
   const QString problem = m_stroke.begin(m_cursor->erase, pointer.scene ? *pointer.scene : kNothing, m_cursor->centre,
-                                         m_plane.normal, pointer.pressure);
+                                         m_plane.normal, heldBy(pointer));
   if (problem.isEmpty()) return true;
   m_stroke.cancel();
   refuse(problem);
@@ -71,7 +78,7 @@ bool DrawTool::press(const Pointer& pointer) {
 
 void DrawTool::beginTouch(const Pointer& pointer) {
   const QString problem = m_touch.begin(erases(pointer), m_cursor->centre, m_plane.normal,
-                                        pointer.ray.direction.normalized(), pointer.pressure);
+                                        pointer.ray.direction.normalized(), heldBy(pointer));
   if (!problem.isEmpty()) return refuse(problem);
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
   m_hand = pointer;
@@ -109,7 +116,7 @@ void DrawTool::dragTouch(const Pointer& pointer) {
 void DrawTool::touchAt(const Vector3& point) {
   m_cursor->centre = point;
   m_cursor->pressure = m_hand.pressure;
-  const QString problem = m_touch.move(point, m_hand.seconds - m_began, m_hand.pressure);
+  const QString problem = m_touch.move(point, m_hand.seconds - m_began, heldBy(m_hand));
   if (!problem.isEmpty()) refuse(problem);
 }
 
@@ -173,7 +180,7 @@ void DrawTool::drag(const Pointer& pointer) {
 void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_cursor->centre = point;
   m_cursor->pressure = pointer.pressure;
-  const QString problem = m_stroke.move(point, pointer.seconds - m_began, pointer.pressure);
+  const QString problem = m_stroke.move(point, pointer.seconds - m_began, heldBy(pointer));
   if (!problem.isEmpty()) endAsItIs(problem);
 }
 
@@ -189,11 +196,13 @@ void DrawTool::release(const Pointer&) {
   if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
 }
 
-/// With Alt the matter that is there says what is drawn from now on.
+/// With Alt the matter that is there says what is drawn from now on, and its body what is stamped.
 void DrawTool::click(const Pointer& pointer) {
   if (!pointer.alt || !pointer.scene) return;
   const Snapshot& scene = *pointer.scene;
   const auto hit = pickParticle(scene, pointer.ray, pointer.section);
+  if (hit && box().stampsShape() && scene.bodyIds && scene.body[*hit] < scene.bodyIds->size())
+    box().selection().selectBody((*scene.bodyIds)[scene.body[*hit]]);
   if (hit && scene.material[*hit] < scene.materialIds.size())
     box().selection().pickMaterial(scene.materialIds[scene.material[*hit]]);
 }
@@ -231,9 +240,11 @@ QString DrawTool::words() const {
   QStringList parts{m_erases ? QStringLiteral("Eraser") : QStringLiteral("Brush"), brushLabel().toLower(),
                     QStringLiteral("radius ") + lengthText(brush.radius)};
   for (const SceneMaterial& material : document.project().materials) {
-    if (!m_erases && !touches() && !box().smooths() && material.id == brush.material)
+    if (!m_erases && !touches() && !box().smooths() && !box().colours() && material.id == brush.material)
       parts << QString::fromStdString(material.label);
   }
+  if (box().stampsShape() && !box().shapeName().empty())
+    parts << QStringLiteral("copies of ") + QString::fromStdString(box().shapeName());
   if (m_cursor) parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
   return parts.join(QStringLiteral(", "));
 }
@@ -244,7 +255,7 @@ std::vector<Gesture> DrawTool::gestures() const {
     list = {{QStringLiteral("Drag"), brushLabel(), brushLabel().toLower()},
             {QStringLiteral("Ctrl+Drag"), QStringLiteral("The opposite"), QStringLiteral("the opposite")}};
   } else {
-    const QString reworks = box().paints() ? QStringLiteral("paints") : QStringLiteral("smooths");
+    const QString reworks = box().smooths() ? QStringLiteral("smooths") : QStringLiteral("paints");
     const Gesture draw = box().reworks() ? Gesture{{}, brushLabel(), reworks}
                                          : Gesture{{}, QStringLiteral("Draw"), QStringLiteral("draws")};
     const Gesture erase{{}, QStringLiteral("Erase"), QStringLiteral("erases")};
@@ -253,7 +264,10 @@ std::vector<Gesture> DrawTool::gestures() const {
     list[1].keys = QStringLiteral("Ctrl+Drag");
     if (!m_erases && !box().reworks())
       list.push_back({QStringLiteral("Shift"), QStringLiteral("Draws straight on"), QStringLiteral("straight")});
-    list.push_back({QStringLiteral("Alt+Click"), QStringLiteral("Takes the material of what is there"), {}});
+    list.push_back({QStringLiteral("Alt+Click"),
+                    box().stampsShape() ? QStringLiteral("Takes the shape and the material of what is there")
+                                        : QStringLiteral("Takes the material of what is there"),
+                    box().stampsShape() ? QStringLiteral("takes a shape") : QString()});
   }
   list.push_back({sizeDrag(box().mouse()).text(), QStringLiteral("Smaller and larger, as do [ and ]"), {}});
   return list;

@@ -41,6 +41,7 @@ class DrawTool : public Tool {
   void dragTouch(const Pointer& pointer);
   void touchAt(const Vector3& point);
   bool touches() const;
+  Held heldBy(const Pointer& pointer) const;
   bool erases(const Pointer& pointer) const { return pointer.eraser || m_erases != pointer.control; }
   bool meetsMatter() const;  ///< instead of standing on it
   QString brushLabel() const;

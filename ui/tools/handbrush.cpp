@@ -8,6 +8,7 @@ namespace ps {
 namespace {
 
 constexpr double kPressed = 0.12, kReleased = 0.06;  // of the trigger's way, apart so that a tremor is no second stroke
+constexpr double kAlong = 1e-6;                      // sine of the angle between unit vectors that are one
 constexpr double kWay = 0.125;                       // spacings that a hand goes before a stroke hears of it
 
 }  // namespace
@@ -29,9 +30,10 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   const bool opposite = hand.opposite != (m_box.active() == kEraseTool);
   m_began = hand.seconds;
   m_last = hand;
-  const QString problem =
-      m_box.touchesMatter() ? m_touch.begin(opposite, *hand.place, hand.up, hand.forward, hand.pressure)
-                            : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, hand.pressure);
+  m_up = hand.up;
+  const QString problem = m_box.touchesMatter()
+                              ? m_touch.begin(opposite, *hand.place, hand.up, hand.forward, heldBy(hand))
+                              : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, heldBy(hand));
   if (active()) ++m_begun;
   if (!problem.isEmpty()) {
     m_stroke.cancel();
@@ -39,14 +41,25 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   }
 }
 
+/// A level hand that points away along z is turned by nothing.
+Held HandBrush::heldBy(const HandInScene& hand) const {
+  const Vector3 across = hand.up.cross(-hand.forward);
+  if (!(across.norm() > kAlong)) return hand.pressure;
+  Matrix3 pose;
+  pose.col(0) = across.normalized();
+  pose.col(1) = hand.up.normalized();
+  pose.col(2) = Vector3(pose.col(0)).cross(Vector3(pose.col(1)));
+  return {hand.pressure, turnBetween(strokeAxes(m_up), pose)};
+}
+
 /// A hand that touches matter is where it is, and as fast; a stroke keeps its way, which grows by what it is told.
 void HandBrush::move(const HandInScene& hand) {
   const double seconds = hand.seconds - m_began;
   if (m_touch.active()) {
-    say(m_touch.move(*hand.place, seconds, hand.pressure));
+    say(m_touch.move(*hand.place, seconds, heldBy(hand)));
   } else if (m_stroke.active() && (*hand.place - *m_last.place).norm() >= kWay * m_box.spacing()) {
     m_last = hand;
-    const QString problem = m_stroke.move(*hand.place, seconds, hand.pressure);
+    const QString problem = m_stroke.move(*hand.place, seconds, heldBy(hand));
     if (problem.isEmpty()) return;
     m_stroke.finish();
     say(problem);

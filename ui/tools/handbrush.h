@@ -34,14 +34,16 @@ class HandBrush {
  private:
   void begin(const HandInScene& hand, const SnapshotPtr& scene);
   void move(const HandInScene& hand);
+  Held heldBy(const HandInScene& hand) const;
   void say(const QString& problem);
 
   Toolbox& m_box;
   LiveStroke m_stroke;
   LiveTouch m_touch;
   bool m_pressed = false;
-  HandInScene m_last;  ///< that the stroke got
-  double m_began = 0;  ///< s
+  HandInScene m_last;     ///< that the stroke got
+  Vector3 m_up{0, 1, 0};  ///< of the hand as it began
+  double m_began = 0;     ///< s
   uint64_t m_begun = 0;
 };
 

@@ -41,7 +41,8 @@ std::optional<int> takesMore(const Body& body, const std::string& material, cons
       toggleOf(body.parameters, bodyParameters(), "held") != brush.held)
     return std::nullopt;
   for (size_t k = 0; k < voxels->palette.size(); ++k) {
-    if (voxels->palette[k].material == material && voxels->palette[k].temperature == brush.temperature)
+    if (voxels->palette[k].material == material && voxels->palette[k].temperature == brush.temperature &&
+        voxels->palette[k].colour.empty())
       return static_cast<int>(k);
   }
   return std::nullopt;
@@ -148,6 +149,8 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
     return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
         .arg(lengthText(m_box.spacing()));
   }
+  if (m_box.stampsShape() && !m_box.shape())
+    return QStringLiteral("There is no body to stamp. Select one, or click one with Alt, in a scene that has some.");
   const Vector3 half = m_box.stamp(up).first;
   const double copies = static_cast<double>(imagesOf(brush.symmetry).size());
   const double cells = copies * 8 * half[0] * half[1] * half[2] / std::pow(m_box.spacing(), 3);
@@ -161,11 +164,12 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
   return {};
 }
 
-QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, double pressure) {
+QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, const Held& held) {
   if (const QString problem = whyNot(erase, now, up); !problem.isEmpty()) return problem;
   m_brush = m_box.brush();
   m_atStart = now.stats.frame == 0;
   m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing(), up);
+  m_up = up;
   m_fed.reset();
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
@@ -184,10 +188,16 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_stroke.radius = m_brush.radius;
   m_stroke.up = up;
   m_stroke.symmetry = m_setup.symmetry;
+  if (m_box.stampsShape()) {
+    m_stroke.stamp = m_box.shape();
+    m_setup.stamp = stampCells(*m_stroke.stamp);
+  }
   // What the brush does decides, as in feed(), not what its metadata say.
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
   if (plugin && kindOf(*plugin, erase) == api::EditKind::Paint) {
     m_record->material = sceneMaterial(m_box.document().project(), m_brush.material)->id;
+  } else if (plugin && kindOf(*plugin, erase) == api::EditKind::Colour) {
+    m_record->material = colourOf(*plugin, m_setup);
   } else if (plugin && kindOf(*plugin, erase) == api::EditKind::Smooth) {
     if (const QString problem = whyNoSmoothing(now, point); !problem.isEmpty()) {
       m_record.reset();
@@ -200,7 +210,7 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
     if (plugin && kindOf(*plugin, erase) == api::EditKind::Fill) noteOccupied(now);
     drawOn(std::get<VoxelShape>(m_body->shape));
   }
-  return move(point, 0, pressure);
+  return move(point, 0, held);
 }
 
 /// What is drawn is drawn as if the sketch stood where it once was.
@@ -211,11 +221,19 @@ void LiveStroke::drawOn(const VoxelShape& sketch) {
   m_stroke.up = m_setup.up;
 }
 
-QString LiveStroke::move(const Vector3& point, double seconds, double pressure) {
+/// Of a hand over a turned sketch, in the sketch's own directions.
+Vector3 LiveStroke::ownTurn(const Vector3& turn) const {
+  if (turn.isZero(0) || m_setup.grid.pose.isNothing()) return turn;
+  const Matrix3 inScene = turnMatrix(turn) * strokeAxes(m_up);
+  return turnBetween(strokeAxes(m_setup.up), m_setup.grid.pose.inverse().turn.toRotationMatrix() * inScene);
+}
+
+QString LiveStroke::move(const Vector3& point, double seconds, const Held& held) {
   if (!m_record) return {};
   const Vector3 own = m_setup.grid.pose.isNothing() ? point : m_setup.grid.pose.inverse().of(point);
-  m_stroke.samples.push_back({own[0], own[1], own[2], pressure, seconds});
-  return guarded([&] { feed(m_resampler->add({double3Of(own), pressure, seconds, {}})); });
+  const Vector3 turn = ownTurn(held.turn);
+  m_stroke.samples.push_back({own[0], own[1], own[2], held.pressure, seconds, turn[0], turn[1], turn[2]});
+  return guarded([&] { feed(m_resampler->add({double3Of(own), held.pressure, seconds, {}, {}, double3Of(turn)})); });
 }
 
 template <class Work>

@@ -6,6 +6,7 @@
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
 #include "ui/tools/brushsettings.h"
+#include "ui/tools/held.h"
 
 #include <QtCore/QString>
 
@@ -35,20 +36,22 @@ class LiveStroke {
   /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on; `up`: away
   /// from what it is drawn on. What is drawn goes on with the sketched body of the same matter that it begins on, where
   /// there is one, else it is a body of its own.
-  QString begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, double pressure);
+  QString begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, const Held& held);
   /// "" or what went wrong; the stroke then ends as far as it came, or is given up where the brush failed. `seconds`
   /// since it began.
-  QString move(const Vector3& point, double seconds, double pressure);
+  QString move(const Vector3& point, double seconds, const Held& held);
   /// The next place is not joined to the last one. "" or what went wrong, as of move().
   QString lift();
   /// Likewise.
   QString finish();
   void cancel();
   bool active() const { return m_record != nullptr; }
+  const Vector3& up() const { return m_up; }  ///< away from what it is drawn on
   size_t cellCount() const { return m_cells.size(); }
 
  private:
   void drawOn(const VoxelShape& sketch);
+  Vector3 ownTurn(const Vector3& turn) const;
   void keep();
   QString whyNoSmoothing(const Snapshot& now, const Vector3& point);
   void noteOccupied(const Snapshot& now);
@@ -74,6 +77,7 @@ class LiveStroke {
   std::unique_ptr<StrokeResampler> m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   StrokeSetup m_setup;
+  Vector3 m_up{0, 1, 0};  ///< in the scene, away from what is drawn on
   CellSet m_cells;
   std::optional<OccupiedPlaces> m_occupied;               ///< as a stroke that fills hollows began
   VoxelCanvas m_canvas;                                   ///< that a smoothing stroke rounds, as it was before

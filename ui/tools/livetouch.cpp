@@ -40,7 +40,8 @@ QString LiveTouch::whyNot() const {
   return {};
 }
 
-QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, double pressure) {
+QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look,
+                         const Held& held) {
   if (const QString problem = whyNot(); !problem.isEmpty()) return problem;
   const PluginRegistry& plugins = *m_box.document().plugins();
   m_brush = m_box.brush().shape;
@@ -54,7 +55,7 @@ QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up,
   m_heats = m_holds = m_keeps = false;
   m_place.reset();
   m_velocity = {0, 0, 0};
-  return move(point, 0, pressure);
+  return move(point, 0, held);
 }
 
 /// m/s, smoothed; a hand that has just begun rests.
@@ -69,9 +70,10 @@ Vector3 LiveTouch::speedTo(const Vector3& point, double seconds) {
   return m_velocity;
 }
 
-QString LiveTouch::move(const Vector3& point, double seconds, double pressure) {
+QString LiveTouch::move(const Vector3& point, double seconds, const Held& held) {
   if (!m_record) return {};
-  api::StrokeSample here{double3Of(point), pressure, seconds, {}};
+  api::StrokeSample here{double3Of(point), held.pressure, seconds, {}};
+  here.turn = double3Of(held.turn);
   here.velocity = double3Of(speedTo(point, seconds));
   std::vector<api::StrokeSample> way = m_resampler->add(here);
   here.velocity = {0, 0, 0};

@@ -3,6 +3,7 @@
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
 #include "ui/tools/brushsettings.h"
+#include "ui/tools/held.h"
 
 #include <QtCore/QString>
 
@@ -23,9 +24,9 @@ class LiveTouch {
 
   /// "" or why the hand does nothing. `opposite`: of what the brush is called; `up`: away from what it points at;
   /// `look`: unit vector along which one sees it.
-  QString begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, double pressure);
+  QString begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, const Held& held);
   /// "" or what went wrong; the hand then lets go. `seconds` since it began.
-  QString move(const Vector3& point, double seconds, double pressure);
+  QString move(const Vector3& point, double seconds, const Held& held);
   /// The next place is not joined to the last one.
   void lift();
   QString finish();

@@ -26,8 +26,10 @@ struct Pointer {
   Vector3 forward{0, 0, -1};  ///< unit vector along which the viewer looks: drawing planes face it
   Vector3 target{0, 0, 0};    ///< m, what the viewer looks at: the depth of what is put in the air
   double fineness = 1e-3;     ///< tangent of the smallest angle that can be aimed at: a pixel, a tremor of the hand
-  double pressure = 1;        ///< 0 .. 1; a mouse always presses fully
+  double pressure = 1;        ///< 0 .. 1; a mouse always presses fully, as does a pen that does not tell
   bool eraser = false;        ///< the pen's other end
+  Vector3 lean{0, 0, 0};      ///< how a pen leans from standing upright on the view: an axis, by its length in rad
+  double twist = 0;           ///< rad, of a pen about itself, anticlockwise as seen from its end
   double seconds = 0;         ///< on any clock that runs on
   bool shift = false, control = false, alt = false;
   SnapshotPtr scene;               ///< as the view shows it, but for what the section cuts away; nullptr: nothing yet

@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/document.h"
+#include "ui/document/stampof.h"
 #include "ui/session/selection.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/livestroke.h"
@@ -21,6 +22,11 @@ Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
     BrushSettings brush = m_brush;
     brush.material = m_selection.material();
     setBrush(brush);
+  });
+  connect(&selection, &Selection::changed, this, [this] {
+    if (m_selection.body().empty() || m_selection.body() == m_stamped) return;
+    m_stamped = m_selection.body();
+    if (stampsShape()) Q_EMIT brushChanged();
   });
   // A stroke in the making builds on the document as it was when it began.
   connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] {
@@ -47,9 +53,52 @@ bool Toolbox::paints(const std::string& brush) const {
   return plugins && plugins->needs(brush, api::kPaintsMatter);
 }
 
+bool Toolbox::colours(const std::string& brush) const {
+  const PluginRegistry* plugins = m_document.plugins();
+  return plugins && plugins->needs(brush, api::kColoursMatter);
+}
+
 bool Toolbox::smooths(const std::string& brush) const {
   const PluginRegistry* plugins = m_document.plugins();
   return plugins && plugins->needs(brush, api::kSmoothsMatter);
+}
+
+bool Toolbox::stampsShape() const {
+  const PluginRegistry* plugins = m_document.plugins();
+  return plugins && plugins->needs(m_brush.shape, api::kStampsShape);
+}
+
+const Body* Toolbox::stampedBody() const { return m_document.body(m_stamped); }
+
+std::string Toolbox::shapeName() const {
+  const Body* body = stampedBody();
+  return body ? body->name : std::string();
+}
+
+std::optional<VoxelShape::Stamp> Toolbox::shape() {
+  shapeCells();
+  return m_shape.stamp;
+}
+
+/// What fills a mesh may take its time: it is asked for once.
+std::shared_ptr<const StampCells> Toolbox::shapeCells() {
+  const Body* body = stampedBody();
+  if (!body) {
+    m_shape = {};
+    return nullptr;
+  }
+  const bool known = m_shape.body == body->id && m_shape.spacing == spacing();
+  if (known && m_shape.change == m_document.changeCount()) return m_shape.cells;
+  if (!known || !(m_shape.form == body->shape)) {
+    m_shape.stamp = stampOf(*body, spacing());
+    m_shape.cells = stampCells(*m_shape.stamp);
+    if (!m_shape.cells) m_shape.stamp.reset();
+  }
+  m_shape.change = m_document.changeCount();
+  m_shape.body = body->id;
+  m_shape.spacing = spacing();
+  m_shape.form = body->shape;
+  return m_shape.cells;
 }
 
 /// Or the first one that draws where that cannot be had.
@@ -148,9 +197,10 @@ std::pair<Vector3, bool> Toolbox::stamp(const Vector3& up) {
   const PluginRegistry* plugins = m_document.plugins();
   const api::BrushPlugin* plugin = plugins ? plugins->brush(m_brush.shape) : nullptr;
   if (!plugin) return {Vector3::Constant(m_brush.radius), false};
-  const StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing(), up);
+  StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing(), up);
+  if (stampsShape()) setup.stamp = shapeCells();
   if (m_stamp.brush == m_brush.shape && m_stamp.spacing == setup.grid.spacing && m_stamp.radius == setup.radius &&
-      m_stamp.parameters == setup.parameters && m_stamp.up == up)
+      m_stamp.parameters == setup.parameters && m_stamp.shape == setup.stamp && m_stamp.up == up)
     return {m_stamp.half, m_stamp.box};
   const auto asked = inTime(m_brush.shape, [plugin, setup]() -> std::pair<Vector3, bool> {
     return {vectorOf(plugin->extent(contextOf(setup))), plugin->extension(api::kBoxStamp) != nullptr};
@@ -159,7 +209,7 @@ std::pair<Vector3, bool> Toolbox::stamp(const Vector3& up) {
     QMetaObject::invokeMethod(
         this, [this, brush = m_brush.shape] { putAside(brush, kNotBack); }, Qt::QueuedConnection);
   const auto [half, box] = asked.value_or(std::pair(Vector3(Vector3::Constant(m_brush.radius)), false));
-  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, up, half, box};
+  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, setup.stamp, up, half, box};
   return {half, box};
 }
 

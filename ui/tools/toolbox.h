@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 namespace ps {
 
 class Document;
+struct StampCells;
 class SceneLink;
 class Selection;
 
@@ -56,10 +58,18 @@ class Toolbox : public QObject {
   bool touchesMatter() const { return touchesMatter(m_brush.shape); }
   /// Whether it makes that matter of another material.
   bool paints() const { return paints(m_brush.shape); }
+  /// Whether it gives that matter a colour of its own.
+  bool colours() const { return colours(m_brush.shape); }
   /// Whether it rounds what is drawn.
   bool smooths() const { return smooths(m_brush.shape); }
+  /// Whether it stamps the shape of a body.
+  bool stampsShape() const;
+  /// That shape, of the body that is selected, or was last while none is; nullopt where there is none.
+  std::optional<VoxelShape::Stamp> shape();
+  /// Its name; "" of none.
+  std::string shapeName() const;
   /// Whether it changes what is drawn, in one of these ways, instead of drawing.
-  bool reworks() const { return paints() || smooths(); }
+  bool reworks() const { return paints() || colours() || smooths(); }
   /// Half extents of one stamp in m, and whether it fills that box; the radius on all axes when the brush is not
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
   /// `up`: away from what it draws on.
@@ -89,21 +99,38 @@ class Toolbox : public QObject {
     std::string brush;
     double spacing = 0, radius = 0;  ///< m
     std::vector<double> parameters;
+    std::shared_ptr<const StampCells> shape{};
     Vector3 up{0, 0, 0};
     Vector3 half{0, 0, 0};  ///< m
     bool box = false;
   };
+  const Body* stampedBody() const;
+  std::shared_ptr<const StampCells> shapeCells();
   void takeInstalled(const std::string& wanted);
   bool touchesMatter(const std::string& brush) const;
   bool paints(const std::string& brush) const;
+  bool colours(const std::string& brush) const;
   bool smooths(const std::string& brush) const;
-  bool draws(const std::string& brush) const { return !touchesMatter(brush) && !paints(brush) && !smooths(brush); }
+  bool draws(const std::string& brush) const {
+    return !touchesMatter(brush) && !paints(brush) && !colours(brush) && !smooths(brush);
+  }
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;
   BrushSettings m_brush;
   std::string m_drawing;  ///< the last brush that draws
   Stamp m_stamp;          ///< the last one: pictures ask for it often
+  std::string m_stamped;  ///< Body::id of what was selected last
+  /// Its shape, as it was asked for last, and of what.
+  struct Shape {
+    uint64_t change = 0;  ///< Document::changeCount()
+    std::string body;
+    decltype(Body::shape) form{};
+    double spacing = 0;  ///< m
+    std::optional<VoxelShape::Stamp> stamp;
+    std::shared_ptr<const StampCells> cells;
+  };
+  Shape m_shape;
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
   MousePreset m_mouse = MousePreset::PhaseSketch;

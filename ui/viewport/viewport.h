@@ -141,6 +141,7 @@ class Viewport : public QOpenGLWidget {
   void aimDrop(const QPointF& position);
   void endDrop();
   // viewportinput.cpp
+  Vector3 leanIn(const CameraFrame& frame) const;
   Pointer pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const;
   std::optional<MouseBinding> bindingOf(Qt::MouseButton button, Qt::KeyboardModifiers held) const;
   bool beginSize(const QMouseEvent& event);
@@ -192,6 +193,8 @@ class Viewport : public QOpenGLWidget {
   struct Pen {
     double pressure = 1;
     bool eraser = false;
+    double tiltX = 0, tiltY = 0;  ///< rad from upright, to the right and to whoever draws
+    double twist = 0;             ///< rad, see Pointer
     QElapsedTimer since;
   };
   Pen m_pen;

@@ -11,15 +11,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ps {
 namespace {
 
 constexpr double kClick = 4;  // pixels that a click may wander
 constexpr double kNotch = 120;
-constexpr double kEnd = 9;       // pixels around an end of the legend that take hold of it
-constexpr qint64 kPen = 200;     // ms after its last word from which it is the mouse that points
-constexpr double kOctave = 120;  // pixels for a brush of twice the size
+constexpr double kEnd = 9;    // pixels around an end of the legend that take hold of it
+constexpr qint64 kPen = 200;  // ms after its last word from which it is the mouse that points
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kFlat = 85 * kDegree;  // farthest that a pen leans
+constexpr double kOctave = 120;         // pixels for a brush of twice the size
 
 bool isClick(const QPointF& way) { return std::max(std::abs(way.x()), std::abs(way.y())) < kClick; }
 
@@ -51,6 +54,8 @@ Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modif
   if (m_pen.since.isValid() && m_pen.since.elapsed() < kPen) {
     pointer.pressure = m_pen.pressure;
     pointer.eraser = m_pen.eraser;
+    pointer.twist = m_pen.twist;
+    pointer.lean = leanIn(frameOf(camera));
   }
   pointer.seconds = static_cast<double>(m_clock.elapsed()) / 1000;
   pointer.shift = modifiers & Qt::ShiftModifier;
@@ -204,13 +209,30 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
   update();
 }
 
-/// How hard the pen presses, and with which end; where it is comes as the mouse's events, which Qt makes of what is
-/// ignored here.
+/// How hard the pen presses, how it is held, and with which end; where it is comes as the mouse's events, which Qt
+/// makes of what is ignored here. What a pen cannot tell is as with a mouse.
 void Viewport::tabletEvent(QTabletEvent* event) {
-  m_pen.pressure = event->type() == QEvent::TabletRelease ? 1 : event->pressure();
+  using Capability = QInputDevice::Capability;
+  const auto tells = [&](Capability what) { return event->device()->hasCapability(what); };
+  const bool presses = event->type() != QEvent::TabletRelease && tells(Capability::Pressure);
+  m_pen.pressure = presses ? event->pressure() : 1;
   m_pen.eraser = event->pointerType() == QPointingDevice::PointerType::Eraser;
+  m_pen.tiltX = tells(Capability::XTilt) ? event->xTilt() * kDegree : 0;
+  m_pen.tiltY = tells(Capability::YTilt) ? event->yTilt() * kDegree : 0;
+  m_pen.twist = tells(Capability::Rotation) ? -event->rotation() * kDegree : 0;
   m_pen.since.start();
   event->ignore();
+}
+
+/// The tablet lies as the view: its pen stands upright along the way from the view to whoever looks.
+Vector3 Viewport::leanIn(const CameraFrame& frame) const {
+  const Vector3 upright = -frame.forward;
+  const double x = std::tan(std::clamp(m_pen.tiltX, -kFlat, kFlat)),
+               y = std::tan(std::clamp(m_pen.tiltY, -kFlat, kFlat));
+  const Vector3 pen = (upright + x * frame.right - y * frame.up).normalized();
+  const Vector3 axis = upright.cross(pen);
+  const double sine = axis.norm();
+  return sine > 0 ? Vector3(std::atan2(sine, upright.dot(pen)) / sine * axis) : Vector3(Vector3::Zero());
 }
 
 Viewport::Drag Viewport::legendEndAt(const QPointF& position) const {

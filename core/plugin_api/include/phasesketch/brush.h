@@ -28,12 +28,30 @@ inline constexpr const char* kSmoothsMatter = "smooths_matter";
 /// metadata list the name. Its stroke() gets and submits EditKind::Fill, or Remove where its user erases with it.
 inline constexpr const char* kFillsHollows = "fills_hollows";
 
+/// Capability of a brush that gives the matter that is there a colour of its own, instead of drawing cells:
+/// extension(kColoursMatter) is its ColourBrush, and its metadata list the name. Its stroke() gets and submits
+/// EditKind::Colour, or Remove where its user erases with it.
+inline constexpr const char* kColoursMatter = "colours_matter";
+
+/// Capability of a brush that stamps the shape of a body: extension(kStampsShape) is not nullptr, and its metadata list
+/// the name. Its StrokeContext has the shape's cells, and it submits EditKind::Add or Remove.
+inline constexpr const char* kStampsShape = "stamps_shape";
+
 struct StrokeSample {
   Double3 position;           ///< m
-  double pressure;            ///< 0 .. 1
+  double pressure;            ///< 0 .. 1; 1 where nothing tells how hard it is
   double time;                ///< s since the stroke began
   Double3 direction;          ///< unit vector along which the hand goes; zero where it has not moved yet
   Double3 velocity{0, 0, 0};  ///< m/s, of the hand that touches matter; zero where it stays
+  /// How the pen or the hand is turned against the stroke's up, side and front: tilt and rotation as one turn about
+  /// this axis by its length in rad. Zero: not at all, or by something, such as a mouse, that has no pose. A pen that
+  /// stands upright on its tablet stands along up; a hand's pose is what turns up, side and front into its own.
+  Double3 turn{0, 0, 0};
+  double way = 0;  ///< m, along which the hand has gone since the stroke began
+};
+
+struct Cell {
+  int32_t x, y, z;
 };
 
 /// Where a stroke lands: a lattice of cells of edge `spacing` whose cell (0, 0, 0) is centred at `origin`.
@@ -47,10 +65,13 @@ struct StrokeContext {
   Span<const double> parameters;
   /// Unit vector along which whoever touches matter looks, as the stroke began; zero where nobody knows. Mirrored too.
   Double3 look{0, 0, 0};
-};
-
-struct Cell {
-  int32_t x, y, z;
+  /// Of a brush that stamps a shape: the cells of it, in order of z, y, x, on a lattice of its own with edges of
+  /// `shapeSpacing` m along the unit vectors `shapeX`, `shapeY` and `shapeZ`. In cells of that lattice the box around
+  /// them has its middle at `shapeMiddle` and half the edges `shapeHalf`. Empty where there is no shape. Mirrored too.
+  Span<const Cell> shape{};
+  double shapeSpacing = 0;
+  Double3 shapeMiddle{0, 0, 0}, shapeHalf{0, 0, 0};
+  Double3 shapeX{1, 0, 0}, shapeY{0, 1, 0}, shapeZ{0, 0, 1};
 };
 
 enum class EditKind : uint32_t {
@@ -59,6 +80,7 @@ enum class EditKind : uint32_t {
   Paint,   ///< what stands in cells becomes that material, as warm as it is; free cells stay free
   Smooth,  ///< of these cells, filled ones at edges and bumps are emptied, and free ones in hollows are filled
   Fill,    ///< like Add, and all free cells that are reached from each, from face to face, no higher than it is
+  Colour,  ///< what stands in cells gets the colour of the brush; free cells stay free
 };
 
 /// Takes a stroke's edits. A cell may be submitted any number of times; undo, recording and replay know edits only.
@@ -118,6 +140,16 @@ class MatterBrush {
 
  protected:
   ~MatterBrush() = default;
+};
+
+/// A brush's way with colours; see kColoursMatter.
+class ColourBrush {
+ public:
+  /// Red, green and blue (sRGB), 0 .. 1 each, that matter gets; below 0 it gets the colour of its material again.
+  virtual Double3 colour(const StrokeContext&) const noexcept = 0;
+
+ protected:
+  ~ColourBrush() = default;
 };
 
 class BrushPlugin : public Plugin {
