@@ -216,6 +216,12 @@ class TestBrushWindow : public SampleWindowTest {
     const auto& sample = stroke.samples.back();
     return {sample[5], sample[6], sample[7]};
   }
+  /// The view shows what the last undo has left.
+  void settle() {
+    const size_t there = idsNow(session()).size();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        session().snapshot()->position.size() == there && view()->snapshot() == session().snapshot(), kLong);
+  }
   void take(const char* shape) {
     BrushSettings brush = m_window->tools().brush();
     brush.shape = shape;
@@ -233,6 +239,7 @@ class TestBrushWindow : public SampleWindowTest {
     const QPointingDevice device(QStringLiteral("pen"), 19, QInputDevice::DeviceType::Stylus,
                                  QPointingDevice::PointerType::Pen, capabilities, 1, 1);
     const QPoint from = at({-40, 0});
+    settle();
     tell(device, QEvent::TabletPress, from, pen);
     QTest::mousePress(view(), Qt::LeftButton, {}, from);
     for (int k = 1; k <= 4; ++k) {

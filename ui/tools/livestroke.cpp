@@ -150,7 +150,7 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
         .arg(lengthText(m_box.spacing()));
   }
   if (m_box.stampsShape() && !m_box.shape())
-    return QStringLiteral("There is no body to stamp. Select one, or click one with Alt, in a scene that has some.");
+    return QStringLiteral("No body is selected to be stamped. Select one, or click one with Alt.");
   const Vector3 half = m_box.stamp(up).first;
   const double copies = static_cast<double>(imagesOf(brush.symmetry).size());
   const double cells = copies * 8 * half[0] * half[1] * half[2] / std::pow(m_box.spacing(), 3);
