@@ -86,8 +86,7 @@ struct Axis : Plain {
   Json write(int value) const { return std::string(1, static_cast<char>('x' + value)); }
 };
 
-/// A colour that matter has of its own: red, green and blue,
-/// sRGB, as "#rrggbb".
+/// A colour that matter has of its own, sRGB, as "#rrggbb".
 struct ColourText : Text {
   Json schema() const { return {{"type", "string"}, {"pattern", "^#[0-9a-f]{6}$"}}; }
 };
