@@ -253,9 +253,12 @@ class TestSwatches : public QObject {
     constexpr int kMany = 30;
     for (int k = 0; k < kMany; ++k) QVERIFY(swatches.of(numbered(k), kSide).isNull());
     QVERIFY(swatches.of(numbered(1), kSide).isNull());  // once more
+    const qsizetype begun = keptPictures() + 1;         // before all were asked for, and the one that is being drawn
     QTRY_COMPARE_WITH_TIMEOUT(keptPictures(), kMany, kLong);
     const auto when = [](int number) { return QFileInfo(swatchPath(numbered(number), kSide)).lastModified(); };
-    for (int k = 2; k < kMany - 1; ++k) QVERIFY(when(1) <= when(k) && when(kMany - 1) <= when(k));
+    qsizetype earlier = 0;
+    for (int k = 2; k < kMany - 1; ++k) earlier += when(k) < std::max(when(1), when(kMany - 1)) ? 1 : 0;
+    QVERIFY2(earlier <= begun, qPrintable(QStringLiteral("%1 of %2").arg(earlier).arg(begun)));
   }
 
   /// The interface has 16 ms for a picture of its own. The shortest of many: others may have the processor meanwhile.
