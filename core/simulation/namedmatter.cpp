@@ -183,7 +183,9 @@ void NamedMatter::unpaint(Engine& engine, std::vector<Coat>& painted, std::vecto
   for (auto coat = painted.rbegin(); coat != painted.rend(); ++coat) {
     engine.unpaint(coat->was);
     coat->was = {};
-    for (const auto& [id, before] : coat->colours) engine.colour({id}, before);
+    std::map<uint32_t, std::vector<uint32_t>> byColour;
+    for (const auto& [id, before] : coat->colours) byColour[before].push_back(id);
+    for (const auto& [before, ids] : byColour) engine.colour(ids, before);
     coat->colours.clear();
   }
   std::move(painted.begin(), painted.end(), std::back_inserter(coats));
