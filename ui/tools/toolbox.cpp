@@ -43,29 +43,14 @@ void Toolbox::attach(SceneLink* link) {
   if (link && plugins && m_brush.shape.empty()) takeInstalled(plugins->standard(PluginKind::Brush));
 }
 
-bool Toolbox::touchesMatter(const std::string& brush) const {
+bool Toolbox::can(const char* capability, const std::string& brush) const {
   const PluginRegistry* plugins = m_document.plugins();
-  return plugins && plugins->needs(brush, api::kTouchesMatter);
+  return plugins && plugins->needs(brush, capability);
 }
 
-bool Toolbox::paints(const std::string& brush) const {
-  const PluginRegistry* plugins = m_document.plugins();
-  return plugins && plugins->needs(brush, api::kPaintsMatter);
-}
-
-bool Toolbox::colours(const std::string& brush) const {
-  const PluginRegistry* plugins = m_document.plugins();
-  return plugins && plugins->needs(brush, api::kColoursMatter);
-}
-
-bool Toolbox::smooths(const std::string& brush) const {
-  const PluginRegistry* plugins = m_document.plugins();
-  return plugins && plugins->needs(brush, api::kSmoothsMatter);
-}
-
-bool Toolbox::stampsShape() const {
-  const PluginRegistry* plugins = m_document.plugins();
-  return plugins && plugins->needs(m_brush.shape, api::kStampsShape);
+bool Toolbox::draws(const std::string& brush) const {
+  return !can(api::kTouchesMatter, brush) && !can(api::kPaintsMatter, brush) && !can(api::kColoursMatter, brush) &&
+         !can(api::kSmoothsMatter, brush);
 }
 
 const Body* Toolbox::stampedBody() const { return m_document.body(m_stamped); }

@@ -5,6 +5,8 @@
 #include "ui/tools/mousepreset.h"
 #include "ui/tools/tool.h"
 
+#include <phasesketch/brush.h>
+
 #include <QtCore/QObject>
 
 #include <map>
@@ -55,15 +57,15 @@ class Toolbox : public QObject {
   /// Takes a brush in hand; one that does not draw puts the eraser aside.
   void takeBrush(const std::string& id);
   /// Whether the brush in hand works on the matter that is there, instead of drawing.
-  bool touchesMatter() const { return touchesMatter(m_brush.shape); }
+  bool touchesMatter() const { return can(api::kTouchesMatter, m_brush.shape); }
   /// Whether it makes that matter of another material.
-  bool paints() const { return paints(m_brush.shape); }
+  bool paints() const { return can(api::kPaintsMatter, m_brush.shape); }
   /// Whether it gives that matter a colour of its own.
-  bool colours() const { return colours(m_brush.shape); }
+  bool colours() const { return can(api::kColoursMatter, m_brush.shape); }
   /// Whether it rounds what is drawn.
-  bool smooths() const { return smooths(m_brush.shape); }
+  bool smooths() const { return can(api::kSmoothsMatter, m_brush.shape); }
   /// Whether it stamps the shape of a body.
-  bool stampsShape() const;
+  bool stampsShape() const { return can(api::kStampsShape, m_brush.shape); }
   /// That shape, of the body that is selected, or was last while none is; nullopt where there is none.
   std::optional<VoxelShape::Stamp> shape();
   /// Its name; "" of none.
@@ -107,13 +109,8 @@ class Toolbox : public QObject {
   const Body* stampedBody() const;
   std::shared_ptr<const StampCells> shapeCells();
   void takeInstalled(const std::string& wanted);
-  bool touchesMatter(const std::string& brush) const;
-  bool paints(const std::string& brush) const;
-  bool colours(const std::string& brush) const;
-  bool smooths(const std::string& brush) const;
-  bool draws(const std::string& brush) const {
-    return !touchesMatter(brush) && !paints(brush) && !colours(brush) && !smooths(brush);
-  }
+  bool can(const char* capability, const std::string& brush) const;
+  bool draws(const std::string& brush) const;
   Document& m_document;
   Selection& m_selection;
   SceneLink* m_link = nullptr;
