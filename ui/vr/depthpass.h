@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace ps::vr {
@@ -27,9 +28,10 @@ class DepthPass {
   void draw(const Eye& eye, const RenderTarget& target) const;
 
  private:
-  uint32_t m_balls = 0, m_faces = 0;  ///< programs
   enum Part : size_t { kMatter, kFurniture, kProps, kPanels, kParts };
-  std::array<uint32_t, kParts> m_buffers{}, m_arrays{};
+  struct Objects;
+  std::unique_ptr<Objects> m_objects;
+  std::array<uint32_t, kParts> m_arrays{};
   std::array<int, kParts> m_counts{};  ///< balls, or corners
   std::optional<Environment> m_furnished;
   std::optional<Section> m_section;
