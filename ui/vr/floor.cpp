@@ -10,19 +10,11 @@ namespace {
 constexpr auto kLocalFloor = static_cast<XrReferenceSpaceType>(1000426000);
 constexpr float kEyeHeight = 1.6f;  // m above a floor of which the headset knows nothing
 
-std::vector<XrReferenceSpaceType> offeredSpaces(XrSession session) {
-  constexpr const char* kCall = "xrEnumerateReferenceSpaces";
-  uint32_t count = 0;
-  check(xrEnumerateReferenceSpaces(session, 0, &count, nullptr), kCall);
-  std::vector<XrReferenceSpaceType> types(count);
-  check(xrEnumerateReferenceSpaces(session, count, &count, types.data()), kCall);
-  return types;
-}
-
 }  // namespace
 
 Floor::Floor(const Runtime& runtime, XrSession session) {
-  const auto offered = offeredSpaces(session);
+  const auto offered = listed<XrReferenceSpaceType>(
+      "xrEnumerateReferenceSpaces", [&](auto... room) { return xrEnumerateReferenceSpaces(session, room...); });
   const auto has = [&](XrReferenceSpaceType type) {
     return std::find(offered.begin(), offered.end(), type) != offered.end();
   };

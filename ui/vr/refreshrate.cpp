@@ -11,17 +11,6 @@ constexpr float kWanted = 90;  // Hz
 
 bool isNearer(float a, float b) { return std::abs(a - kWanted) < std::abs(b - kWanted); }
 
-std::vector<float> offeredRates(const Runtime& runtime, XrSession session) {
-  constexpr const char* kCall = "xrEnumerateDisplayRefreshRatesFB";
-  const auto ratesOf = runtime.function<PFN_xrEnumerateDisplayRefreshRatesFB>(kCall);
-  uint32_t count = 0;
-  check(ratesOf(session, 0, &count, nullptr), kCall);
-  std::vector<float> rates(count);
-  if (count > 0) check(ratesOf(session, count, &count, rates.data()), kCall);
-  rates.resize(count);
-  return rates;
-}
-
 }  // namespace
 
 RefreshRate::RefreshRate(const Runtime& runtime, XrSession session) {
@@ -30,13 +19,15 @@ RefreshRate::RefreshRate(const Runtime& runtime, XrSession session) {
   float now = 0;
   check(rateOf(session, &now), "xrGetDisplayRefreshRateFB");
   m_hertz = double(now);
-  const std::vector<float> offered = offeredRates(runtime, session);
+  const auto ratesOf = runtime.function<PFN_xrEnumerateDisplayRefreshRatesFB>("xrEnumerateDisplayRefreshRatesFB");
+  const auto offered =
+      listed<float>("xrEnumerateDisplayRefreshRatesFB", [&](auto... room) { return ratesOf(session, room...); });
   const auto best = std::min_element(offered.begin(), offered.end(), isNearer);
   if (best == offered.end() || !isNearer(*best, now)) return;
   const auto request = runtime.function<PFN_xrRequestDisplayRefreshRateFB>("xrRequestDisplayRefreshRateFB");
-  const XrResult result = request(session, *best);
-  // A headset that is told otherwise by its wearer says no; that it has changed comes as an event.
-  if (result != XR_ERROR_DISPLAY_REFRESH_RATE_UNSUPPORTED_FB) check(result, "xrRequestDisplayRefreshRateFB");
+  // A headset that is told otherwise by its wearer says no, and one that is lost says so at the next call; that the
+  // rate has changed comes as an event.
+  request(session, *best);
 }
 
 void RefreshRate::notice(const XrEventDataBuffer& event) {

@@ -19,6 +19,17 @@ Structure structure(XrStructureType type) {
   return empty;
 }
 
+/// What a call of OpenXR lists: call(room, &count, elements), asked for the number first. Throws Failure.
+template <class Element, class Call>
+std::vector<Element> listed(const char* name, const Call& call, const Element& empty = {}) {
+  uint32_t count = 0;
+  check(call(0, &count, static_cast<Element*>(nullptr)), name);
+  std::vector<Element> all(count, empty);
+  check(call(count, &count, all.data()), name);
+  all.resize(count);
+  return all;
+}
+
 /// The headset's software, which OpenXR's loader finds, and the headset that it has.
 class Runtime {
  public:

@@ -5,16 +5,14 @@ namespace ps::vr {
 namespace {
 
 std::vector<uint32_t> texturesOf(XrSwapchain swapchain) {
-  constexpr const char* kCall = "xrEnumerateSwapchainImages";
-  uint32_t count = 0;
-  check(xrEnumerateSwapchainImages(swapchain, 0, &count, nullptr), kCall);
-  std::vector<XrSwapchainImageOpenGLKHR> images(
-      count, structure<XrSwapchainImageOpenGLKHR>(XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR));
-  check(xrEnumerateSwapchainImages(swapchain, count, &count,
-                                   reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())),
-        kCall);
+  const auto images = listed(
+      "xrEnumerateSwapchainImages",
+      [&](uint32_t room, uint32_t* count, XrSwapchainImageOpenGLKHR* all) {
+        return xrEnumerateSwapchainImages(swapchain, room, count, reinterpret_cast<XrSwapchainImageBaseHeader*>(all));
+      },
+      structure<XrSwapchainImageOpenGLKHR>(XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR));
   std::vector<uint32_t> textures;
-  textures.reserve(count);
+  textures.reserve(images.size());
   for (const XrSwapchainImageOpenGLKHR& image : images) textures.push_back(image.image);
   return textures;
 }
@@ -22,12 +20,8 @@ std::vector<uint32_t> texturesOf(XrSwapchain swapchain) {
 }  // namespace
 
 std::vector<int64_t> offeredFormats(XrSession session) {
-  constexpr const char* kCall = "xrEnumerateSwapchainFormats";
-  uint32_t count = 0;
-  check(xrEnumerateSwapchainFormats(session, 0, &count, nullptr), kCall);
-  std::vector<int64_t> formats(count);
-  check(xrEnumerateSwapchainFormats(session, count, &count, formats.data()), kCall);
-  return formats;
+  return listed<int64_t>("xrEnumerateSwapchainFormats",
+                         [&](auto... room) { return xrEnumerateSwapchainFormats(session, room...); });
 }
 
 Swapchain::Swapchain(XrSession session, const PictureSize& size, const Kind& kind) : m_attachment(kind.attachment) {
