@@ -2,6 +2,9 @@
 #pragma once
 #include "ui/render/camera.h"
 
+#include <epoxy/gl.h>
+
+#include <array>
 #include <cmath>
 
 // Snapshots and furniture that the tests of the renderer draw.
@@ -38,6 +41,20 @@ inline void addParticle(Snapshot& s, const Vector3& p, double radius, uint32_t i
   s.id.push_back(id);
   s.body.push_back(0);
   s.material.push_back(0);
+}
+
+/// Names in use among the first thousand, of the context that is current: what a renderer leaves behind shows here.
+inline std::array<int, 6> objectsInUse() {
+  std::array<int, 6> count{};
+  for (GLuint name = 1; name < 1000; ++name) {
+    count[0] += glIsTexture(name);
+    count[1] += glIsBuffer(name);
+    count[2] += glIsProgram(name);
+    count[3] += glIsFramebuffer(name);
+    count[4] += glIsVertexArray(name);
+    count[5] += glIsQuery(name);
+  }
+  return count;
 }
 
 inline SceneWall wall(const char* id, const Vector3& point, const Vector3& normal, double temperature) {

@@ -37,19 +37,6 @@ int difference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b, siz
   return sum;
 }
 
-// Names in use among the first thousand: what one renderer leaves behind shows here.
-std::array<int, 5> objectsInUse() {
-  std::array<int, 5> count{};
-  for (GLuint name = 1; name < 1000; ++name) {
-    count[0] += glIsTexture(name);
-    count[1] += glIsBuffer(name);
-    count[2] += glIsProgram(name);
-    count[3] += glIsFramebuffer(name);
-    count[4] += glIsVertexArray(name);
-  }
-  return count;
-}
-
 }  // namespace
 
 class TestRender : public QObject {

@@ -218,19 +218,8 @@ void TestRenderComputed::restoresWhatProgramsUse() {
 }
 
 void TestRenderComputed::leavesNothingBehind() {
-  const auto inUse = [] {
-    std::array<int, 5> count{};
-    for (GLuint name = 1; name < 1000; ++name) {
-      count[0] += glIsTexture(name);
-      count[1] += glIsBuffer(name);
-      count[2] += glIsProgram(name);
-      count[3] += glIsFramebuffer(name);
-      count[4] += glIsQuery(name);
-    }
-    return count;
-  };
   const Sheet sheet(GL_SRGB8_ALPHA8, true, kWidth, kHeight);
-  const auto before = inUse();
+  const auto before = objectsInUse();
   {
     Renderer renderer(PixelWork::Computed);
     std::vector<PassTime> times;
@@ -239,7 +228,7 @@ void TestRenderComputed::leavesNothingBehind() {
     renderer.prepare(everything(), nullptr, 1, tray(), ghostly());
     for (int i = 0; i < 3; ++i) renderer.draw(shot.eye(), {sheet.framebuffer, 0, 0, shot.size, sheet.texture});
   }
-  QVERIFY(inUse() == before);
+  QVERIFY(objectsInUse() == before);
 }
 
 void TestRenderComputed::passesTakeTime_data() {
