@@ -427,6 +427,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->knowsStart = !m->start.empty();
   snapshot->tools = m->tools.contacts(*m->bodyIds);
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
+  snapshot->keptForUndo = m->named.bytes();
   snapshot->bodyIds = m->bodyIds;
   snapshot->heldBodies = m->heldBodies();
   snapshot->materialIds = idsOf(m->project.materials);

@@ -3,6 +3,7 @@
 
 #include "core/scene/coat.h"
 #include "core/simulation/engine.h"
+#include "core/solver/matterbytes.h"
 #include "core/solver/solver.h"
 
 #include <algorithm>
@@ -73,11 +74,32 @@ std::vector<MatterKey> NamedMatter::keysInScene() const {
 }
 
 std::vector<MatterKey> NamedMatter::erasedOrPainted() const {
-  std::vector<MatterKey> keys;
+  std::vector<MatterKey> keys = m_settled;
   for (const auto& [key, entry] : m_entries) {
-    if (entry.afterStart && !(entry.extracted.empty() && entry.painted.empty())) keys.push_back(key);
+    if (entry.erasedOrPainted()) keys.push_back(key);
   }
   return keys;
+}
+
+std::vector<std::pair<MatterKey, uint64_t>> NamedMatter::bytes() const {
+  std::vector<std::pair<MatterKey, uint64_t>> all;
+  for (const auto& [key, entry] : m_entries) all.emplace_back(key, bytesOf(entry));
+  return all;
+}
+
+uint64_t NamedMatter::bytesOf(const Entry& entry) {
+  constexpr uint64_t kNode = 40;  // of the map
+  uint64_t bytes = kNode + sizeof(entry) + 4 * entry.ids.capacity();
+  for (const ExtractedMatter& matter : entry.extracted) bytes += ps::bytesOf(matter);
+  for (const HeatById* heat : {&entry.heat, &entry.taken}) bytes += sizeof((*heat)[0]) * heat->capacity();
+  for (const auto* ties : {&entry.ties, &entry.untied}) {
+    for (const TieChange& change : *ties) bytes += ps::bytesOf(change);
+  }
+  for (const auto* coats : {&entry.painted, &entry.bare, &entry.before, &entry.stripped}) {
+    for (const Coat& coat : *coats)
+      bytes += sizeof(coat) + 4 * coat.ids.capacity() + 8 * coat.colours.capacity() + ps::bytesOf(coat.was);
+  }
+  return bytes;
 }
 
 std::vector<MatterKey> NamedMatter::keys() const {
@@ -241,7 +263,12 @@ void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
 }
 
 void NamedMatter::apply(Engine&, const ForgetMatter& command) {
-  for (const MatterKey key : command.keys) m_entries.erase(key);
+  for (const MatterKey key : command.keys) {
+    const auto found = m_entries.find(key);
+    if (found == m_entries.end()) continue;
+    if (found->second.erasedOrPainted()) m_settled.push_back(key);
+    m_entries.erase(found);
+  }
 }
 
 void NamedMatter::apply(Engine& engine, const TouchMatter& command) {

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -28,6 +29,8 @@ class NamedMatter {
   std::vector<MatterKey> keysInScene() const;  ///< those of inScene()
   /// The keys of those that took cells out of a scene that had begun, or painted them, and still do.
   std::vector<MatterKey> erasedOrPainted() const;
+  /// Bytes that each key keeps, so that what it names can be undone and redone.
+  std::vector<std::pair<MatterKey, uint64_t>> bytes() const;
   /// The keys of hands that are in matter: neither is that in a state.
   std::vector<MatterKey> hands() const;
   /// What hands do in a frame, before it.
@@ -64,6 +67,7 @@ class NamedMatter {
     std::vector<Coat> painted, bare;      ///< one after the other: what it painted, and what of it was taken back
     /// What it had painted before a reset, with the material that undo gives, and what undo has given it.
     std::vector<Coat> before, stripped;
+    bool erasedOrPainted() const { return afterStart && !(extracted.empty() && painted.empty()); }
     bool isPresent() const {
       return extracted.empty() && heat.empty() && taken.empty() && ties.empty() && untied.empty() && !hand &&
              painted.empty() && bare.empty() && before.empty() && stripped.empty();
@@ -77,7 +81,9 @@ class NamedMatter {
   static void unpaint(Engine& engine, std::vector<Coat>& painted, std::vector<Coat>& coats);
   static void undoTies(Engine& engine, Entry& entry);
   static void redoTies(Engine& engine, Entry& entry);
+  static uint64_t bytesOf(const Entry& entry);
   std::map<MatterKey, Entry> m_entries;
+  std::vector<MatterKey> m_settled;  ///< of erasedOrPainted(), forgotten since: nobody can undo them
 };
 
 }  // namespace ps

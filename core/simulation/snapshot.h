@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -73,10 +74,11 @@ struct Snapshot {
   std::vector<Limit> limits;
   std::vector<ToolContact> tools;         ///< bodies that hands have led in this run, the last one first
   std::vector<uint64_t> erasedOrPainted;  ///< keys of commands that did so after the start, and were not undone
-  Period period;                          ///< positions lie within its box: one that jumps by it has crossed a face
-  std::vector<api::Float4> position;      ///< m; w: radius of a sphere of the rest volume, m
-  std::vector<float> temperature;         ///< K
-  std::vector<float> speed;               ///< m/s
+  std::vector<std::pair<uint64_t, uint64_t>> keptForUndo;  ///< bytes by keys of commands that name matter
+  Period period;                      ///< positions lie within its box: one that jumps by it has crossed a face
+  std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
+  std::vector<float> temperature;     ///< K
+  std::vector<float> speed;           ///< m/s
   std::vector<float> densityError;
   std::vector<float> gasFraction;
   std::vector<api::Phase> phase;

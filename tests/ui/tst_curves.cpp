@@ -63,7 +63,7 @@ class TestCurves : public CurveWindowTest {
     pages().chooseKind("points");
     step("points of the constant");
     QCOMPARE(response().points.size(), size_t{2});
-    QUndoStack& stack = document().undoStack();
+    History& stack = document().undoStack();
     for (size_t k = states.size(); k-- > 1;) {
       QCOMPARE(text(), states[k]);
       stack.undo();

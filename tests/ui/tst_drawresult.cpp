@@ -8,7 +8,6 @@
 #include "ui/fitting/wantedview.h"
 #include "ui/window/windowlayout.h"
 
-#include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDockWidget>

@@ -19,7 +19,6 @@
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QXmlStreamReader>
 #include <QtGui/QImage>
-#include <QtGui/QUndoStack>
 #include <QtWidgets/QToolButton>
 
 #include <cmath>

@@ -8,7 +8,6 @@
 #include "ui/window/statusline.h"
 
 #include <QtGui/QAction>
-#include <QtGui/QUndoStack>
 
 using namespace ps;
 

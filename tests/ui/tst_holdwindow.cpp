@@ -4,7 +4,6 @@
 #include "ui/tools/tooltable.h"
 
 #include <QtGui/QAction>
-#include <QtGui/QUndoStack>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPushButton>
 

@@ -7,7 +7,6 @@
 #include "ui/timeline/keyrows.h"
 #include "ui/window/noticebar.h"
 
-#include <QtGui/QUndoStack>
 #include <QtWidgets/QListWidget>
 
 #include <cmath>

@@ -12,7 +12,6 @@
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
-#include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QDockWidget>
 #include <QtWidgets/QMenu>
@@ -51,7 +50,7 @@ class TestKeys : public SampleWindowTest {
   /// Each edit is a step; undone and done again, the project is the same to the byte.
   void everyEditIsAStepThereAndBack() {
     const auto text = [this] { return writeProject(document().project()); };
-    QUndoStack& stack = document().undoStack();
+    History& stack = document().undoStack();
     std::vector<std::string> states{text()};
     const auto step = [&](const char* what, int index) {
       QVERIFY2(text() != states.back() && stack.index() == index, what);

@@ -11,7 +11,6 @@
 #include "ui/timeline/markerrow.h"
 #include "ui/timeline/timeline.h"
 
-#include <QtGui/QUndoStack>
 #include <QtTest/QtTest>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
@@ -31,7 +30,7 @@ class TestMarkers : public SampleWindowTest {
   /// Each edit is a step; undone and done again, the project is the same to the byte.
   void everyEditIsAStepThereAndBack() {
     const auto text = [this] { return writeProject(document().project()); };
-    QUndoStack& stack = document().undoStack();
+    History& stack = document().undoStack();
     std::vector<std::string> states;
     states.push_back(text());
     QCOMPARE(document().addMarker(2.5), size_t{0});

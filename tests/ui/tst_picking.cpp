@@ -13,7 +13,6 @@
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
-#include <QtGui/QUndoStack>
 #include <QtTest/QTest>
 
 #include <Eigen/Geometry>

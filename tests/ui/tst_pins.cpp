@@ -10,7 +10,6 @@
 
 #include <QtGui/QAction>
 #include <QtGui/QClipboard>
-#include <QtGui/QUndoStack>
 #include <QtWidgets/QTreeView>
 
 #include <algorithm>

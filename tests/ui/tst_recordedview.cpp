@@ -20,7 +20,6 @@
 #include "ui/window/noticebar.h"
 
 #include <QtCore/QElapsedTimer>
-#include <QtGui/QUndoStack>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>

@@ -16,7 +16,6 @@
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
-#include <QtGui/QUndoStack>
 
 #include <cmath>
 

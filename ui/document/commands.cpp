@@ -9,7 +9,7 @@ namespace ps {
 
 ParameterCommand::ParameterCommand(Document& document, std::vector<ParameterEdit> edits, int gesture,
                                    const QString& text)
-    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
+    : WeighedCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
   setObsolete(isNothing());
 }
 
@@ -19,6 +19,11 @@ void ParameterCommand::undo() {
 }
 void ParameterCommand::redo() {
   for (const ParameterEdit& edit : m_edits) m_document.applyParameter(edit.address, edit.after);
+}
+
+void ParameterCommand::weigh(Weight& weight) const {
+  weight.own += m_edits.capacity() * sizeof(ParameterEdit);
+  for (const ParameterEdit& edit : m_edits) weight.add(edit.address, edit.before, edit.after);
 }
 
 bool ParameterCommand::isNothing() const {
@@ -49,7 +54,7 @@ bool ParameterCommand::mergeWith(const QUndoCommand* other) {
 }
 
 BodiesCommand::BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text, MatterRef matter)
-    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_matter(std::move(matter)) {}
+    : WeighedCommand(text), m_document(document), m_edits(std::move(edits)), m_matter(std::move(matter)) {}
 
 void BodiesCommand::undo() { apply(false); }
 void BodiesCommand::redo() { apply(true); }
@@ -62,10 +67,14 @@ bool samePlace(const Sink& a, const Sink& b) { return a.minimum == b.minimum && 
 }  // namespace
 
 PortCommand::PortCommand(Document& document, AnyPortEdit edit, int gesture, const QString& text)
-    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {}
+    : WeighedCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {}
 
 void PortCommand::undo() { m_document.applyPort(m_edit, false); }
 void PortCommand::redo() { m_document.applyPort(m_edit, true); }
+
+void PortCommand::weigh(Weight& weight) const {
+  std::visit([&](const auto& edit) { weight.add(edit); }, m_edit);
+}
 
 bool PortCommand::mergeWith(const QUndoCommand* other) {
   const auto* next = static_cast<const PortCommand*>(other);
@@ -110,7 +119,7 @@ bool sameThings(const Placement& a, const Placement& b) {
 
 PlacementCommand::PlacementCommand(Document& document, Placement before, Placement after, int gesture,
                                    const QString& text)
-    : QUndoCommand(text),
+    : WeighedCommand(text),
       m_document(document),
       m_before(std::move(before)),
       m_after(std::move(after)),
@@ -131,27 +140,27 @@ bool PlacementCommand::mergeWith(const QUndoCommand* other) {
 
 WallsCommand::WallsCommand(Document& document, std::vector<SceneWall> before, std::vector<SceneWall> after,
                            const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void WallsCommand::undo() { m_document.applyWalls(m_before); }
 void WallsCommand::redo() { m_document.applyWalls(m_after); }
 
 MarksCommand::MarksCommand(Document& document, std::vector<ThingMarks> before, std::vector<ThingMarks> after,
                            const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void MarksCommand::undo() { m_document.applyMarks(m_before); }
 void MarksCommand::redo() { m_document.applyMarks(m_after); }
 
 MaterialsCommand::MaterialsCommand(Document& document, std::vector<SceneMaterial> before,
                                    std::vector<SceneMaterial> after, const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void MaterialsCommand::undo() { m_document.applyMaterials(m_before); }
 void MaterialsCommand::redo() { m_document.applyMaterials(m_after); }
 
 StrokeCommand::StrokeCommand(Document& document, std::shared_ptr<StrokeRecord> stroke, const QString& text)
-    : QUndoCommand(text), m_document(document), m_stroke(std::move(stroke)) {}
+    : WeighedCommand(text), m_document(document), m_stroke(std::move(stroke)) {}
 
 void StrokeCommand::undo() { m_document.applyStroke(m_stroke, false, false); }
 
@@ -161,13 +170,13 @@ void StrokeCommand::redo() {
 }
 
 StateCommand::StateCommand(Document& document, State before, State after, const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void StateCommand::undo() { m_document.applyState(m_before); }
 void StateCommand::redo() { m_document.applyState(m_after); }
 
 TrackCommand::TrackCommand(Document& document, std::vector<TrackEdit> edits, int gesture, const QString& text)
-    : QUndoCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
+    : WeighedCommand(text), m_document(document), m_edits(std::move(edits)), m_gesture(gesture) {
   setObsolete(isNothing());
 }
 
@@ -176,6 +185,11 @@ void TrackCommand::undo() {
 }
 void TrackCommand::redo() {
   for (const TrackEdit& edit : m_edits) m_document.applyTrack(edit, true);
+}
+
+void TrackCommand::weigh(Weight& weight) const {
+  weight.own += m_edits.capacity() * sizeof(TrackEdit);
+  for (const TrackEdit& edit : m_edits) weight.add(edit.before, edit.after);
 }
 
 bool TrackCommand::isNothing() const {
@@ -195,7 +209,7 @@ bool TrackCommand::mergeWith(const QUndoCommand* other) {
 }
 
 OrderCommand::OrderCommand(Document& document, SceneOrder before, SceneOrder after, const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {
   setObsolete(m_before == m_after);
 }
 
@@ -203,14 +217,14 @@ void OrderCommand::undo() { m_document.applyOrder(m_before); }
 void OrderCommand::redo() { m_document.applyOrder(m_after); }
 
 GraphsCommand::GraphsCommand(Document& document, Graphs before, Graphs after, const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void GraphsCommand::undo() { m_document.applyGraphs(m_before); }
 void GraphsCommand::redo() { m_document.applyGraphs(m_after); }
 
 MarkersCommand::MarkersCommand(Document& document, std::vector<Marker> before, std::vector<Marker> after, int gesture,
                                const QString& text)
-    : QUndoCommand(text),
+    : WeighedCommand(text),
       m_document(document),
       m_before(std::move(before)),
       m_after(std::move(after)),
@@ -228,7 +242,7 @@ bool MarkersCommand::mergeWith(const QUndoCommand* other) {
 }
 
 ProbeCommand::ProbeCommand(Document& document, ProbeEdit edit, int gesture, const QString& text)
-    : QUndoCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
+    : WeighedCommand(text), m_document(document), m_edit(std::move(edit)), m_gesture(gesture) {
   setObsolete(m_edit.before == m_edit.after);
 }
 
@@ -246,14 +260,19 @@ bool ProbeCommand::mergeWith(const QUndoCommand* other) {
 }
 
 AboutCommand::AboutCommand(Document& document, ProjectAbout before, ProjectAbout after, const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void AboutCommand::undo() { m_document.applyAbout(m_before); }
 void AboutCommand::redo() { m_document.applyAbout(m_after); }
 
+void AboutCommand::weigh(Weight& weight) const {
+  for (const ProjectAbout* about : {&m_before, &m_after})
+    weight.add(about->title, about->description, about->toTry, about->thumbnail);
+}
+
 PinsCommand::PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after,
                          const QString& text)
-    : QUndoCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
+    : WeighedCommand(text), m_document(document), m_before(std::move(before)), m_after(std::move(after)) {}
 
 void PinsCommand::undo() { m_document.applyPins(m_before); }
 void PinsCommand::redo() { m_document.applyPins(m_after); }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/document/about.h"
+#include "ui/document/history.h"
 #include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
-
-#include <QtGui/QUndoCommand>
 
 #include <memory>
 #include <optional>
@@ -24,11 +23,12 @@ struct ParameterEdit {
 
 /// Parameters that change together. Commands of one gesture on the same addresses merge, so that a whole drag is one
 /// step; one that ends where it began vanishes.
-class ParameterCommand : public QUndoCommand {
+class ParameterCommand : public WeighedCommand {
  public:
   ParameterCommand(Document& document, std::vector<ParameterEdit> edits, int gesture, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override;
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override;
   /// What it set was refused, and `kept` stays: neither undo nor redo sets it again. False for another command.
@@ -42,11 +42,12 @@ class ParameterCommand : public QUndoCommand {
 };
 
 /// Bodies replaced as values: names, structure. With `matter`: added or removed with their particles.
-class BodiesCommand : public QUndoCommand {
+class BodiesCommand : public WeighedCommand {
  public:
   BodiesCommand(Document& document, std::vector<SceneEdit> edits, const QString& text, MatterRef matter = nullptr);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_edits, m_matter); }
 
  private:
   void apply(bool forward);
@@ -57,11 +58,12 @@ class BodiesCommand : public QUndoCommand {
 
 /// An emitter or a sink that comes, goes, moves or is renamed. Moves of one gesture merge; one that ends where it began
 /// vanishes.
-class PortCommand : public QUndoCommand {
+class PortCommand : public WeighedCommand {
  public:
   PortCommand(Document& document, AnyPortEdit edit, int gesture, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override;
   int id() const override { return 2; }
   bool mergeWith(const QUndoCommand* other) override;
 
@@ -72,11 +74,12 @@ class PortCommand : public QUndoCommand {
 };
 
 /// Things put somewhere else, together. Commands of one gesture merge; one that ends where it began vanishes.
-class PlacementCommand : public QUndoCommand {
+class PlacementCommand : public WeighedCommand {
  public:
   PlacementCommand(Document& document, Placement before, Placement after, int gesture, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
   int id() const override { return 6; }
   bool mergeWith(const QUndoCommand* other) override;
 
@@ -87,11 +90,12 @@ class PlacementCommand : public QUndoCommand {
 };
 
 /// Walls that come or go: the list before and after.
-class WallsCommand : public QUndoCommand {
+class WallsCommand : public WeighedCommand {
  public:
   WallsCommand(Document& document, std::vector<SceneWall> before, std::vector<SceneWall> after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -99,11 +103,12 @@ class WallsCommand : public QUndoCommand {
 };
 
 /// Things that are shown or hidden, locked or free.
-class MarksCommand : public QUndoCommand {
+class MarksCommand : public WeighedCommand {
  public:
   MarksCommand(Document& document, std::vector<ThingMarks> before, std::vector<ThingMarks> after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -111,12 +116,13 @@ class MarksCommand : public QUndoCommand {
 };
 
 /// Materials that come or go, or hold on to others: the list before and after.
-class MaterialsCommand : public QUndoCommand {
+class MaterialsCommand : public WeighedCommand {
  public:
   MaterialsCommand(Document& document, std::vector<SceneMaterial> before, std::vector<SceneMaterial> after,
                    const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -124,11 +130,12 @@ class MaterialsCommand : public QUndoCommand {
 };
 
 /// A finished stroke. Its particles are in the engine before the command is pushed.
-class StrokeCommand : public QUndoCommand {
+class StrokeCommand : public WeighedCommand {
  public:
   StrokeCommand(Document& document, std::shared_ptr<StrokeRecord> stroke, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_stroke); }
 
  private:
   Document& m_document;
@@ -137,12 +144,13 @@ class StrokeCommand : public QUndoCommand {
 };
 
 /// The state that the project opens at; nullptr for its start.
-class StateCommand : public QUndoCommand {
+class StateCommand : public WeighedCommand {
  public:
   using State = std::shared_ptr<const ProjectState>;
   StateCommand(Document& document, State before, State after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -156,11 +164,12 @@ struct TrackEdit {
 };
 
 /// Keys of parameters. Commands of one gesture merge; one that ends where it began vanishes.
-class TrackCommand : public QUndoCommand {
+class TrackCommand : public WeighedCommand {
  public:
   TrackCommand(Document& document, std::vector<TrackEdit> edits, int gesture, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override;
   int id() const override { return 3; }
   bool mergeWith(const QUndoCommand* other) override;
 
@@ -172,11 +181,12 @@ class TrackCommand : public QUndoCommand {
 };
 
 /// Groups, and the order in which things stand: all of both before and after.
-class OrderCommand : public QUndoCommand {
+class OrderCommand : public WeighedCommand {
  public:
   OrderCommand(Document& document, SceneOrder before, SceneOrder after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -184,12 +194,13 @@ class OrderCommand : public QUndoCommand {
 };
 
 /// Graphs that come, go or change: all of them before and after; nothing: those that suit the probes.
-class GraphsCommand : public QUndoCommand {
+class GraphsCommand : public WeighedCommand {
  public:
   using Graphs = std::optional<std::vector<Graph>>;
   GraphsCommand(Document& document, Graphs before, Graphs after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;
@@ -198,12 +209,13 @@ class GraphsCommand : public QUndoCommand {
 
 /// Markers that come, go or change: all of them before and after. Commands of one gesture merge; one that ends where it
 /// began vanishes.
-class MarkersCommand : public QUndoCommand {
+class MarkersCommand : public WeighedCommand {
  public:
   MarkersCommand(Document& document, std::vector<Marker> before, std::vector<Marker> after, int gesture,
                  const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
   int id() const override { return 5; }
   bool mergeWith(const QUndoCommand* other) override;
 
@@ -220,11 +232,12 @@ struct ProbeEdit {
 };
 
 /// Edits of one probe in one gesture merge; one that ends where it began vanishes.
-class ProbeCommand : public QUndoCommand {
+class ProbeCommand : public WeighedCommand {
  public:
   ProbeCommand(Document& document, ProbeEdit edit, int gesture, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_edit.before, m_edit.after); }
   int id() const override { return 4; }
   bool mergeWith(const QUndoCommand* other) override;
 
@@ -235,11 +248,12 @@ class ProbeCommand : public QUndoCommand {
 };
 
 /// What the project says of itself, before and after.
-class AboutCommand : public QUndoCommand {
+class AboutCommand : public WeighedCommand {
  public:
   AboutCommand(Document& document, ProjectAbout before, ProjectAbout after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override;
 
  private:
   Document& m_document;
@@ -247,11 +261,12 @@ class AboutCommand : public QUndoCommand {
 };
 
 /// The rows of "Try these".
-class PinsCommand : public QUndoCommand {
+class PinsCommand : public WeighedCommand {
  public:
   PinsCommand(Document& document, std::vector<std::string> before, std::vector<std::string> after, const QString& text);
   void undo() override;
   void redo() override;
+  void weigh(Weight& weight) const override { weight.add(m_before, m_after); }
 
  private:
   Document& m_document;

@@ -22,7 +22,15 @@ bool isComposition(const Address& address) {
 }  // namespace
 
 Document::Document(QObject* parent) : QObject(parent) {
-  connect(&m_undo, &QUndoStack::cleanChanged, this, [this] { notify(FileChanged{}); });
+  connect(&m_undo, &History::cleanChanged, this, [this] { notify(FileChanged{}); });
+  m_undo.setDocument([this](Weight& held) {
+    held.add(m_project.state);
+    for (const auto& mesh : m_project.meshes) held.add(mesh);
+    for (const SceneMaterial& material : m_project.materials) held.add(material.mixture);
+    for (const Body& body : m_project.bodies) {
+      if (const auto* solid = std::get_if<SolidShape>(&body.shape)) held.add(solid->mesh);
+    }
+  });
 }
 Document::~Document() { m_undo.disconnect(this); }
 
@@ -76,6 +84,7 @@ void Document::beginGesture(const QString& text) {
   if (m_gestureDepth++ > 0) return;
   ++m_gesture;
   m_gestureText = text;
+  m_gestureBegan = m_undo.position();
 }
 
 bool Document::actsAtReset(const Address& address) const {
@@ -88,6 +97,12 @@ bool Document::actsAtReset(const Address& address) const {
 
 void Document::endGesture() {
   if (m_gestureDepth > 0 && --m_gestureDepth == 0) ++m_gesture;
+}
+
+/// What came before is left alone, also where somebody has undone some of it meanwhile.
+void Document::takeGestureBack() {
+  if (m_gestureDepth == 0) return;
+  while (m_undo.position() > m_gestureBegan && m_undo.canUndo()) m_undo.undo();
 }
 
 QString Document::setParameter(const Address& address, const Value& value) {
@@ -150,9 +165,12 @@ QString Document::setParameters(const std::vector<std::pair<Address, Value>>& va
   }
   for (const auto& [address, value] : values) {
     const std::string problem = problemWith(together, m_plugins, address, value);
-    if (!problem.empty()) return QString::fromStdString(problem);
+    if (problem.empty()) continue;
+    const QString sentence = QString::fromStdString(problem);
+    return values.size() < 2 ? sentence : QStringLiteral("%1: %2").arg(ownerLabel(m_project, address), sentence);
   }
-  if (std::any_of(values.begin(), values.end(), [](const auto& one) { return isComposition(one.first); })) {
+  if (std::any_of(values.begin(), values.end(),
+                  [](const auto& one) { return isComposition(one.first) || !adhesionPartner(one.first).empty(); })) {
     m_undo.beginMacro(text);
     for (const auto& [address, value] : values) setParameter(address, value);
     m_undo.endMacro();
@@ -181,7 +199,7 @@ void Document::takeBack(const Address& address, const Value& asked, const std::o
   const std::optional<Value> refused = asStored(address, asked), kept = asStored(address, goesOn);
   if (storedValue(m_project, address) != refused || refused == kept) return;
   for (int i = m_undo.index(); i-- > 0;) {
-    auto* command = dynamic_cast<ParameterCommand*>(const_cast<QUndoCommand*>(m_undo.command(i)));
+    auto* command = dynamic_cast<ParameterCommand*>(m_undo.command(i));
     if (!command || !command->amend(address, refused, kept)) continue;
     if (m_undo.cleanIndex() > i) m_undo.resetClean();
     break;

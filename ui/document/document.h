@@ -4,13 +4,13 @@
 #include "core/scene/project.h"
 #include "ui/document/about.h"
 #include "ui/document/changeevent.h"
+#include "ui/document/history.h"
 #include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QString>
-#include <QtGui/QUndoStack>
 
 #include <functional>
 #include <memory>
@@ -39,8 +39,8 @@ class Document : public QObject {
   const PluginRegistry* plugins() const { return m_plugins; }
 
   const Project& project() const { return m_project; }
-  QUndoStack& undoStack() { return m_undo; }
-  const QUndoStack& undoStack() const { return m_undo; }
+  History& undoStack() { return m_undo; }
+  const History& undoStack() const { return m_undo; }
 
   /// Replaces the project and forgets the history. `dirty`: it differs from the file (a restored autosave). `file`:
   /// what the file was when the project was read from it or came to differ from it.
@@ -69,6 +69,8 @@ class Document : public QObject {
   /// Edits between these two are one undo step.
   void beginGesture(const QString& text = {});
   void endGesture();
+  /// What the open gesture has done so far, as if it had never been.
+  void takeGestureBack();
   /// Sets a value (the default removes the explicit one). Returns "" or why it is refused; the old one then stays.
   QString setParameter(const Address& address, const Value& value);
   /// Several parameters as one undo step, judged together (of probes those alone); within a gesture those of the same
@@ -257,9 +259,10 @@ class Document : public QObject {
   Project m_project;
   QString m_path;
   FileStamp m_file;
-  QUndoStack m_undo;
+  History m_undo;
   int m_gesture = 0, m_gestureDepth = 0;
   QString m_gestureText;
+  int64_t m_gestureBegan = 0;            ///< position of the history
   bool m_neverClean = false;             ///< the file holds no state of this history
   std::set<std::string> m_usedIds;       ///< of bodies and emitters
   uint64_t m_changes = 0, m_opened = 0;  ///< changes: now, and when the project was opened

@@ -15,7 +15,6 @@
 #include "ui/theme/theme.h"
 
 #include <QtCore/QTimer>
-#include <QtGui/QUndoStack>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QCompleter>
 #include <QtWidgets/QGridLayout>

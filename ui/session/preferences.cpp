@@ -12,15 +12,15 @@
 namespace ps::preferences {
 namespace {
 
-constexpr const char *kMemory = "recording/memory", *kDisk = "recording/disk", *kFolder = "recording/folder",
-                     *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart", *kWindow = "window/geometry",
-                     *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures", *kMouse = "look/mouse",
-                     *kPivot = "handles/pivot", *kSnap = "handles/snap", *kSurfaces = "handles/surfaces",
-                     *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
+constexpr const char *kMemory = "recording/memory", *kUndo = "undo/memory", *kDisk = "recording/disk",
+                     *kFolder = "recording/folder", *kAutosave = "autosave/interval", *kWelcome = "welcome/atStart",
+                     *kWindow = "window/geometry", *kTour = "welcome/tourDone", *kTemperatures = "look/temperatures",
+                     *kMouse = "look/mouse", *kPivot = "handles/pivot", *kSnap = "handles/snap",
+                     *kSurfaces = "handles/surfaces", *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
                      *kScaleStep = "handles/scaleStep", *kBrushes = "sketch/favouriteBrushes",
                      *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye";
 constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
-constexpr int kUsualDisk = 8192, kMost = 1 << 24;  // MiB
+constexpr int kUsualUndo = 512, kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
@@ -45,6 +45,8 @@ size_t roomOnDisk(const QString& folder, size_t ours) {
 
 int recordMemory() { return number(kMemory, 0, 0, kMost); }
 void setRecordMemory(int mebibytes) { set(kMemory, mebibytes); }
+int undoMemory() { return number(kUndo, kUsualUndo, 0, kMost); }
+void setUndoMemory(int mebibytes) { set(kUndo, mebibytes); }
 int recordDisk() { return number(kDisk, kUsualDisk, 0, kMost); }
 void setRecordDisk(int mebibytes) { set(kDisk, mebibytes); }
 

@@ -23,6 +23,9 @@ void setRecordMemory(int mebibytes);
 /// MiB of the disk beside that; 0: none.
 int recordDisk();
 void setRecordDisk(int mebibytes);
+/// MiB of memory that undo may keep; 0: no end.
+int undoMemory();
+void setUndoMemory(int mebibytes);
 /// Where that part lies.
 QString recordFolder();
 void setRecordFolder(const QString& folder);

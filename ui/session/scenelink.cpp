@@ -75,6 +75,7 @@ std::vector<NameMatter> paintedMatter(const StrokeRecord& stroke, const Document
 SceneLink::SceneLink(Document& document, EngineThread& engine, QObject* parent)
     : QObject(parent), m_document(document), m_engine(engine) {
   connect(&document, &Document::changed, this, &SceneLink::onChanged);
+  connect(&document.undoStack(), &History::letGo, this, &SceneLink::forgetMatter);
   m_soon.setSingleShot(true);
   m_soon.setInterval(kDragRest);
   connect(&m_soon, &QTimer::timeout, this, [this] {
@@ -196,8 +197,15 @@ bool SceneLink::isOfThisRun(const MatterRef& matter) const {
   return known != m_matter.end() && known->second.run == m_run;
 }
 
-/// No command can undo or redo it any more.
+/// No command can undo or redo it any more. What such strokes drew after the start stays in the scene of this run.
 void SceneLink::forgetMatter() {
+  for (KnownStroke& known : m_strokes) {
+    const auto matter =
+        known.stroke.expired() && known.done && known.onlyNow ? m_matter.find(known.key) : m_matter.end();
+    if (matter != m_matter.end()) known.run = matter->second.run;
+  }
+  std::erase_if(m_strokes, [this](const KnownStroke& one) { return one.stroke.expired() && one.run != m_run; });
+  std::erase_if(m_kept, [](const auto& kept) { return kept.first.expired(); });
   ForgetMatter forgotten;
   for (auto known = m_matter.begin(); known != m_matter.end();) {
     if (known->second.matter.expired()) {
@@ -212,7 +220,7 @@ void SceneLink::forgetMatter() {
 
 void SceneLink::remember(const StrokeChanged& event) {
   if (event.live) {
-    m_strokes.push_back({event.stroke, true, {}});
+    m_strokes.push_back({event.stroke, true, {}, *event.stroke->matter, event.stroke->onlyNow});
     drop(m_drawn, event.stroke->matter);
     if (drop(m_cutOff, event.stroke->matter)) resetSoon();
   }
@@ -239,9 +247,9 @@ void SceneLink::pushProject() { m_engine.update(m_document.project()); }
 
 std::vector<NameMatter> SceneLink::namedMatter() {
   std::vector<NameMatter> named;
-  for (const auto& [weak, done, way] : m_strokes) {
-    const auto stroke = weak.lock();
-    if (!stroke || !done || stroke->erase || stroke->onlyNow || !stroke->deed.empty()) continue;
+  for (const KnownStroke& known : m_strokes) {
+    const auto stroke = known.stroke.lock();
+    if (!stroke || !known.done || stroke->erase || stroke->onlyNow || !stroke->deed.empty()) continue;
     if (!stroke->material.empty()) {
       const std::vector<NameMatter> painted = paintedMatter(*stroke, m_document);
       if (!painted.empty()) keyOf(stroke->matter);
@@ -249,7 +257,7 @@ std::vector<NameMatter> SceneLink::namedMatter() {
       continue;
     }
     named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, filledCells(*stroke)});
-    carryLattice(named.back().lattice, way);
+    carryLattice(named.back().lattice, known.way);
   }
   return named;
 }
@@ -405,6 +413,7 @@ size_t SceneLink::strokesOfTheRun() const {
   const auto isKnown = [&](MatterKey key) { return std::find(known.begin(), known.end(), key) != known.end(); };
   const auto& done = snapshot->erasedOrPainted;
   const auto drawn = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
+    if (one.stroke.expired()) return one.run == m_run && !isKnown(one.key);
     const auto stroke = one.done ? one.stroke.lock() : nullptr;
     return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isKnown(*stroke->matter);
   });

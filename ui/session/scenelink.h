@@ -111,6 +111,9 @@ class SceneLink : public QObject {
     std::weak_ptr<StrokeRecord> stroke;
     bool done = true;  ///< not undone
     RigidMove way{};   ///< by which its body has been moved since
+    MatterKey key = 0;
+    bool onlyNow = false;
+    uint64_t run = 0;  ///< to which what it drew belongs, once nobody can undo it
   };
   std::vector<KnownStroke> m_strokes;
 };

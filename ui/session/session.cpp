@@ -48,6 +48,11 @@ Session::Session(const Options& options, QObject* parent)
   m_totals.setInterval(kTotalsInterval);
   m_totals.setSingleShot(true);
   connect(&m_totals, &QTimer::timeout, this, &Session::totalsDue);
+  connect(this, &Session::totalsDue, this, [this] {
+    if (const SnapshotPtr now = newest())
+      m_document->undoStack().setMatter({now->keptForUndo.begin(), now->keptForUndo.end()});
+  });
+  applyUndoMemory();
   m_making.setInterval(kMakingInterval);
   connect(&m_making, &QTimer::timeout, this, &Session::tellMaking);
   connect(m_document.get(), &Document::changed, this, [this](const ChangeEvent& event) {
@@ -313,6 +318,11 @@ void Session::packState(KeptState kept) {
       if (!state) Q_EMIT stateNotKept(problem);
     });
   });
+}
+
+void Session::applyUndoMemory() {
+  const size_t most = static_cast<size_t>(preferences::undoMemory()) * preferences::kMiB;
+  m_document->undoStack().setLimit(most > 0 ? most : History::kEndless);
 }
 
 void Session::applyRecordBudget() {

@@ -91,6 +91,7 @@ class Session : public QObject {
   /// The engine has no scene: the project cannot be built as it is (see SceneLink::isBroken()).
   bool isBroken() const;
   // Preferences as they are by now.
+  void applyUndoMemory();
   void applyRecordBudget();
   void applyAutosave();
   /// Last copy of unsaved work, written once. Returns "", or why it could not be: the session then goes on.

@@ -29,7 +29,7 @@ Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
     if (stampsShape()) Q_EMIT brushChanged();
   });
   // A stroke in the making builds on the document as it was when it began.
-  connect(&document.undoStack(), &QUndoStack::indexChanged, this, [this] {
+  connect(&document.undoStack(), &History::indexChanged, this, [this] {
     if (tool().usesBrush()) tool().cancel();
   });
 }

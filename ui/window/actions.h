@@ -14,6 +14,9 @@ namespace ps {
 
 /// Property of actions: see PaletteEntry::replaces.
 inline constexpr const char* kReplaces = "replacesScene";
+
+/// Property of an action that is disabled: a sentence that says why.
+inline constexpr const char* kWhyNot = "whyNot";
 /// Ctrl+K finds an action by these words too: a property of it.
 inline constexpr const char* kWords = "words";
 

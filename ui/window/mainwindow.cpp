@@ -49,6 +49,7 @@
 #include "ui/window/thingactions.h"
 #include "ui/window/topbar.h"
 #include "ui/window/tour.h"
+#include "ui/window/undoactions.h"
 #include "ui/window/viewactions.h"
 #include "ui/window/viewportpane.h"
 #include "ui/window/vrmode.h"
@@ -140,22 +141,15 @@ bool MainWindow::revealParameter(const Address& address, bool focus) {
 }
 
 void MainWindow::makeTopBar() {
-  QUndoStack& undo = m_session->document().undoStack();
   const auto adopt = [this](QAction* action, const char* name, const QList<QKeySequence>& keys) {
     action->setProperty(kPlainText, cleanText(*action));  // its text goes on to say what is undone
     return m_actions.adopt(action, QString::fromLatin1(name), keys);
   };
   QAction* undoAction =
-      adopt(undo.createUndoAction(this, QStringLiteral("Undo")), "edit.undo", {QKeySequence(QStringLiteral("Ctrl+Z"))});
-  QAction* redoAction = adopt(undo.createRedoAction(this, QStringLiteral("Redo")), "edit.redo",
+      adopt(new QAction(QStringLiteral("Undo"), this), "edit.undo", {QKeySequence(QStringLiteral("Ctrl+Z"))});
+  QAction* redoAction = adopt(new QAction(QStringLiteral("Redo"), this), "edit.redo",
                               {QKeySequence(QStringLiteral("Ctrl+Shift+Z")), QKeySequence(QStringLiteral("Ctrl+Y"))});
-  // Behind Qt's own connections, which leave an "&" in what is undone as it is.
-  connect(&undo, &QUndoStack::undoTextChanged, undoAction, [undoAction](const QString& what) {
-    undoAction->setText(asButtonText(QStringLiteral("Undo ") + what).trimmed());
-  });
-  connect(&undo, &QUndoStack::redoTextChanged, redoAction, [redoAction](const QString& what) {
-    redoAction->setText(asButtonText(QStringLiteral("Redo ") + what).trimmed());
-  });
+  followHistory(undoAction, redoAction, m_session->document().undoStack());
   QAction* search =
       m_actions.add(nullptr, QStringLiteral("edit.search"), QStringLiteral("Search or command…"),
                     {QKeySequence(QStringLiteral("Ctrl+K"))}, [this] { m_palette->open(paletteEntries()); });

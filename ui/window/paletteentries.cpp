@@ -51,7 +51,6 @@ QString valueText(Document& document, const Address& address, const api::Paramet
 /// Why an action that is disabled is so.
 QString whyNot(const QAction& action, bool ready) {
   static constexpr std::pair<const char*, const char*> kReasons[] = {
-      {"edit.undo", "Nothing to undo"},
       {"edit.redo", "Nothing to redo"},
       {"sketch.real", "Nothing is held"},
       {"view.section", "Nothing is cut open: press X"},
@@ -61,6 +60,7 @@ QString whyNot(const QAction& action, bool ready) {
       {"simulation.state", "The project holds no saved state"},
       {"file.checkEnd", "This is no copy that was made for sharing"}};
   if (!ready) return QStringLiteral("Plugins are still being loaded");
+  if (const QString why = action.property(kWhyNot).toString(); !why.isEmpty()) return why;
   for (const auto& [name, reason] : kReasons) {
     if (action.objectName().startsWith(QLatin1String(name))) return QString::fromLatin1(reason);
   }

@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/simulation/enginethread.h"
 #include "ui/curves/curvetarget.h"
+#include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
@@ -72,6 +73,7 @@ class Preferences : public QDialog {
   void addTheme();
   void addHeadset();
   void addAutosave();
+  void addUndo();
   void addRecording();
   void addFolders();
   void addFolder(preferences::Folder which, const QString& label, const QString& tip, const QString& usual);
@@ -82,7 +84,7 @@ class Preferences : public QDialog {
   MainWindow& m_window;
   QGridLayout* m_grid;
   QPushButton *m_folder = nullptr, *m_empty = nullptr;
-  QLabel *m_used = nullptr, *m_restart = nullptr;
+  QLabel *m_used = nullptr, *m_undoUsed = nullptr, *m_restart = nullptr;
   QTimer m_clock;
 };
 
@@ -97,6 +99,7 @@ Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window
   addTheme();
   addHeadset();
   addAutosave();
+  addUndo();
   addRecording();
   addFolders();
   m_grid->setRowStretch(m_grid->rowCount(), 1);
@@ -190,6 +193,27 @@ void Preferences::addAutosave() {
         preferences::setAutosaveInterval(seconds);
         m_window.session().applyAutosave();
       });
+}
+
+void Preferences::addUndo() {
+  heading(QStringLiteral("Undo"));
+  choice(QStringLiteral("Keeps at most"),
+         QStringLiteral("When it is more, the oldest steps are let go; the last one never is."),
+         {{mebibytes(128), 128},
+          {mebibytes(512), 512},
+          {mebibytes(2048), 2048},
+          {mebibytes(8192), 8192},
+          {QStringLiteral("Everything"), 0}},
+         preferences::undoMemory(), mebibytes, [this](int size) {
+           preferences::setUndoMemory(size);
+           m_window.session().applyUndoMemory();
+           refresh();
+         });
+  m_undoUsed = new QLabel;
+  m_undoUsed->setObjectName(QStringLiteral("psUndoUsed"));
+  m_undoUsed->setTextFormat(Qt::PlainText);
+  addDialogRow(*m_grid, QStringLiteral("Keeps now"), m_undoUsed,
+               QStringLiteral("By what can be undone and redone in this window, and no longer stands in its scene."));
 }
 
 void Preferences::addRecording() {
@@ -315,6 +339,8 @@ void Preferences::refresh() {
   const EngineThread* engine = m_window.session().engine();
   const RunRecord::Cost cost = engine ? engine->recording().cost() : RunRecord::Cost();
   const QString disk = cost.disk > 0 ? bytesText(static_cast<double>(cost.disk)) : QStringLiteral("nothing");
+  const History& history = m_window.session().document().undoStack();
+  m_undoUsed->setText(QStringLiteral("%1 of memory").arg(bytesText(static_cast<double>(history.bytes()))));
   m_used->setText(QStringLiteral("%1 of memory, %2 of the disk").arg(bytesText(static_cast<double>(cost.bytes)), disk));
   m_empty->setEnabled(cost.disk > 0);
 }

@@ -32,7 +32,7 @@ VrHands::VrHands(Session& session, Toolbox& tools)
       m_brushes{HandBrush(tools), HandBrush(tools)},
       m_held{HandTool(tools), HandTool(tools)} {
   // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
-  connect(&session.document().undoStack(), &QUndoStack::indexChanged, this, [this] {
+  connect(&session.document().undoStack(), &History::indexChanged, this, [this] {
     if (m_ends) return;
     for (HandBrush& brush : m_brushes) brush.cancel();
     for (HandTool& held : m_held) held.letGo();
