@@ -260,6 +260,11 @@ api::ParameterList declarationsOf(const Project& project, const PluginRegistry* 
 
 const api::ParameterDeclaration* declarationOf(const Project& project, const PluginRegistry* plugins,
                                                const Address& address) {
+  if (address.owner == Owner::Body) {  // what all bodies have says nothing of what is installed
+    for (const api::ParameterList& list : {bodyParameters(), bodyMotionParameters()}) {
+      if (const api::ParameterDeclaration* found = findDeclaration(list, address.key)) return found;
+    }
+  }
   return findDeclaration(declarationsOf(project, plugins, address), address.key);
 }
 

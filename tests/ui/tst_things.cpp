@@ -15,6 +15,7 @@
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QMimeData>
 #include <QtGui/QAction>
 #include <QtGui/QClipboard>
@@ -188,6 +189,41 @@ class TestThings : public SampleWindowTest {
     QVERIFY(!row(key)->has(RowState::Mixed));
     qInfo("undo %zu", inspector.comparedValues() - before);
     QVERIFY(inspector.comparedValues() - before <= most);
+  }
+
+  /// Rows of 400 bodies come without a search for each value of each of them.
+  void rowsOfManyAreFoundAtOnce() {
+    constexpr size_t kBodies = 400;
+    const Project before = project();
+    Project scene = before;
+    std::vector<std::string> ids;
+    Body small = scene.bodies.front();
+    for (size_t k = 0; k < kBodies; ++k) {
+      small.id = ids.emplace_back("many-" + std::to_string(k));
+      SolidShape box;
+      for (const char* key : {"size_x", "size_y", "size_z"}) box.parameters.values[key] = 0.02;
+      box.parameters.values["kind"] = std::string("box");
+      box.parameters.values["position_x"] = 0.02 * static_cast<double>(k % 20) - 0.2;
+      box.parameters.values["position_y"] = 0.3 + 0.02 * static_cast<double>(k / 20);
+      small.shape = box;
+      small.parameters.values["temperature"] = 260 + static_cast<double>(k % 2);
+      scene.bodies.push_back(small);
+    }
+    document().open(scene, {}, false, false);
+    selectBodies({ids[0]});
+    const Inspector& inspector = m_window->inspector();
+    size_t searched = inspector.searchedThings(), compared = inspector.comparedValues();
+    QElapsedTimer timer;
+    timer.start();
+    selectBodies(ids);
+    const auto took = timer.elapsed();
+    searched = inspector.searchedThings() - searched;
+    compared = inspector.comparedValues() - compared;
+    const size_t rows = inspector.bodyPanel()->rows().size();
+    qInfo("%zu rows of %zu bodies: %zu searches, %zu comparisons, %lld ms", rows, kBodies, searched, compared, took);
+    QVERIFY(rows > 20 && compared <= rows * kBodies);
+    QVERIFY(searched <= 4 * kBodies);
+    document().open(before, {}, false, false);
   }
 
   void copiesStandBesideAndAreSelected() {

@@ -19,15 +19,6 @@
 #include <algorithm>
 
 namespace ps {
-namespace {
-
-/// The material that a row belongs to; "" for other rows.
-std::string materialOf(const QString& key) {
-  const auto address = Address::parse(key.toStdString());
-  return address && address->owner == Owner::Material ? address->id : std::string();
-}
-
-}  // namespace
 
 Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     : QObject(parent),
@@ -55,20 +46,20 @@ Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
   });
   connect(&session.swatches(), &Swatches::arrived, m_material, &ParameterPanel::updateHeader);
   connect(&selection, &Selection::changed, this, &Inspector::showSelected);
-  connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterial(selection.material()); });
+  connect(&selection, &Selection::materialChanged, this, [this, &selection] { setMaterials(selection.materials()); });
   if (!session.isReady()) return;
   onChanged(ProjectOpened{});  // made later than the project came
   showSelected();
-  if (!selection.material().empty()) setMaterial(selection.material());
+  setMaterials(selection.materials());
 }
 
 void Inspector::connectPanel(ParameterPanel* panel) {
-  const bool together = panel == m_body;  // rows elsewhere are of one thing, whatever is selected
-  connect(panel, &ParameterPanel::edited, this, [this, together](const QString& key, const Value& value, Edit edit) {
-    onEdited(key, value, edit, together);
-  });
+  connect(panel, &ParameterPanel::edited, this,
+          [this, panel](const QString& key, const Value& value, Edit edit) { onEdited(key, value, edit, panel); });
   connect(panel, &ParameterPanel::scaled, this,
-          [this, together](const QString& key, double factor) { onScaled(key, factor, together); });
+          [this, panel](const QString& key, double factor, double added) { onScaled(key, factor, added, panel); });
+  connect(panel, &ParameterPanel::resetAsked, this, [this, panel](const QString& key) { onReset(key, panel); });
+  connect(panel, &ParameterPanel::takenBack, &m_document, &Document::takeGestureBack);
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
   connect(panel, &ParameterPanel::pinToggled, this,
           [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
@@ -88,11 +79,13 @@ void Inspector::connectPanel(ParameterPanel* panel) {
 
 const char* Inspector::keep(const QString& text) { return m_texts.insert(text.toStdString()).first->c_str(); }
 
-void Inspector::onEdited(const QString& key, const Value& value, Edit edit, bool together) {
+void Inspector::onEdited(const QString& key, const Value& value, Edit edit, const ParameterPanel* panel) {
   const auto address = Address::parse(key.toStdString());
   if (!address) return;
   if (edit == Edit::Begin) {
     m_editedAt = now();
+    m_editedFrom.clear();
+    for (const Address& one : addressesOf(*address, panel)) m_editedFrom.emplace_back(one, m_document.value(one));
     m_document.beginGesture();
     return;
   }
@@ -100,11 +93,12 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit, bool
     // Every value has come as Live; an undo may have happened since, so that the row asks what holds now.
     m_document.endGesture();
     m_editedAt.reset();
-    for (ParameterPanel* panel : panels()) panel->setValue(key, m_session.valueNow(*address));
+    m_editedFrom.clear();
+    for (ParameterPanel* each : panels()) each->setValue(key, m_session.valueNow(*address));
+    refreshMixed(*address);
     return;
   }
-  const QString problem = setAll(together ? addressesOf(*address) : std::vector{*address}, value);
-  for (ParameterPanel* panel : panels()) panel->setError(key, problem);
+  showProblem(key, setAll(addressesOf(*address, panel), value));
 }
 
 /// Links of notes say what they set: "solver/substeps=8"; or that the scene is to be reset.
@@ -201,100 +195,14 @@ void Inspector::rebuildBody() {
     if (plugin)
       addRows(rows, any, m_document.plugins()->parameters(constraint.plugin), QString::fromUtf8(plugin->label()));
   }
-  shareRows(rows);
+  shareRows(rows, shown());
   m_body->setModel(std::move(rows));
   m_notes.show();
   showTracks();
 }
 
-void Inspector::rebuildMaterial() {
-  const Project& project = m_document.project();
-  const auto found = std::find_if(project.materials.begin(), project.materials.end(),
-                                  [&](const SceneMaterial& m) { return m.id == m_materialId; });
-  const auto material =
-      found == project.materials.end() && !project.materials.empty() ? project.materials.begin() : found;
-  std::vector<RowModel> rows;
-  if (material == project.materials.end()) {
-    m_material->setHeader({}, {});
-    m_material->setModel({});
-    return;
-  }
-  m_materialId = material->id;
-  const PluginRegistry* plugins = m_document.plugins();
-  showMaterialHeader();
-  const Address any{Owner::Material, material->id, ""};
-  addRows(rows, any, propertyCatalogue(), {}, materialDefaults(project, plugins, material->id));
-  if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
-    addRows(rows, any, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
-  }
-  for (const SceneMaterial& other : project.materials) {
-    if (auto row = rowModelOf(m_document, {Owner::Material, material->id, kAdheresKey + other.id}))
-      rows.push_back(std::move(*row));
-  }
-  addPinned(rows);
-  for (RowModel& row : rows) {
-    const std::string owner = materialOf(row.key);
-    row.temperature = temperatureOf(owner);
-    row.source = sourceOf(m_document, owner, row.declaration.key);
-  }
-  m_material->setModel(std::move(rows));
-  m_notes.show();
-  showTracks();
-}
-
-void Inspector::showMaterialHeader() {
-  const Project& project = m_document.project();
-  const auto material = std::find_if(project.materials.begin(), project.materials.end(),
-                                     [&](const SceneMaterial& m) { return m.id == m_materialId; });
-  if (material == project.materials.end()) return;
-  const PluginRegistry* plugins = m_document.plugins();
-  const bool missing = plugins && !plugins->material(material->base);
-  QStringList bodies;
-  for (const Body& body : project.bodies) {
-    if (body.material == material->id) bodies << nameOf(body);
-  }
-  for (const Emitter& emitter : project.emitters) {
-    if (emitter.material == material->id) bodies << ownerLabel(project, {Owner::Emitter, emitter.id, "speed"});
-  }
-  m_grade = gradeText(plugins, material->base);
-  m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
-                        missing
-                            ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
-                            : bodies.join(QStringLiteral(", ")),
-                        materialDetail(), m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
-}
-
-QString Inspector::materialDetail() const {
-  const QString at = QStringLiteral("At ") + temperatureText(temperatureOf(m_materialId), 1);
-  return m_grade.isEmpty() ? at : at + QStringLiteral(" · ") + m_grade;
-}
-
-double Inspector::temperatureOf(const std::string& material) const {
-  const auto mean = m_mean.find(material);
-  return mean == m_mean.end() ? m_sceneMean : mean->second;
-}
-
 double Inspector::ambientTemperature() const {
   return numberOf(m_document.project().environment.parameters, environmentParameters(), "ambient_temperature");
-}
-
-void Inspector::showTemperatures(const Snapshot& snapshot) {
-  // The engine keeps a material that the document has lost until the next reset: places differ, ids do not.
-  const std::vector<std::string>& ids = snapshot.materialIds;
-  std::vector<double> sums(ids.size()), counts(ids.size());
-  for (size_t i = 0; i < snapshot.material.size(); ++i) {
-    const size_t material = snapshot.material[i];
-    if (material >= sums.size()) continue;  // no snapshot of an engine
-    sums[material] += static_cast<double>(snapshot.temperature[i]);
-    ++counts[material];
-  }
-  m_sceneMean = snapshot.stats.temperatureMean > 0 ? snapshot.stats.temperatureMean : ambientTemperature();
-  m_mean.clear();
-  for (size_t k = 0; k < ids.size(); ++k) {
-    if (counts[k] > 0) m_mean[ids[k]] = sums[k] / counts[k];
-  }
-  for (ParameterRow* row : m_material->rows()) row->setTemperature(temperatureOf(materialOf(row->key())));
-  if (!m_materialId.empty()) m_material->setHeaderDetail(materialDetail());
 }
 
 void Inspector::rebuildScene() {
@@ -352,12 +260,6 @@ void Inspector::rebuild() {
   rebuildSolver();
 }
 
-void Inspector::setMaterial(const std::string& id) {
-  if (id == m_materialId) return;
-  m_materialId = id;
-  rebuildMaterial();
-}
-
 /// Rows that are pinned offer to be taken out of "Try these", in whichever panel they stand.
 void Inspector::markPinned() {
   QStringList keys;
@@ -401,6 +303,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     if (!m_document.project().bodies.empty())
       m_bodies.push_back({Owner::Body, m_document.project().bodies.front().id, ""});
     m_materialId.clear();
+    m_materials.clear();
     m_notes.clear();
     m_mean.clear();
     m_sceneMean = ambientTemperature();  // what was measured belongs to the project before
@@ -434,19 +337,6 @@ void Inspector::onChanged(const ChangeEvent& event) {
   } else if (std::holds_alternative<PinsChanged>(event)) {
     markPinned();
     rebuildMaterial();
-  }
-}
-
-/// A material plugin's own parameter changed: every property may have another default, and another value where none is
-/// set.
-void Inspector::refreshProperties(const std::string& material) {
-  const ParameterSet defaults = materialDefaults(m_document.project(), m_document.plugins(), material);
-  const ParameterSet* own = findSet(m_document.project(), {Owner::Material, material, propertyCatalogue()[0].key});
-  if (!own) return;
-  for (const RowModel& row : rowModels(propertyCatalogue(), *own, defaults,
-                                       QStringLiteral("material/%1/").arg(QString::fromStdString(material)))) {
-    m_material->setDefaultValue(row.key, row.defaultValue);
-    m_material->setValue(row.key, row.value);
   }
 }
 

@@ -21,7 +21,8 @@ enum class OutlineKind;
 class Session;
 
 /// The panels Body, Material, Scene and Solver, made from declarations alone, kept in step with the document both ways.
-/// The first shows what is selected: bodies, probes, or walls, taps or drains where they are several, edited together.
+/// The first shows what is selected: bodies, probes, or walls, taps or drains where they are several, edited together;
+/// the second the materials that are, likewise.
 /// Keys of their rows are addresses. Each gesture in a row is one undo step of the document.
 class Inspector : public QObject {
   Q_OBJECT
@@ -37,13 +38,16 @@ class Inspector : public QObject {
   void setBody(const std::string& id) { setBodies(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
   /// Of one kind, in the place of bodies: probes, walls, emitters or sinks, without keys; likewise.
   void setThings(std::vector<Address> things);
-  void setMaterial(const std::string& id);
+  void setMaterials(const std::vector<std::string>& ids);  ///< rows are of the last one, edits reach all
+  void setMaterial(const std::string& id) { setMaterials(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
   const std::string& material() const { return m_materialId; }
   /// The panel that shows an address, after selecting its owner alone; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
   /// How often the value of one thing was compared with another's so far, for rows of several.
   size_t comparedValues() const { return m_compared; }
+  /// How often one of several things was looked for by its id, to find the rows that they share.
+  size_t searchedThings() const { return m_searched; }
 
   /// A key of the row under the pointer, or of the one that has the focus; false: there is none.
   bool toggleKey();
@@ -62,14 +66,16 @@ class Inspector : public QObject {
   void refreshIdle(const Address& changed);
   std::vector<ParameterPanel*> panels() const { return {m_body, m_material, m_scene, m_solver}; }
   void connectPanel(ParameterPanel* panel);
-  void onEdited(const QString& key, const Value& value, Edit edit, bool together);
+  void onEdited(const QString& key, const Value& value, Edit edit, const ParameterPanel* panel);
   void onKey(const QString& key, const Value& shown);
   void onWay(const QString& key, ToNext way);
   /// Marks of rows whose parameters have keys, and what these give now.
   void showTracks();
   void showTrack(const Address& address, KeyMark mark, ToNext way);
   double now() const;  ///< s, of the scene's time
-  void onScaled(const QString& key, double factor, bool together);
+  void onScaled(const QString& key, double factor, double added, const ParameterPanel* panel);
+  void onReset(const QString& key, const ParameterPanel* panel);
+  void showProblem(const QString& key, const QString& problem);
   void onLink(const QString& key, const QString& link);
   void rebuildBody();
   bool rebuildThings();  ///< false: bodies are shown
@@ -86,14 +92,17 @@ class Inspector : public QObject {
   void showSelected();
   /// What the first panel shows, without keys; rows are of the last one.
   const std::vector<Address>& shown() const;
-  std::vector<Address> addressesOf(const Address& address) const;
+  /// All that are shown with a row's owner, its own kind, likewise.
+  const std::vector<Address>& fellowsOf(const Address& address) const;
+  std::vector<Address> addressesOf(const Address& address, const ParameterPanel* panel) const;
   bool isMixed(const Address& address) const;
-  void shareRows(std::vector<RowModel>& rows) const;
+  void shareRows(std::vector<RowModel>& rows, const std::vector<Address>& things) const;
   bool showCount();  ///< of several, in the header; false: one is shown
   QString countOfBodies() const;
   void countSoon();
   void refreshMixed(const Address& changed);
   QString setAll(const std::vector<Address>& all, const Value& value);
+  QString setEach(const std::vector<std::pair<Address, Value>>& values);
   QString setOne(const Address& address, const Value& value);
   QString whyKeyed(const std::vector<Address>& all) const;
   QString titleOfAll(const Address& address, size_t count) const;
@@ -116,17 +125,19 @@ class Inspector : public QObject {
   RowNotes m_notes;
   std::string m_materialId;
   std::vector<Address> m_bodies, m_things;                 ///< what is shown; bodies while none of the others is there
+  std::vector<Address> m_materials;                        ///< the last one is m_materialId
   mutable std::map<std::string, std::string> m_differing;  ///< one of them with another value, by the row's address
-  mutable size_t m_compared = 0;
-  std::set<std::string> m_texts;         ///< headings and labels that rows borrow; grows with names only
-  bool m_counts = false;                 ///< soon: once for all bodies that an edit reaches
-  QString m_count;                       ///< of several bodies, as the header says it
-  QString m_grade;                       ///< of the material's sources, as the header says it
-  std::set<std::string> m_tracked;       ///< addresses of what has keys, as rows show it
-  double m_shownAt = -1;                 ///< s, for which rows show what keys give
-  std::optional<double> m_editedAt;      ///< s of the scene, when the drag of a row began
-  double m_sceneMean = 293.15;           ///< K
-  std::map<std::string, double> m_mean;  ///< K, by material; of those that have particles
+  mutable size_t m_compared = 0, m_searched = 0;
+  std::set<std::string> m_texts;                        ///< headings and labels that rows borrow; grows with names only
+  bool m_counts = false;                                ///< soon: once for all bodies that an edit reaches
+  QString m_count;                                      ///< of several bodies, as the header says it
+  QString m_grade;                                      ///< of the material's sources, as the header says it
+  std::set<std::string> m_tracked;                      ///< addresses of what has keys, as rows show it
+  double m_shownAt = -1;                                ///< s, for which rows show what keys give
+  std::optional<double> m_editedAt;                     ///< s of the scene, when the drag of a row began
+  std::vector<std::pair<Address, Value>> m_editedFrom;  ///< what all had then
+  double m_sceneMean = 293.15;                          ///< K
+  std::map<std::string, double> m_mean;                 ///< K, by material; of those that have particles
 };
 
 }  // namespace ps

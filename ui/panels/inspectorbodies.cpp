@@ -4,6 +4,8 @@
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/rowmodels.h"
+#include "ui/panels/sharedrows.h"
+#include "ui/rows/rowvalue.h"
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -21,21 +23,16 @@ Address withId(Address address, const std::string& id) {
   return address;
 }
 
-/// Whether it is of that thing: shape and constraints are a body's.
-bool isOf(const Address& address, const Address& thing) {
-  const bool ofBody = address.owner == Owner::Shape || address.owner == Owner::Constraint;
-  return address.id == thing.id && (ofBody ? Owner::Body : address.owner) == thing.owner;
-}
-
 QString countOf(Owner owner, size_t count) {
   const auto counted = [count](const char* one, const char* many) {
     return countText(count, QString::fromLatin1(one), QString::fromLatin1(many));
   };
-  return owner == Owner::Wall      ? counted("wall", "walls")
-         : owner == Owner::Emitter ? counted("tap", "taps")
-         : owner == Owner::Sink    ? counted("drain", "drains")
-         : owner == Owner::Probe   ? counted("probe", "probes")
-                                   : counted("body", "bodies");
+  return owner == Owner::Wall       ? counted("wall", "walls")
+         : owner == Owner::Emitter  ? counted("tap", "taps")
+         : owner == Owner::Sink     ? counted("drain", "drains")
+         : owner == Owner::Probe    ? counted("probe", "probes")
+         : owner == Owner::Material ? counted("material", "materials")
+                                    : counted("body", "bodies");
 }
 
 }  // namespace
@@ -72,11 +69,17 @@ const std::vector<Address>& Inspector::shown() const {
   return !m_things.empty() && m_document.marks(m_things.back()) ? m_things : m_bodies;
 }
 
-/// Of the row and of all other things that are shown with it; the row's own alone where it is of none of them.
-std::vector<Address> Inspector::addressesOf(const Address& address) const {
+const std::vector<Address>& Inspector::fellowsOf(const Address& address) const {
+  return address.owner == Owner::Material ? m_materials : shown();
+}
+
+/// Of the row and of all other things that are shown with it; the row's own alone where it is of none of them, or on a
+/// page that shows others.
+std::vector<Address> Inspector::addressesOf(const Address& address, const ParameterPanel* panel) const {
   std::vector<Address> all{address};
-  const std::vector<Address>& things = shown();
-  if (things.empty() || !isOf(address, things.back())) return all;
+  if (panel != (address.owner == Owner::Material ? m_material : m_body)) return all;
+  const std::vector<Address>& things = fellowsOf(address);
+  if (things.empty() || !SharedRows::isOf(address, things.back())) return all;
   for (size_t k = 0; k + 1 < things.size(); ++k) all.push_back(withId(address, things[k].id));
   return all;
 }
@@ -84,8 +87,8 @@ std::vector<Address> Inspector::addressesOf(const Address& address) const {
 /// An edit of all comes as one event of each, after which the row is asked again: who was found to differ is asked
 /// first, and the others from the last on, which an edit reaches last. Else n events would compare n values each.
 bool Inspector::isMixed(const Address& address) const {
-  const std::vector<Address>& things = shown();
-  if (things.size() < 2 || !isOf(address, things.back())) return false;
+  const std::vector<Address>& things = fellowsOf(address);
+  if (things.size() < 2 || !SharedRows::isOf(address, things.back())) return false;
   const Value own = m_document.value(address);
   const auto differs = [&](const std::string& id) {
     ++m_compared;
@@ -99,14 +102,25 @@ bool Inspector::isMixed(const Address& address) const {
   return !known.empty();
 }
 
-void Inspector::shareRows(std::vector<RowModel>& rows) const {
-  if (shown().size() < 2) return;
+/// Rows of others, which are pinned, stay as they are.
+void Inspector::shareRows(std::vector<RowModel>& rows, const std::vector<Address>& things) const {
+  if (things.size() < 2) return;
+  SharedRows shared(m_document, things);
   std::erase_if(rows, [&](const RowModel& row) {
-    const auto address = Address::parse(row.key.toStdString());
-    const std::vector<Address> all = addressesOf(*address);
-    return !std::all_of(all.begin(), all.end(), [&](const Address& one) { return hasRow(m_document, one); });
+    const Address address = *Address::parse(row.key.toStdString());
+    return SharedRows::isOf(address, things.back()) && !shared.allHave(address);
   });
-  for (RowModel& row : rows) row.mixed = isMixed(*Address::parse(row.key.toStdString()));
+  for (RowModel& row : rows) {
+    const Address address = *Address::parse(row.key.toStdString());
+    if (!SharedRows::isOf(address, things.back())) continue;
+    std::string& differing = m_differing[address.text()];
+    differing = shared.differing(address);
+    row.together = true;
+    row.mixed = !differing.empty();
+    row.source.clear();
+  }
+  m_compared += shared.compared();
+  m_searched += shared.searches();
 }
 
 /// "3 bodies", with their names below.
@@ -145,17 +159,25 @@ void Inspector::countSoon() {
 
 /// One of several things has another value.
 void Inspector::refreshMixed(const Address& changed) {
-  const std::vector<Address>& things = shown();
-  if (std::none_of(things.begin(), things.end(), [&](const Address& thing) { return isOf(changed, thing); })) return;
+  const std::vector<Address>& things = fellowsOf(changed);
+  if (std::none_of(things.begin(), things.end(),
+                   [&](const Address& thing) { return SharedRows::isOf(changed, thing); }))
+    return;
   const Address own = withId(changed, things.back().id);
-  m_body->setMixed(QString::fromStdString(own.text()), isMixed(own));
+  (changed.owner == Owner::Material ? m_material : m_body)->setMixed(QString::fromStdString(own.text()), isMixed(own));
 }
 
 QString Inspector::setAll(const std::vector<Address>& all, const Value& value) {
   if (all.size() == 1) return setOne(all.front(), value);
-  if (const QString keyed = whyKeyed(all); !keyed.isEmpty()) return keyed;
   std::vector<std::pair<Address, Value>> values;
   for (const Address& one : all) values.emplace_back(one, value);
+  return setEach(values);
+}
+
+QString Inspector::setEach(const std::vector<std::pair<Address, Value>>& values) {
+  std::vector<Address> all;
+  for (const auto& [one, value] : values) all.push_back(one);
+  if (const QString keyed = whyKeyed(all); !keyed.isEmpty()) return keyed;
   return m_document.setParameters(values, titleOfAll(all.front(), all.size()));
 }
 
@@ -163,7 +185,8 @@ QString Inspector::setAll(const std::vector<Address>& all, const Value& value) {
 QString Inspector::whyKeyed(const std::vector<Address>& all) const {
   QStringList names;
   for (const Address& one : all) {
-    if (m_document.track(one)) names << ownerLabel(m_document.project(), one);
+    const bool keyed = m_tracked.contains(one.text()) || m_document.track(one);  // m_tracked: of a curve's points too
+    if (keyed) names << ownerLabel(m_document.project(), one);
   }
   return names.isEmpty()
              ? QString()
@@ -172,26 +195,39 @@ QString Inspector::whyKeyed(const std::vector<Address>& all) const {
 
 QString Inspector::titleOfAll(const Address& address, size_t count) const {
   const api::ParameterDeclaration* declaration = m_document.declaration(address);
-  const Owner owner = shown().empty() ? Owner::Body : shown().back().owner;
+  const std::vector<Address>& things = fellowsOf(address);
+  const Owner owner = things.empty() ? Owner::Body : things.back().owner;
   return QStringLiteral("%1 of %2")
       .arg(declaration ? QString::fromUtf8(declaration->label) : QString(), countOf(owner, count));
 }
 
-void Inspector::onScaled(const QString& key, double factor, bool together) {
-  const auto address = Address::parse(key.toStdString());
-  const api::ParameterDeclaration* declaration = address ? m_document.declaration(*address) : nullptr;
-  if (!declaration) return;
-  const std::vector<Address> all = together ? addressesOf(*address) : std::vector{*address};
-  std::vector<std::pair<Address, Value>> values;
-  for (const Address& one : all) {
-    const Value value = m_document.value(one);
-    if (const auto* number = std::get_if<double>(&value))
-      values.emplace_back(one, scaledValue(*declaration, *number, factor));
-  }
-  if (values.empty()) return;
-  QString problem = whyKeyed(all);
-  if (problem.isEmpty()) problem = m_document.setParameters(values, titleOfAll(*address, values.size()));
+void Inspector::showProblem(const QString& key, const QString& problem) {
   for (ParameterPanel* panel : panels()) panel->setError(key, problem);
+}
+
+/// All or none: of one that cannot be scaled the row says why. A curve that is dragged starts from what it was.
+void Inspector::onScaled(const QString& key, double factor, double added, const ParameterPanel* panel) {
+  const auto address = Address::parse(key.toStdString());
+  if (!address || !m_document.declaration(*address)) return;
+  std::vector<std::pair<Address, Value>> values = m_editedFrom;
+  if (values.empty()) {
+    for (const Address& one : addressesOf(*address, panel)) values.emplace_back(one, m_document.value(one));
+  }
+  for (auto& [one, value] : values) {
+    const QString problem = scale(value, *m_document.declaration(one), factor, added);
+    if (problem.isEmpty()) continue;
+    return showProblem(key, QStringLiteral("%1: %2").arg(ownerLabel(m_document.project(), one), problem));
+  }
+  showProblem(key, setEach(values));
+}
+
+/// Each to its own default.
+void Inspector::onReset(const QString& key, const ParameterPanel* panel) {
+  const auto address = Address::parse(key.toStdString());
+  if (!address || !m_document.declaration(*address)) return;
+  std::vector<std::pair<Address, Value>> values;
+  for (const Address& one : addressesOf(*address, panel)) values.emplace_back(one, m_document.defaultValue(one));
+  showProblem(key, setEach(values));
 }
 
 /// A body is at another pose.
@@ -220,7 +256,7 @@ bool Inspector::selectAlone(OutlineKind kind, const std::string& id) {
 ParameterPanel* Inspector::panelFor(const Address& address) {
   if (address.owner == Owner::Material) {
     m_selection.setMaterial(address.id);
-    setMaterial(address.id);
+    setMaterials({address.id});
     return m_material;
   }
   if (address.owner == Owner::Probe) {

@@ -31,7 +31,7 @@ bool Inspector::rebuildThings() {
   for (size_t i = 0; i < list.count; ++i) {
     if (auto row = rowModelOf(m_document, {any.owner, any.id, list[i].key})) rows.push_back(std::move(*row));
   }
-  shareRows(rows);
+  shareRows(rows, m_things);
   m_body->setModel(std::move(rows));
   m_notes.show();
   showTracks();

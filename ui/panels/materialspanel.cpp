@@ -200,9 +200,10 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   const Theme& theme = Theme::current();
   const Tile& tile = m_tiles[index];
   const QRectF rect = tileRect(index);
-  const bool current = !tile.installed && tile.id == m_selection.material(), here = m_cursor == static_cast<int>(index);
-  if (current || here || m_hover == static_cast<int>(index)) {
-    paintBox(painter, rect, theme[current ? Token::Selection : Token::Header],
+  const bool chosen = !tile.installed && isChosen(tile.id), current = chosen && tile.id == m_selection.material(),
+             here = m_cursor == static_cast<int>(index);
+  if (chosen || here || m_hover == static_cast<int>(index)) {
+    paintBox(painter, rect, theme[chosen ? Token::Selection : Token::Header],
              current || here ? theme[Token::Accent] : QColor(), 5);
   }
   const QRectF square(rect.center().x() - kSwatch / 2.0, rect.top() + 2, kSwatch, kSwatch);
@@ -215,7 +216,7 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   } else {
     paintSwatch(painter, square, tile.swatch, m_swatches);
   }
-  const Token colour = current ? Token::Text : tile.installed ? Token::Muted : Token::Text2;
+  const Token colour = chosen ? Token::Text : tile.installed ? Token::Muted : Token::Text2;
   const QStringList lines = linesOf(tile.label, rect.width() - 2);
   QRectF line(rect.left() + 1, ball.bottom() + (lines.size() > 1 ? 2 : kLine / 2), rect.width() - 2, kLine);
   for (const QString& text : lines) {
@@ -242,16 +243,38 @@ void MaterialsPanel::paintEvent(QPaintEvent* event) {
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
 }
 
+/// Shift with an arrow chooses one more here; elsewhere it goes to the next marker.
+bool MaterialsPanel::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool arrow = key->key() >= Qt::Key_Left && key->key() <= Qt::Key_Down;
+    if (arrow && (key->modifiers() & ~Qt::KeypadModifier) == Qt::ShiftModifier) {
+      event->accept();
+      return true;
+    }
+  }
+  return QWidget::event(event);
+}
+
 void MaterialsPanel::addInstalled(const std::string& base) { m_selection.pickMaterial(m_document.addMaterial(base)); }
 
-void MaterialsPanel::pick(size_t index) {
+bool MaterialsPanel::isChosen(const std::string& id) const {
+  const std::vector<std::string>& chosen = m_selection.materials();
+  return std::find(chosen.begin(), chosen.end(), id) != chosen.end();
+}
+
+/// With Shift or Ctrl one more, or one less.
+void MaterialsPanel::pick(size_t index, Qt::KeyboardModifiers keys) {
   const Tile tile = m_tiles[index];  // adding makes others
   if (tile.installed) {
     addInstalled(tile.id);
     return;
   }
   m_cursor = -1;
-  m_selection.pickMaterial(tile.id);
+  if (keys & (Qt::ShiftModifier | Qt::ControlModifier))
+    m_selection.toggleMaterial(tile.id);
+  else
+    m_selection.pickMaterial(tile.id);
 }
 
 void MaterialsPanel::mousePressEvent(QMouseEvent* event) {
@@ -261,7 +284,7 @@ void MaterialsPanel::mousePressEvent(QMouseEvent* event) {
 
 void MaterialsPanel::mouseReleaseEvent(QMouseEvent* event) {
   const int held = std::exchange(m_held, -1);
-  if (held >= 0 && held == tileAt(event->position().toPoint())) pick(static_cast<size_t>(held));
+  if (held >= 0 && held == tileAt(event->position().toPoint())) pick(static_cast<size_t>(held), event->modifiers());
 }
 
 void MaterialsPanel::drag(const Tile& tile) {
@@ -300,7 +323,8 @@ void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
   QWidget::focusOutEvent(event);
 }
 
-/// Arrows pick among the scene's materials, and only walk among what can be added: Enter adds it.
+/// Arrows pick among the scene's materials, with Shift one more each, and only walk among what can be added: Enter adds
+/// it.
 void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
   const bool enters = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space;
   if (enters && m_cursor >= 0) {
@@ -326,7 +350,7 @@ void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
     return;
   }
   if (next < own) {
-    pick(static_cast<size_t>(next));
+    pick(static_cast<size_t>(next), event->modifiers() & Qt::ShiftModifier);
   } else {
     m_cursor = next;
     update();

@@ -17,7 +17,8 @@ class Selection;
 class Session;
 class Swatches;
 
-/// Materials of the scene as a grid of swatches; a click makes one the brush's matter and shows its values. Below
+/// Materials of the scene as a grid of swatches; a click makes one the brush's matter and shows its values, Shift+click
+/// or Ctrl+click one more, so that they are edited together. Below
 /// them those that are installed besides; a click brings one into the scene. All are dragged to where a material is
 /// wanted.
 class MaterialsPanel : public QWidget {
@@ -40,6 +41,7 @@ class MaterialsPanel : public QWidget {
   void revealed(const QRect& tile);
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -68,7 +70,8 @@ class MaterialsPanel : public QWidget {
   int columns() const;
   int tileAt(const QPoint& at) const;
   void paintTile(QPainter& painter, size_t index) const;
-  void pick(size_t index);
+  void pick(size_t index, Qt::KeyboardModifiers keys = {});
+  bool isChosen(const std::string& id) const;
   void drag(const Tile& tile);
   void moveTo(int index);
 

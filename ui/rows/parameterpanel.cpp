@@ -255,6 +255,8 @@ void ParameterPanel::Private::connectRow(ParameterRow* row) {
   connect(row, &ParameterRow::editingFinished, q,
           [forward](const QString& key, const Value& v) { forward(key, v, Edit::End); });
   connect(row, &ParameterRow::scaled, q, &ParameterPanel::scaled);
+  connect(row, &ParameterRow::resetAsked, q, &ParameterPanel::resetAsked);
+  connect(row, &ParameterRow::takenBack, q, &ParameterPanel::takenBack);
   connect(row, &ParameterRow::linkActivated, q, &ParameterPanel::linkActivated);
   connect(row, &ParameterRow::changedChanged, q, [this] { showCount(); });
   // A row offers, by its menu and its pointer, what somebody listens to.

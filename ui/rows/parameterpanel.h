@@ -60,7 +60,9 @@ class ParameterPanel : public QWidget {
 
  Q_SIGNALS:
   void edited(const QString& key, const ps::Value& value, ps::Edit edit);
-  void scaled(const QString& key, double factor);
+  void scaled(const QString& key, double factor, double added);
+  void resetAsked(const QString& key);
+  void takenBack(const QString& key);
   void linkActivated(const QString& key, const QString& link);
   void curveRequested(const QString& key);
   void sourceRequested(const QString& key);

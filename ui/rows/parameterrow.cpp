@@ -262,6 +262,7 @@ void ParameterRow::Private::begin() {
   if (open) return;
   open = true;
   before = model.value;
+  mixedBefore = model.mixed;
   Q_EMIT q->editingStarted(model.key, before);
 }
 
@@ -285,7 +286,13 @@ void ParameterRow::Private::finish() {
 void ParameterRow::Private::takeBack() {
   closeEdit();
   if (!open) return;
-  change(before);
+  if (mixedBefore) {  // no one value is what all had
+    model.value = before;
+    model.mixed = true;
+    Q_EMIT q->takenBack(model.key);
+  } else {
+    change(before);
+  }
   finish();
 }
 
@@ -312,7 +319,12 @@ void ParameterRow::reset() {
   if (!d->isEditable()) return;
   d->closeEdit();
   setError({});
-  d->single(d->model.defaultValue);
+  if (d->model.together) {
+    d->takeBack();  // a double-click's first one
+    Q_EMIT resetAsked(key());
+  } else {
+    d->single(d->model.defaultValue);
+  }
 }
 
 void ParameterRow::finishEditing() {
@@ -331,10 +343,10 @@ bool ParameterRow::enter(const QString& text) {
   }
   if (typed.relative && d->model.mixed) {
     setError({});
-    Q_EMIT scaled(d->model.key, typed.factor);
+    Q_EMIT scaled(d->model.key, typed.factor, typed.added);
     return true;
   }
-  if (typed.relative && d->showsCurve()) return d->scaleCurve(typed.factor);
+  if (typed.relative && d->showsCurve()) return d->scaleCurve(typed.factor, typed.added);
   return enterNumber(typed.value);
 }
 
@@ -349,12 +361,13 @@ bool ParameterRow::enterNumber(double value) {
   return true;
 }
 
-bool ParameterRow::Private::scaleCurve(double factor) {
-  if (!(factor > 0)) {
-    q->setError(QStringLiteral("A curve is scaled by a factor above 0"));
+bool ParameterRow::Private::scaleCurve(double factor, double added) {
+  Value changed = model.value;
+  if (const QString problem = scale(changed, declaration(), factor, added); !problem.isEmpty()) {
+    q->setError(problem);
     return false;
   }
-  const Response response = std::get<Response>(model.value).scaled(factor);
+  const Response response = std::get<Response>(changed);
   if (const std::string problem = problemOf(Value(response), declaration()); !problem.empty()) {
     q->setError(QString::fromStdString("The curve " + problem));
     return false;

@@ -36,6 +36,7 @@ struct RowModel {
   bool pinned = false;          ///< the copy that stands in "Try these"
   bool isPinned = false;        ///< such a copy exists, or is this row
   bool mixed = false;           ///< several selected owners disagree
+  bool together = false;        ///< it stands for several owners: they are asked for a reset, each has its own default
   QStringList choiceLabels;     ///< of a choice, in the order of its names; empty: made from the names
   QStringList rules;            ///< sentences for the tooltip: what bounds the value, when it acts
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
@@ -128,9 +129,13 @@ class ParameterRow : public QWidget {
   void editingStarted(const QString& key, const ps::Value& before);
   void valueEdited(const QString& key, const ps::Value& value);
   void editingFinished(const QString& key, const ps::Value& value);
-  void scaled(const QString& key, double factor);  ///< "*2" typed into a mixed row
-  void curveRequested(const QString& key);         ///< sparkline clicked
-  void sourceRequested(const QString& key);        ///< "from pressure" clicked
+  /// "*2" or "+10" typed into a mixed row: each value becomes `factor` times what it is, and `added` (SI) more. Within
+  /// a gesture, as its curve is dragged, times what it was at the beginning.
+  void scaled(const QString& key, double factor, double added);
+  void resetAsked(const QString& key);       ///< of several owners
+  void takenBack(const QString& key);        ///< before its end: what the gesture did to values that differed
+  void curveRequested(const QString& key);   ///< sparkline clicked
+  void sourceRequested(const QString& key);  ///< "from pressure" clicked
   void linkActivated(const QString& key, const QString& link);
   void pinToggled(const QString& key, bool pinned);
   void plotRequested(const QString& key);

@@ -47,6 +47,7 @@ struct ParameterRow::Private {
   // A gesture: open from Begin to End.
   bool open = false;
   Value before;
+  bool mixedBefore = false;
   QTimer settle;
   bool dragging = false;
   bool dragCancelled = false;  ///< Esc: wait for the button to be released
@@ -76,7 +77,7 @@ struct ParameterRow::Private {
   void layoutNotes();
   void styleNotes();
   void closeEdit();
-  bool scaleCurve(double factor);
+  bool scaleCurve(double factor, double added);
   void toggle();
   void choose(int index);
   void stepBy(double steps, bool fine);

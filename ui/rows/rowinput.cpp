@@ -55,8 +55,13 @@ void ParameterRow::Private::dragTo(double x, Qt::KeyboardModifiers modifiers) {
   dragX = x;
   if (showsCurve()) {
     scaled = scaled || std::abs(x - dragFrom) >= kStill;
-    const Value value = std::get<Response>(dragCurve).scaled(roundedFactor(std::pow(10.0, dragPosition)));
-    if (scaled && problemOf(value, declaration()).empty()) change(value);
+    const double factor = roundedFactor(std::pow(10.0, dragPosition));
+    const Value value = std::get<Response>(dragCurve).scaled(factor);
+    if (!scaled || !problemOf(value, declaration()).empty()) return;
+    if (!mixedBefore) return change(value);
+    model.value = value;  // of the owner whose curve is shown; the others' keep their shapes too
+    refresh();
+    Q_EMIT q->scaled(model.key, factor, 0);
     return;
   }
   const double value = valueAtPosition(declaration(), dragPosition);

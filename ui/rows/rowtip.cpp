@@ -49,8 +49,13 @@ QString ParameterRow::Private::toolTipText() const {
   }
   if (showsCurve()) text += line("Shown at", temperatureText(model.temperature, 1));
   if (showsCurve() && isEditable()) {
-    text += line("", QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its place, *2 "
-                                    "doubles it."));
+    text += line("", model.mixed ? QStringLiteral("Drag sideways to scale each one's curve.")
+                                 : QStringLiteral("Drag sideways to scale the curve. A number that is typed takes its "
+                                                  "place, *2 doubles it."));
+  }
+  if (model.mixed && isNumeric() && isEditable()) {
+    text += line("", QStringLiteral("Values differ here. A number that is typed is set for all; *2 doubles each, +10 "
+                                    "adds 10 to each."));
   }
   text += line("Key", keyText());
   text += line("Example", QString::fromUtf8(p.example ? p.example : ""));
@@ -85,8 +90,9 @@ void ParameterRow::Private::openContextMenu(const QContextMenuEvent& event) {
   QAction* paste = menu->addAction(QStringLiteral("Paste value"));
   paste->setEnabled(isEditable() && isNumeric() && !QGuiApplication::clipboard()->text().isEmpty());
   QAction* resetAction = menu->addAction(QStringLiteral("Reset"));
-  resetAction->setEnabled(isEditable() && q->isChanged());
-  QAction* constant = showsCurve() && isEditable() ? menu->addAction(QStringLiteral("Make constant")) : nullptr;
+  resetAction->setEnabled(isEditable() && (q->isChanged() || model.together));
+  QAction* constant =
+      showsCurve() && isEditable() && !model.mixed ? menu->addAction(QStringLiteral("Make constant")) : nullptr;
   menu->addSeparator();
   const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
   QAction* pin = nullptr;

@@ -36,6 +36,12 @@ double roundStep(double step) {
 
 double displayedRange(const ParameterDeclaration& d) { return std::abs((d.maximum - d.minimum) * displayFactor(d)); }
 
+/// Everywhere this much more; of laws the linear one alone.
+void raise(Response& response, double added) {
+  for (CurvePoint& point : response.points) point.y += added;
+  if (response.kind == Response::Kind::Law) response.coefficients[0] += added;
+}
+
 double withinSlider(const ParameterDeclaration& d, double value) { return std::clamp(value, d.minimum, d.maximum); }
 
 }  // namespace
@@ -134,6 +140,30 @@ bool sameValue(const Value& a, const Value& b) {
   const double *x = constant(a), *y = constant(b);
   if (x && y) return *x == *y || std::abs(*x - *y) <= 1e-12 * std::max(std::abs(*x), std::abs(*y));
   return a == b;
+}
+
+QString scale(Value& value, const ParameterDeclaration& d, double factor, double added) {
+  if (auto* number = std::get_if<double>(&value)) {
+    *number = scaledValue(d, *number, factor) + added;
+    return {};
+  }
+  auto* response = std::get_if<Response>(&value);
+  if (!response) return QStringLiteral("Only numbers are scaled");
+  if (response->kind == Response::Kind::Constant) {
+    response->constant = scaledValue(d, response->constant, factor) + added;
+    return {};
+  }
+  if (!(factor > 0)) return QStringLiteral("A curve is scaled by a factor above 0");
+  if (response->kind == Response::Kind::Law && lawCoefficientCount(response->law) == 0)
+    return QStringLiteral("The law “%1” is not known here and cannot be scaled")
+        .arg(QString::fromStdString(response->law));
+  *response = response->scaled(factor);
+  if (added == 0) return {};
+  if (response->kind == Response::Kind::Law && response->law != "linear")
+    return QStringLiteral("Nothing can be added to the law “%1”; it can be scaled, as *2 does")
+        .arg(QString::fromStdString(response->law));
+  raise(*response, added);
+  return {};
 }
 
 QStringList choiceNames(const ParameterDeclaration& d) {

@@ -30,6 +30,10 @@ bool isCurve(const Value& value);
 /// unit conversion of a typed value may cost the last bits.
 bool sameValue(const Value& a, const Value& b);
 
+/// Makes a number or a response `factor` times as much (as people see it: twice 10 °C is 20 °C) and `added` (SI) more.
+/// "" or a sentence that says why it cannot be; the value then stays.
+QString scale(Value& value, const api::ParameterDeclaration& declaration, double factor, double added);
+
 QStringList choiceNames(const api::ParameterDeclaration& declaration);
 /// "cubic_spline" as "Cubic spline".
 QString choiceLabel(const QString& name);

@@ -116,9 +116,18 @@ void Selection::clear() {
 }
 
 void Selection::setMaterial(const std::string& id) {
-  if (id == m_material) return;
-  m_material = id;
+  std::vector<std::string> alone;
+  if (!id.empty()) alone.push_back(id);
+  if (alone == m_materials) return;
+  m_materials = std::move(alone);
   Q_EMIT materialChanged();
+}
+
+void Selection::toggleMaterial(const std::string& id) {
+  if (m_materials == std::vector<std::string>{id}) return;
+  if (std::erase(m_materials, id) == 0) m_materials.push_back(id);
+  Q_EMIT materialChanged();
+  Q_EMIT materialPicked();
 }
 
 void Selection::pickMaterial(const std::string& id) {
@@ -154,8 +163,14 @@ void Selection::onChanged(const ChangeEvent& event) {
   if (opened || left != m_items) selectAll(std::move(left));
   m_gone = std::move(gone);
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
+  std::vector<std::string> kept = m_materials;
+  if (opened) kept.clear();
+  std::erase_if(kept, [this](const std::string& id) { return !hasMaterial(id); });
   const std::vector<SceneMaterial>& materials = m_document.project().materials;
-  if (opened || !hasMaterial(m_material)) setMaterial(materials.empty() ? std::string() : materials.front().id);
+  if (kept.empty() && !materials.empty()) kept.push_back(materials.front().id);
+  if (kept == m_materials) return;
+  m_materials = std::move(kept);
+  Q_EMIT materialChanged();
 }
 
 }  // namespace ps

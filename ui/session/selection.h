@@ -63,8 +63,13 @@ class Selection : public QObject {
   const std::optional<std::pair<uint64_t, uint32_t>>& marked() const { return m_marked; }
   void mark(uint64_t revision, uint32_t particle);
 
-  const std::string& material() const { return m_material; }  ///< SceneMaterial::id; "" in a scene without any
-  void setMaterial(const std::string& id);
+  /// SceneMaterial::id of the current one; "" in a scene without any.
+  std::string material() const { return m_materials.empty() ? std::string() : m_materials.back(); }
+  void setMaterial(const std::string& id);  ///< that alone
+  /// Those whose values are edited together, the current one last.
+  const std::vector<std::string>& materials() const { return m_materials; }
+  /// One more of them, as the current one; or one less, but for the last.
+  void toggleMaterial(const std::string& id);
   /// Somebody chose it, and wants to see its values.
   void pickMaterial(const std::string& id);
 
@@ -79,7 +84,7 @@ class Selection : public QObject {
   bool hasMaterial(const std::string& id) const;
   Document& m_document;
   std::vector<SelectedItem> m_items, m_gone;  ///< selected, and what was until it left the document
-  std::string m_material;
+  std::vector<std::string> m_materials;
   std::optional<std::pair<uint64_t, uint32_t>> m_marked;
 };
 

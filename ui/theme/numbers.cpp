@@ -368,6 +368,45 @@ std::optional<double> parseNumber(const QString& text) {
   return Expression(*plain).value();
 }
 
+namespace {
+
+/// What "+10" or "+10 K" adds, SI; nothing where it is no amount of the declaration's kind. A difference of
+/// temperatures has no zero of its own.
+std::optional<double> addedAmount(const QString& text, const api::ParameterDeclaration& d) {
+  const qsizetype split = unitStart(text);
+  const QString unitText = text.mid(split).trimmed();
+  const std::optional<double> number = parseNumber(text.left(split));
+  if (!number) return std::nullopt;
+  if (unitText.isEmpty() || unitText == displayUnit(d)) return *number / displayFactor(d);
+  const std::optional<Unit> unit = parseUnit(unitText), declared = parseUnit(QString::fromUtf8(d.unit));
+  if (!unit || !declared || !(unit->dimension == declared->dimension)) return std::nullopt;
+  return *number * unit->scale / declared->scale;
+}
+
+/// "*2", "/3", "+10".
+Typed relativeTyped(const QString& text, const api::ParameterDeclaration& d, double current) {
+  Typed result;
+  result.relative = true;
+  if (text[0] == QLatin1Char('+')) {
+    const std::optional<double> added = addedAmount(text.mid(1), d);
+    if (!added) result.problem = QStringLiteral("“%1” adds nothing; type for example +10").arg(text);
+    result.added = added.value_or(0);
+  } else {
+    const bool divides = text[0] == QLatin1Char('/') || text[0] == QChar(0x00F7);
+    const std::optional<double> factor = parseNumber(text.mid(1));
+    if (!factor || (divides && *factor == 0))
+      result.problem = QStringLiteral("“%1” is no factor; type for example *2 or /3").arg(text);
+    else
+      result.factor = divides ? 1 / *factor : *factor;
+  }
+  if (!result.problem.isEmpty()) return result;
+  result.value = scaledValue(d, current, result.factor) + result.added;
+  requireFinite(result, d, text);
+  return result;
+}
+
+}  // namespace
+
 Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, double current) {
   Typed result;
   QString text = typed.trimmed();
@@ -379,20 +418,8 @@ Typed parseTyped(const QString& typed, const api::ParameterDeclaration& d, doubl
     result.value = none->stored;
     return result;
   }
-  const QChar first = text.isEmpty() ? QChar() : text[0];
-  const bool divides = first == QLatin1Char('/') || first == QChar(0x00F7);
-  if (divides || first == QLatin1Char('*') || first == QChar(0x00D7)) {
-    const std::optional<double> factor = parseNumber(text.mid(1));
-    if (!factor || (divides && *factor == 0)) {
-      result.problem = QStringLiteral("“%1” is no factor; type for example *2 or /3").arg(text);
-      return result;
-    }
-    result.relative = true;
-    result.factor = divides ? 1 / *factor : *factor;
-    result.value = scaledValue(d, current, result.factor);
-    requireFinite(result, d, text);
-    return result;
-  }
+  static const QString kRelative = QStringLiteral("*\u00D7/\u00F7+");
+  if (!text.isEmpty() && kRelative.contains(text[0])) return relativeTyped(text, d, current);
   const qsizetype split = unitStart(text);
   const QString unitText = text.mid(split).trimmed();
   const std::optional<double> number = parseNumber(text.left(split));

@@ -69,13 +69,14 @@ double scaledValue(const api::ParameterDeclaration& declaration, double stored, 
 struct Typed {
   double value = 0;       ///< the new value in SI
   double factor = 1;      ///< of relative input
-  bool relative = false;  ///< "*2", "/3": acts on each value of a mixed selection
+  double added = 0;       ///< SI, of relative input
+  bool relative = false;  ///< "*2", "/3", "+10": acts on each value of a mixed selection
   QString problem;        ///< "" or one sentence that says what is wrong
 };
 
 /// Reads "25", "none" where a value may be left out, "25 °C", "77 °F", "300 K", "1,5", "1/3", "2*(3+4)", "*2", "/3",
-/// "1e-3", "3 × 10⁻⁶", "2.5 GPa". A bare number is in the displayed unit; a unit must be of the same kind as the
-/// declaration's ("m" for a length). `current` (SI) is what relative input starts from. Does not look at ranges.
+/// "+10 °C", "1e-3", "3 × 10⁻⁶", "2.5 GPa". A bare number is in the displayed unit; a unit must be of the same kind as
+/// the declaration's ("m" for a length). `current` (SI) is what relative input starts from. Does not look at ranges.
 Typed parseTyped(const QString& text, const api::ParameterDeclaration& declaration, double current);
 
 /// The number or sum alone ("1,5", "−3 × 10⁻⁶", "1/3", "24 594"), without a unit; nullopt when it is none.
