@@ -51,19 +51,30 @@ constexpr api::ParameterDeclaration kBody[] = {
              "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""})),
     actingWhen(
         "fixed = on & scene/thermal_model != none",
-        choice({"heat", "Heat", "", ""}, "conducts|fixed_temperature|adiabatic", 0,
-               {"Heat",
-                "Whether a body that is held in place warms and cools as its material does, keeps a temperature "
-                "whatever touches it, or lets no heat through: then it takes none from the air either, and radiates as "
-                "much as it receives. Like a wall of any shape.",
-                "a pan: conducts; a mould that is cooled, a hot plate: fixed temperature; a foam box: adiabatic", ""})),
-    actingWhen("fixed = on & heat = fixed_temperature",
+        choice(
+            {"heat", "Heat", "", ""}, "conducts|fixed_temperature|adiabatic|convective", 0,
+            {"Heat",
+             "Whether a body that is held in place warms and cools as its material does, keeps a temperature "
+             "whatever touches it, lets no heat through (then it takes none from the air either, and radiates as "
+             "much as it receives), or lets through what a fluid behind its surface gives and takes. Like a wall of "
+             "any shape.",
+             "a pan: conducts; a mould that is cooled, a hot plate: fixed temperature; a foam box: adiabatic; a jacket "
+             "with cooling water: convective",
+             ""})),
+    actingWhen("fixed = on & heat = fixed_temperature|convective",
                number({"held_temperature", "Temperature held", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
                       {"Heat",
-                       "What a body of fixed temperature has, from the start on. It gives and takes as much heat as "
-                       "that takes; what conducts well has it up to its surface.",
+                       "What a body of fixed temperature has, from the start on, or the fluid behind a convective one. "
+                       "It gives and takes as much heat as that takes; what conducts well has it up to its surface.",
                        "freezer −18 °C, tap water 10 °C, hot plate 150 °C", ""},
                       kCelsius)),
+    actingWhen("fixed = on & heat = convective",
+               number({"convection", "Convection behind it", "h", "W/(m²·K)"}, {100, 0, 2000, 0, 1e6},
+                      {"Heat",
+                       "How fast the fluid behind a convective body's surface gives and takes heat. The body's own "
+                       "material conducts nothing then; it is as warm as that fluid.",
+                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
+                       "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"})),
     leastMeans("found",
                number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
                       {"Heat",

@@ -82,9 +82,16 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
       for (size_t i = first; i < last; ++i) m_insulated[i] = m_bodyHeating.isInsulated(store, i) ? 1 : 0;
     });
   }
+  m_convection.clear();
+  if (m_bodyHeating.convects()) {
+    m_convection.resize(n);
+    forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) m_convection[i] = static_cast<float>(m_bodyHeating.convectionAt(store, i));
+    });
+  }
   m_pairs.build(store, neighbours.view(), m_materials,
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
-                 m_settings.momentCorrection, m_settings.contactConductance, m_insulated});
+                 m_settings.momentCorrection, m_settings.contactConductance, m_insulated, m_convection});
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(airTemperature());
   const auto body = [&](size_t first, size_t last) {

@@ -250,6 +250,7 @@ class HeatStage {
   std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
   double m_pairRate = 0;              ///< and of all
   std::vector<uint8_t> m_insulated;   ///< by particle; none where no body is
+  std::vector<float> m_convection;    ///< W/(m2 K), likewise: see HeatPairs::Options
   std::vector<double> m_newTemperature;
   std::vector<api::Phase> m_newPhase;
   std::vector<double> m_fixedConductance;  ///< W/K: other materials, air and radiation

@@ -14,6 +14,22 @@ namespace {
 /// Sum of V W below which a particle's surroundings count as cut off by a surface.
 constexpr float kFullSupport = 0.95f;
 
+/// By what the gradient of a cubic lattice's half space is multiplied, m3, so that all that a column of particles
+/// before it sees of it adds up to the area of one.
+double filmScaleOf(const Kernel& kernel, double dx) {
+  const int reach = static_cast<int>(std::ceil(kernel.supportRadius() / dx));
+  double sum = 0;
+  for (int n = 1; n <= reach; ++n) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int z = -reach; z <= reach; ++z) {
+        const double r = dx * std::sqrt(static_cast<double>(n * n + y * y + z * z));
+        if (r < kernel.supportRadius()) sum += n * n * -kernel.gradient(r);
+      }
+    }
+  }
+  return 1 / (sum * dx * dx * dx * dx * dx);
+}
+
 }  // namespace
 
 void HeatPairs::prepare(size_t count, size_t slots) {
@@ -31,7 +47,11 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   const size_t n = store.size();
   if (n == 0) return;
   prepare(n, lists.slots);
-  m_oneMaterial = materials.size() == 1;
+  m_oneMaterial = materials.size() == 1 && options.convection.empty();
+  if (!options.convection.empty()) {
+    m_filmScale = filmScaleOf(Kernel(options.kernel, options.support), options.spacing);
+    m_film.resize(n);
+  }
   const auto matter = [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const BakedMaterial& material = materials[store.material()[i]];
@@ -45,6 +65,7 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   m_rooms.resize(std::max(m_rooms.size(), chunkCount(n, grain::kNeighbours)));
   const auto first = [&](size_t a, size_t b) { measure(store, lists, a, b); };
   forChunks(n, grain::kNeighbours, first);
+  if (!options.convection.empty()) forChunks(n, grain::kNeighbours, [&](size_t a, size_t b) { seeFilms(store, a, b); });
   const auto second = [&](size_t a, size_t b) {
     conduct(a, b);
     if (m_options.contactConductance > 0) resist(store, a, b);
@@ -96,7 +117,9 @@ HeatSlots HeatPairs::findPartners(const ParticleStore& store, const api::Neighbo
   }
   const uint32_t *material = store.material(), own = material[i];
   for (size_t k = 0; k < used; ++k) {
-    const uint32_t slot = material[found[k]] == own ? slots.same++ : --slots.other;
+    // A film between the two does not go by Kirchhoff's potentials.
+    const bool alike = material[found[k]] == own && !isFluidBehind(i) && !isFluidBehind(found[k]);
+    const uint32_t slot = alike ? slots.same++ : --slots.other;
     partner[slot] = found[k];
     m_square[slot] = square[k];
   }
@@ -120,6 +143,7 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
 }
 
 void HeatPairs::conduct(size_t first, size_t last) {
+  const bool films = !m_options.convection.empty();
   for (size_t i = first; i < last; ++i) {
     const float vi = volume[i], mi = m_inverseMoment[i], ki = conductivity[i];
     // 2 V_i V_j (-F) times the mean of 1/M: every operation commutes in i and j.
@@ -143,14 +167,46 @@ void HeatPairs::conduct(size_t first, size_t last) {
       const uint32_t j = partner[k];
       const float sum = ki + conductivity[j];
       const float harmonic = sum > 0 ? 2.0f * (ki * conductivity[j]) / sum : 0.0f;
-      conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]) * harmonic;
+      if (films && (isFluidBehind(i) || isFluidBehind(j)))
+        conductance[k] = throughFilm(static_cast<uint32_t>(i), j, conductance[k]);
+      else
+        conductance[k] *= (vi * volume[j]) * (mi + m_inverseMoment[j]) * harmonic;
       others += double{conductance[k]};
     }
     otherTotal[i] = others;
   }
 }
 
-/// The resistance of contacts, from both sides by the same operations.
+/// What each particle sees of surfaces with a fluid behind them, per volume and slope of the kernel: m_film times both
+/// is the share of a pair in its area. Steps of a lattice along a surface do not show: they cancel in the gradient.
+void HeatPairs::seeFilms(const ParticleStore& store, size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    double x = 0, y = 0, z = 0, total = 0;
+    for (uint32_t k = other[i]; k < end[i] && !isFluidBehind(i); ++k) {
+      if (!isFluidBehind(partner[k])) continue;
+      const double weight = double{volume[partner[k]]} * double{conductance[k]};
+      const auto [dx, dy, dz, unused] = store.separation(static_cast<uint32_t>(i), partner[k]);
+      x += weight * double{dx}, y += weight * double{dy}, z += weight * double{dz};
+      total += weight;
+    }
+    const double seen = m_filmScale * double{volume[i]} * std::sqrt(x * x + y * y + z * z);
+    m_film[i] = total > 0 ? static_cast<float>(seen / total) : 0.0f;
+  }
+}
+
+/// W/K for a kernel's slope, where one of the two, and only one, is a fluid: from both sides the same, for all that is
+/// not symmetric is asked of that one or of the other.
+float HeatPairs::throughFilm(uint32_t i, uint32_t j, float slope) const {
+  const bool fluid = isFluidBehind(i);
+  if (fluid == isFluidBehind(j)) return 0;
+  const uint32_t behind = fluid ? i : j, matter = fluid ? j : i;
+  const double k = double{conductivity[matter]};
+  if (!(k > 0)) return 0;
+  const double through = 1 / (1 / double{m_options.convection[behind]} + 0.5 * m_options.spacing / k);
+  return static_cast<float>(double{m_film[matter]} * double{volume[behind]} * double{slope} * through);
+}
+
+/// The resistance of contacts, from both sides by the same operations; a film has its own.
 void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
   const uint32_t* body = store.body();
   const float* solid = store.solidFraction();
@@ -161,7 +217,8 @@ void HeatPairs::resist(const ParticleStore& store, size_t first, size_t last) {
       for (uint32_t k = from; k < to; ++k) {
         const uint32_t j = partner[k];
         const float sum = conductivity[i] + conductivity[j];
-        if (body[i] != body[j] && std::max(solid[i], solid[j]) > 0.5f && sum > 0)
+        const bool films = isFluidBehind(i) || isFluidBehind(j);
+        if (!films && body[i] != body[j] && std::max(solid[i], solid[j]) > 0.5f && sum > 0)
           conductance[k] /= 1.0f + 2.0f * (conductivity[i] * conductivity[j]) / (sum * film);
         total += double{conductance[k]};
       }

@@ -19,6 +19,11 @@ namespace ps {
 /// of different materials with the harmonic mean of their conductivities, in W/K. A contact conductance h lies in
 /// series with the slab of one spacing that a pair stands for, G' = G/(1 + k/(h dx)). V is the rest volume of the
 /// condensed matter, which conducts better than 1/sum W under disorder and does not swell with vapour.
+///
+/// Where one of the two stands for a fluid behind a surface, of convection h, the pair carries its share of the area A
+/// that the other one sees of that surface, in W/K: A = C V |sum V_j grad W| over such particles j, whose sum over all
+/// matter is the area of the surface, whichever way it lies on a lattice; for a plane one C makes it exact. Through
+/// that 1/U = 1/h + (dx/2)/k, k of the other one. Two such particles conduct nothing.
 class HeatPairs {
  public:
   struct Options {
@@ -28,6 +33,8 @@ class HeatPairs {
     /// W/(m2 K) between particles of different bodies of which at least one is solid, in series; 0: perfect contact.
     double contactConductance = 0;
     std::span<const uint8_t> insulated{};  ///< by particle, 1: it conducts nothing; none: all conduct
+    std::span<const float>
+        convection{};  ///< by particle, W/(m2 K) of a fluid that it stands for, or 0; none: none does
   };
   /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current.
   void build(const ParticleStore& store, const api::NeighbourView& lists, std::span<const BakedMaterial> materials,
@@ -56,6 +63,9 @@ class HeatPairs {
   void conduct(size_t first, size_t last);
   void resist(const ParticleStore& store, size_t first, size_t last);
   void insulate(size_t first, size_t last);
+  bool isFluidBehind(size_t i) const { return !m_options.convection.empty() && m_options.convection[i] > 0; }
+  void seeFilms(const ParticleStore& store, size_t first, size_t last);
+  float throughFilm(uint32_t i, uint32_t j, float slope) const;
   float condensedAround(const ParticleStore& store, size_t i) const;
 
   Options m_options;
@@ -64,6 +74,8 @@ class HeatPairs {
   std::vector<float> m_kernel;         ///< W, per slot
   std::vector<float> m_inverseMoment;  ///< 1/M of the moment correction
   std::vector<Room> m_rooms;           ///< by chunk
+  double m_filmScale = 0;              ///< m3, C of the above
+  std::vector<float> m_film;           ///< by particle, see seeFilms()
 };
 
 }  // namespace ps

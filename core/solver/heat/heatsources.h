@@ -22,8 +22,13 @@ class BodyHeating {
   void set(std::span<const BodyHeat> bodies);
   bool holds() const { return m_holds; }          ///< some body is held at a temperature
   bool insulates() const { return m_insulates; }  ///< some body is insulated
+  bool convects() const { return m_convects; }    ///< some body has a fluid behind its surface
   /// K at which a particle is held; 0 for one that warms and cools.
   double heldAt(const ParticleStore& store, size_t i) const { return isFixed(store, i) ? of(store, i).held : 0; }
+  /// W/(m2 K) of that fluid; 0 for a particle of no such body.
+  double convectionAt(const ParticleStore& store, size_t i) const {
+    return isFixed(store, i) && of(store, i).held > 0 ? of(store, i).convection : 0;
+  }
   bool isInsulated(const ParticleStore& store, size_t i) const { return isFixed(store, i) && of(store, i).insulated; }
   /// Makes ready for a frame: adds up the mass of heated bodies in the order of the store.
   void measure(const ParticleStore& store);
@@ -38,7 +43,7 @@ class BodyHeating {
 
   std::vector<BodyHeat> m_bodies;
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
-  bool m_holds = false, m_insulates = false;
+  bool m_holds = false, m_insulates = false, m_convects = false;
 };
 
 /// Heat that plugins put into matter or take from it, in W of thermal time. One that throws, or answers with what is no
