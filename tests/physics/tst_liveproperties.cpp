@@ -216,6 +216,43 @@ class TestLiveProperties : public QObject {
     QCOMPARE(isBath(), !held);
   }
 
+  /// A fluid behind a fixed body: how fast it is, and how warm, acts at the next frame. Without one nothing gets
+  /// through.
+  void aFluidBehindABodyActsAtOnce() {
+    Project project = between("iron", 1);
+    project.environment = scenes::tray(0.2, 0.4);
+    project.environment.parameters.values["air_convection"] = 0.0;
+    project.bodies.resize(2);
+    project.bodies[0] = cube("cold", "iron", {-0.09 - 3 * kSpacing, 0.03, 0}, 180);  // beside the other
+    for (Body& body : project.bodies) body.parameters.values["fixed"] = true;
+    ParameterSet& jacket = project.bodies[1].parameters;
+    jacket.values["heating_power"] = 0.0;
+    jacket.values["heat"] = std::string("convective");
+    jacket.values["held_temperature"] = 290.0;
+    jacket.values["convection"] = 0.0;
+    Engine engine(project, *m_plugins);
+    auto given = [&, last = 0.0]() mutable {
+      const double now = engine.solver().heatLedger().heaters;
+      return now - std::exchange(last, now);
+    };
+    QCOMPARE(runFor(engine, 3), QString());
+    QVERIFY(std::abs(given()) < 1e-9);
+    QVERIFY(engine.setParameter({Owner::Body, "mild", "convection"}, 100.0));
+    QCOMPARE(runFor(engine, 1), QString());
+    const double slow = given();
+    QVERIFY(slow > 0);
+    QVERIFY(engine.setParameter({Owner::Body, "mild", "convection"}, 200.0));
+    QCOMPARE(runFor(engine, 1), QString());
+    const double fast = given();
+    qInfo("%.4f times as much", fast / slow);
+    QVERIFY(fast > 1.5 * slow && fast < 2 * slow);  // the half spacing of iron resists too
+    QVERIFY(engine.setParameter({Owner::Body, "mild", "held_temperature"}, 100.0));
+    QCOMPARE(runFor(engine, 1), QString());
+    given();  // the body itself has become as cold
+    QCOMPARE(runFor(engine, 1), QString());
+    QVERIFY(given() < 0);
+  }
+
   /// What is not of the edited material is not touched, to the bit.
   void otherMatterIsLeftAlone() {
     Project project = slushAndSteam();

@@ -565,6 +565,10 @@ void TestTheme::typedTextIsUnderstood_data() {
   row("*2", celsius, 313.15);  // 20 °C twice is 40 °C
   row("/2", celsius, 283.15);
   row("×2", celsius, 313.15);
+  row("+10", celsius, 303.15);
+  row("+10 °C", celsius, 303.15);  // a difference of temperatures has no zero
+  row("+18 °F", celsius, 303.15);
+  row("+-10 K", celsius, 283.15);
   row("1/3", "|||", 1.0 / 3);
   row("1,5", "|||", 1.5);
   row("1.5", "|||", 1.5);
