@@ -4,7 +4,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) writeonly uniform image2D painted;
 shared vec4 batch[3 * 64];
-const float kSteps = 262144.0;  // for 1
+const float kSteps = 262144.0;            // for 1
+const float kLightSteps = 8192.0;         // for 1: room for half a million sprites in a pixel
+const uint kOpaque = 64u * uint(kSteps);  // more hides no more
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), block = 8 * ivec2(gl_WorkGroupID.xy);
   vec2 ray = viewRay((vec2(here) + 0.5) / vec2(field)).xy;
@@ -24,9 +26,9 @@ void main() {
         if (dot(corner, corner) > 1.0) continue;
         float cloud = cloudAt(corner, batch[3u * k + 1u], vec2(-sprite.z, sprite.w), behind);
         float a = min(batch[3u * k + 2u].x * cloud, 0.99);
-        hidden += uint(-log2(1.0 - a) * kSteps + 0.5);
-        lit += uint(a * cloudLight(corner) * kSteps + 0.5);
-        weight += uint(a * kSteps + 0.5);
+        hidden = min(hidden + uint(-log2(1.0 - a) * kSteps + 0.5), kOpaque);
+        lit += uint(a * cloudLight(corner) * kLightSteps + 0.5);
+        weight += uint(a * kLightSteps + 0.5);
       }
     }
   }
