@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kNowhere = 1e-9;       // m
+constexpr double kLeastCell = 5e-4;     // m, that a file may say
+constexpr double kLargestCell = 10;     // m
 constexpr double kUpright = 1 - 1e-12;  // sine of the turn about y from which those about x and z are one
 
 std::string key(const char* what, size_t axis) { return std::string(what) + "_" + kAxes[axis]; }
@@ -76,6 +78,51 @@ BodyBounds drawnBounds(const VoxelShape& voxels) {
   }
   const Vector3 half = Vector3::Constant(0.5);
   return {voxels.origin + voxels.spacing * (low - half), voxels.origin + voxels.spacing * (high + half)};
+}
+
+/// All that is long in a sketch in the ratio that its cells' edges become `spacing` m, about the middle of what was
+/// drawn, which goes by `way` m.
+void resize(VoxelShape& voxels, double spacing, const Vector3& way) {
+  const double factor = spacing / voxels.spacing;
+  const Vector3 middle = drawnBounds(voxels).middle();
+  const auto gone = [&](const Vector3& p) -> Vector3 { return middle + way + factor * (p - middle); };
+  voxels.origin = gone(voxels.origin);
+  voxels.spacing = spacing;
+  for (VoxelShape::Stroke& stroke : voxels.strokes) {
+    stroke.radius *= factor;
+    if (stroke.symmetry) stroke.symmetry->centre = gone(stroke.symmetry->centre);
+    if (stroke.stamp) stroke.stamp->spacing *= factor;
+    for (auto& sample : stroke.samples) {
+      const Vector3 place = gone({sample[0], sample[1], sample[2]});
+      std::copy_n(place.data(), 3, sample.begin());
+    }
+  }
+}
+
+/// The edge of its cells when a sketch becomes so much larger, as far as files can say what it was drawn with, m.
+double possibleSpacing(const VoxelShape& voxels, double factor) {
+  double least = voxels.spacing, most = voxels.spacing;
+  for (const VoxelShape::Stroke& stroke : voxels.strokes) {
+    if (!stroke.stamp) continue;
+    least = std::min(least, stroke.stamp->spacing);
+    most = std::max(most, stroke.stamp->spacing);
+  }
+  // Where stamps are finer by more than files' range allows, the largest counts.
+  return voxels.spacing * std::min(std::max(factor, kLeastCell / least), kLargestCell / most);
+}
+
+/// Of factors along three axes, for what stays in proportion.
+double greatestChange(const Vector3& factors) {
+  Eigen::Index axis = 0;
+  (factors - Vector3::Ones()).cwiseAbs().maxCoeff(&axis);
+  return factors[axis];
+}
+
+void carryPins(Body& body, const RigidMove& move) {
+  for (Region& pin : body.pins) {
+    const BodyBounds box = carriedBounds({pin.minimum, pin.maximum}, move);
+    pin.minimum = box.minimum, pin.maximum = box.maximum;
+  }
 }
 
 /// Around points that are taken along.
@@ -202,10 +249,6 @@ void carryLattice(VoxelShape& lattice, const RigidMove& move) {
     setPose(lattice, move.after(poseOf(lattice)));
 }
 
-std::string whyNotScaled(const Body& body) {
-  return std::holds_alternative<VoxelShape>(body.shape) ? "what is sketched keeps its cells; draw more of it" : "";
-}
-
 RigidMove possibleMove(const Body& body, const RigidMove& wanted) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
   if (!voxels || wanted.turns() || !poseOf(*voxels).isNothing()) return wanted;
@@ -228,15 +271,20 @@ Body moved(Body body, const RigidMove& move) {
     else
       setPose(voxels, move.after(poseOf(voxels)));
   }
-  for (Region& pin : body.pins) {
-    const BodyBounds box = carriedBounds({pin.minimum, pin.maximum}, move);
-    pin.minimum = box.minimum, pin.maximum = box.maximum;
-  }
+  carryPins(body, move);
   if (move.turns()) body.temperatureGradient = move.turn * body.temperatureGradient;
   return body;
 }
 
-Body scaled(Body body, const Vector3& factors) {
+Body scaled(Body body, const Vector3& factors, const Vector3& shift) {
+  const RigidMove move{Quaternion::Identity(), shift};
+  if (auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
+    // Its cells are no longer the scene's: it need not go by whole ones.
+    const Vector3 way = poseOf(*voxels).turn.conjugate() * shift;
+    resize(*voxels, possibleSpacing(*voxels, greatestChange(factors)), way);
+    carryPins(body, move);
+    return body;
+  }
   if (auto* box = std::get_if<BoxShape>(&body.shape)) {
     box->size = box->size.cwiseProduct(factors);
   } else if (auto* solid = std::get_if<SolidShape>(&body.shape)) {
@@ -247,10 +295,15 @@ Body scaled(Body body, const Vector3& factors) {
     const bool isWalled = kind == SolidForm::Kind::Tube || kind == SolidForm::Kind::Bowl;
     if (isWalled && factors == Vector3::Constant(factors[0])) solid->parameters.values["wall"] = wall * factors[0];
   }
-  return body;
+  return moved(std::move(body), move);
 }
 
 Body sizedAs(Body body, const Body& other) {
+  if (auto* voxels = std::get_if<VoxelShape>(&body.shape)) {
+    const auto* wanted = std::get_if<VoxelShape>(&other.shape);
+    if (wanted && wanted->spacing != voxels->spacing) resize(*voxels, wanted->spacing, Vector3::Zero());
+    return body;
+  }
   const std::optional<SolidShape> own = solidIn(body), wanted = solidIn(other);
   if (!own || !wanted || sameForm(*own, *wanted)) return body;
   SolidShape sized = *wanted;

@@ -30,17 +30,17 @@ VoxelShape latticeOf(const VoxelShape& voxels);
 /// Takes a lattice along.
 void carryLattice(VoxelShape& lattice, const RigidMove& move);
 
-/// "" or why it cannot be made larger or smaller.
-std::string whyNotScaled(const Body& body);
 /// The nearest move that a body's form can make: sketches that were never turned go by whole cells, so that more can be
 /// drawn beside them on the same lattice.
 RigidMove possibleMove(const Body& body, const RigidMove& wanted);
 /// The body at another pose, with its pins and what varies along it; the move is one that it can make. Pins become the
 /// boxes around what they were, a block of whole layers that is turned the solid block of its place and size.
 Body moved(Body body, const RigidMove& move);
-/// The body with its sizes along its own axes (of a solid) or the scene's times these factors, about its pivot. Not of
-/// sketches.
-Body scaled(Body body, const Vector3& factors);
+/// The body with its sizes along its own axes (of a solid) or the scene's times these factors, about its pivot, which
+/// goes by `shift` m. A sketch stays in proportion, by the factor that changes most: its cells become larger or smaller
+/// with its strokes, and are filled with particles of the scene's spacing. What brushes have of their own but a size
+/// stays as it is.
+Body scaled(Body body, const Vector3& factors, const Vector3& shift = Vector3::Zero());
 /// The body with the sizes of another one of its kind, where it stands.
 Body sizedAs(Body body, const Body& other);
 /// How what was made of one body comes to stand where the other would be made; nothing where the shapes differ in more

@@ -7,6 +7,7 @@
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/engine.h"
+#include "core/sketch/redraw.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
@@ -122,6 +123,7 @@ class TestCarrying : public QObject {
   void aPlaceIsAParameterToo();
   void posesAreFoundAgain();
   void aSketchIsTurned();
+  void aSketchIsScaled();
   void aBlockOfLayersIsTurned();
   void goneBackItStandsWhereTheDocumentHasIt();
 
@@ -390,6 +392,58 @@ void TestCarrying::aSketchIsTurned() {
   const Project read = readProject(writeProject(saved), "", m_plugins).project;
   QVERIFY(std::get<VoxelShape>(read.bodies[0].shape) == turned);
   QCOMPARE(Engine(read, m_plugins).stateHash(), engine.stateHash());
+}
+
+/// A sketch becomes larger and smaller with its strokes, wherever it stands: its matter fills it at the next reset, and
+/// drawn again from the strokes it is as large.
+void TestCarrying::aSketchIsScaled() {
+  Project project = inSpace("bonds");
+  Body& sketch = project.bodies[0];
+  sketch.velocity = sketch.spin = {0, 0, 0};
+  const api::BrushPlugin* ball = m_plugins.brush("sphere");
+  QVERIFY(ball);
+  VoxelShape shape;
+  shape.spacing = kSpacing;
+  shape.origin = Vector3::Constant(kSpacing / 2);
+  shape.palette = {{"water", 260}};
+  shape.strokes.emplace_back().brush = "sphere";
+  shape.strokes[0].radius = 0.1;
+  shape.strokes[0].samples = {{0.05, 0.1, -0.03, 1, 0}, {0.15, 0.1, -0.03, 1, 0.1}};
+  const auto drawn = [&](const VoxelShape& from) {
+    const auto free = [](const SketchGrid&, const CellSet& cells) { return cells; };
+    return redrawn(from, kSpacing, free, [&](const std::string&) { return ball; });
+  };
+  sketch.shape = shape = drawn(shape);
+  const Body first = sketch;
+  const Vector3 shift(0.013, 0.004, -0.02);
+  for (const RigidMove& pose :
+       {RigidMove{}, RigidMove::about({0.1, 0, 0.2}, Quaternion(Eigen::AngleAxisd(0.7, Vector3(0, 0, 1))))}) {
+    Body before = first;
+    if (!pose.isNothing()) before = moved(before, pose);
+    for (const double factor : {2.0, 0.6}) {
+      const Body after = scaled(before, {1, factor, 1}, shift);
+      const auto& larger = std::get<VoxelShape>(after.shape);
+      QCOMPARE(larger.spacing, factor * kSpacing);
+      QVERIFY(larger.runs == shape.runs);
+      QVERIFY((pivotOf(after) - pivotOf(before) - shift).norm() < 1e-12);
+      const auto carried = moveBetween(sizedAs(before, after), after);
+      QVERIFY(carried && !carried->turns() && (carried->shift - shift).norm() < 1e-12);
+      // A sphere of n cells across has a surface whose cells a resampled or a redrawn one may gain or lose.
+      const double count = particleCount(after, kSpacing), room = 0.06;
+      project.bodies[0] = after;
+      const Engine engine(project, m_plugins);
+      QVERIFY(std::abs(static_cast<double>(engine.particles().size()) / count - 1) < room);
+      QVERIFY(std::abs(particleCount(before, kSpacing) * factor * factor * factor / count - 1) < 1e-12);
+      Body again = after;
+      again.shape = drawn(larger);
+      QVERIFY(std::abs(particleCount(again, kSpacing) / count - 1) < room);
+      QVERIFY((centroidOf(again) - centroidOf(after)).norm() < 0.5 * kSpacing);
+      QVERIFY(writeProject(readProject(writeProject(project), "", m_plugins).project) == writeProject(project));
+    }
+  }
+  const Body least = scaled(first, {1e-6, 1e-6, 1e-6}), most = scaled(first, {1e9, 1e9, 1e9});
+  QCOMPARE(std::get<VoxelShape>(least.shape).spacing, 0.0005);  // what files may say
+  QCOMPARE(std::get<VoxelShape>(most.shape).spacing, 10.0);
 }
 
 /// A block of whole layers becomes a solid one as it is turned: its matter goes along, and weighs the same from the

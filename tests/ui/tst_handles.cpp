@@ -224,8 +224,8 @@ class TestHandles : public SampleWindowTest {
     preferences::setHandles({});
   }
 
-  /// What is sketched keeps its cells: it is turned with them, and says why it has no handles to be scaled by.
-  void sketchesAreTurnedButNotScaled() {
+  /// A sketch is scaled as a whole, with its strokes, and turned; each is a step.
+  void sketchesAreScaledAndTurned() {
     Body sketched = ice();
     sketched.name = "Sketched";
     sketched.shape = VoxelShape{};
@@ -233,16 +233,30 @@ class TestHandles : public SampleWindowTest {
     voxels.spacing = m_window->tools().spacing();
     voxels.origin = {0, 0.6, 0};
     voxels.palette.push_back({sketched.material});
-    voxels.runs.push_back({0, 0, 0, 3, 0});
+    for (int k = 0; k < 8; ++k) voxels.runs.push_back({0, k % 2, k / 2, 4, 0});
     const std::string id = document().addBody(sketched);
     const Body before = *document().body(id);
     m_window->selection().selectBody(id);
     m_window->tools().activate("scale");
-    const GizmoPicture shown = *m_window->tools().tool().picture().gizmo;
-    QVERIFY(!shown.gizmo);
-    QVERIFY2(shown.note.contains(QStringLiteral("Sketched")) && shown.note.contains(QStringLiteral("keeps its cells")),
-             qPrintable(shown.note));
-    viewPicture(QStringLiteral("handles-note.png"));
+    QVERIFY(m_window->tools().tool().picture().gizmo->gizmo);
+    view()->frameAll();
+    const size_t count = placesOf(id.c_str()).size();
+    QCOMPARE(count, size_t{32});
+    const int first = document().undoStack().index();
+    dragPart({GizmoPart::Kind::Arm, 1}, {0, -10}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("2"));
+    viewPicture(QStringLiteral("handles-sketch.png"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), first + 1);
+    const BodyBounds small = boundsOf(before), large = boundsOf(*document().body(id));
+    QVERIFY((large.size() - 2 * small.size()).norm() < 1e-9 && (large.middle() - small.middle()).norm() < 1e-9);
+    QCOMPARE(std::get<VoxelShape>(document().body(id)->shape).runs, voxels.runs);
+    toTheStart();
+    QCOMPARE(placesOf(id.c_str()).size(), 8 * count);
+    document().undoStack().undo();
+    QVERIFY(std::get<VoxelShape>(document().body(id)->shape) == std::get<VoxelShape>(before.shape));
+    toTheStart();
+    QCOMPARE(placesOf(id.c_str()).size(), count);
     m_window->tools().activate("rotate");
     view()->frameAll();
     const int steps = document().undoStack().index();

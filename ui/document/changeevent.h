@@ -35,6 +35,12 @@ struct BodyChanged {
   std::vector<ParameterChanged> composition{};
   bool pins = false;  ///< others of its particles are pinned
   bool led = false;
+  struct Resized {
+    double factor = 1;
+    Vector3 about{0, 0, 0};  ///< m
+  };
+  /// A sketch is made larger or smaller at the next reset, before it moves.
+  std::optional<Resized> resized{};
 };
 /// An emitter or a sink came, went, was renamed, hidden or locked; `moved`: nothing but its place has changed. An
 /// emitter goes and comes back together with what it has poured, which `matter` names.

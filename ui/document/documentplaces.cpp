@@ -52,6 +52,12 @@ std::vector<std::string> resized(const Body& from, const Body& to) {
   return keys;
 }
 
+std::optional<BodyChanged::Resized> resizedCells(const Body& from, const Body& to) {
+  const auto *before = std::get_if<VoxelShape>(&from.shape), *after = std::get_if<VoxelShape>(&to.shape);
+  if (!before || !after || before->spacing == after->spacing) return std::nullopt;
+  return BodyChanged::Resized{after->spacing / before->spacing, pivotOf(from)};
+}
+
 }  // namespace
 
 void Document::place(Placement after, const QString& title) {
@@ -92,7 +98,7 @@ void Document::applyPlacement(const Placement& to) {
       notify(ParameterChanged{address, valueOf(std::get<SolidShape>(here.shape).parameters, declared),
                               valueOf(std::get<SolidShape>(before.shape).parameters, declared)});
     }
-    if (move || keys.empty()) notify(BodyChanged{body.id, {}, move, {}, false, to.led});
+    if (move || keys.empty()) notify(BodyChanged{body.id, {}, move, {}, false, to.led, resizedCells(before, here)});
     if (move && before.shape.index() != here.shape.index()) notify(BodyChanged{body.id});  // it has other rows
   }
   for (const BodyPins& pins : to.pins) {

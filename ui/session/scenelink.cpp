@@ -150,10 +150,17 @@ void SceneLink::showFields() {
 
 void SceneLink::onBody(const BodyChanged& event) {
   const auto waits = [this](const ParameterChanged& part) { return m_document.actsAtReset(part.address); };
-  if (event.pins || std::any_of(event.composition.begin(), event.composition.end(), waits)) resetSoon();
+  if (event.pins || event.resized || std::any_of(event.composition.begin(), event.composition.end(), waits))
+    resetSoon();
   for (KnownStroke& known : m_strokes) {
-    const auto stroke = event.move ? known.stroke.lock() : nullptr;
-    if (stroke && stroke->body == event.id) known.way = event.move->after(known.way);
+    const auto stroke = event.move || event.resized ? known.stroke.lock() : nullptr;
+    if (!stroke || stroke->body != event.id) continue;
+    if (event.resized) {
+      const auto& [factor, about] = *event.resized;
+      known.factor *= factor;
+      known.way.shift = about + factor * (known.way.shift - about);
+    }
+    if (event.move) known.way = event.move->after(known.way);
   }
   if (isBroken()) {
     rebuild(m_play);
@@ -220,7 +227,7 @@ void SceneLink::forgetMatter() {
 
 void SceneLink::remember(const StrokeChanged& event) {
   if (event.live) {
-    m_strokes.push_back({event.stroke, true, {}, *event.stroke->matter, event.stroke->onlyNow});
+    m_strokes.push_back({event.stroke, true, {}, 1, *event.stroke->matter, event.stroke->onlyNow});
     drop(m_drawn, event.stroke->matter);
     if (drop(m_cutOff, event.stroke->matter)) resetSoon();
   }
@@ -257,7 +264,9 @@ std::vector<NameMatter> SceneLink::namedMatter() {
       continue;
     }
     named.push_back({keyOf(stroke->matter), stroke->body, stroke->lattice, filledCells(*stroke)});
-    carryLattice(named.back().lattice, known.way);
+    VoxelShape& lattice = named.back().lattice;
+    lattice.origin *= known.factor, lattice.spacing *= known.factor, lattice.shift *= known.factor;
+    carryLattice(lattice, known.way);
   }
   return named;
 }

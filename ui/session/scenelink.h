@@ -109,8 +109,9 @@ class SceneLink : public QObject {
   std::map<MatterKey, KnownMatter> m_matter;  ///< that the engine may know, and of which run
   struct KnownStroke {
     std::weak_ptr<StrokeRecord> stroke;
-    bool done = true;  ///< not undone
-    RigidMove way{};   ///< by which its body has been moved since
+    bool done = true;   ///< not undone
+    RigidMove way{};    ///< by which its body has been moved since
+    double factor = 1;  ///< by which it has been made larger, before that
     MatterKey key = 0;
     bool onlyNow = false;
     uint64_t run = 0;  ///< to which what it drew belongs, once nobody can undo it

@@ -29,12 +29,6 @@ Vector3 placeOf(const Body& body, const MatterPlaces& matter) {
   return known == matter.end() ? centroidOf(body) : known->second;
 }
 
-/// "" or why a body that is not locked is left where it is.
-QString whyNot(const Body& body, Kind kind) {
-  if (kind == Kind::Scale) return QString::fromStdString(whyNotScaled(body));
-  return {};
-}
-
 /// Adds a thing, or notes why it is none of those that can be dragged.
 struct Collector {
   Placeable& out;
@@ -56,7 +50,7 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
     return locked ? QStringLiteral("locked") : cannot ? QString::fromUtf8(why) : QString();
   };
   if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
-    to.add(item, placeOf(*body, matter), nameOf(*body), locked ? QStringLiteral("locked") : whyNot(*body, kind));
+    to.add(item, placeOf(*body, matter), nameOf(*body), unless(false, ""));
   } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
     to.add(item, emitter->point, nameOf(*emitter), unless(kind == Kind::Scale, "its width is its row “Diameter”"));
   } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
@@ -236,7 +230,7 @@ Placement stretched(Placement things, const Vector3& factors, const MatterPlaces
   }
   for (Body& body : things.bodies) {
     const Vector3 shift = way(placeOf(body, matter));
-    body = moved(scaled(std::move(body), factors), {Quaternion::Identity(), shift});
+    body = scaled(std::move(body), factors, shift);
   }
   for (Sink& sink : things.sinks) stretch(sink, factors, way(middleOf(sink)));
   for (Probe& probe : things.probes) {
