@@ -7,7 +7,7 @@ uniform ivec2 used;        // pixels of the picture
 uniform ivec2 first, end;  // of the box that is worked on
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy) + first;
-  if (any(greaterThanEqual(here, end))) return;
+  if (any(greaterThanEqual(here, end)) || isHidden(here, used)) return;
   vec2 uv = (vec2(here) + 0.5) / vec2(used);
   vec4 under = imageLoad(below, here), colour = vec4(0.0);
   if (!shade(here, uv, mat3(inverseView) * viewRay(uv), colour)) colour = vec4(0.0);

@@ -7,7 +7,7 @@ uniform ivec2 used;    // pixels of it
 uniform ivec2 origin;  // where they begin in the image
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(here, used))) return;
+  if (any(greaterThanEqual(here, used)) || isHidden(here, used)) return;
   vec2 uv = (vec2(here) + 0.5) / vec2(used);
   vec4 colour = vec4(0.0);
   if (shade(here, uv, mat3(inverseView) * viewRay(uv), colour)) imageStore(painted, here + origin, colour);

@@ -9,6 +9,7 @@ const float kLightSteps = 8192.0;         // for 1: room for half a million spri
 const uint kOpaque = 64u * uint(kSteps);  // more hides no more
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), block = 8 * ivec2(gl_WorkGroupID.xy);
+  if (isHidden(block, 8, field)) return;
   vec2 ray = viewRay((vec2(here) + 0.5) / vec2(field)).xy;
   float behind = behindAt(here);
   uint hidden = 0u, lit = 0u, weight = 0u;

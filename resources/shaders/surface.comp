@@ -18,6 +18,10 @@ float meetTriangle(int i, vec3 ray, out vec3 direction, out vec4 look) {
 
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), corner = 8 * ivec2(gl_WorkGroupID.xy);
+  if (isHidden(corner, 8, field)) {
+    if (all(lessThan(here, field))) imageStore(distances, here, vec4(kFar));
+    return;
+  }
   vec3 ray = viewRay((vec2(here) + 0.5) * size.zw), facing = vec3(0.0);
   float distance = farthestShown(), belongs = kMatter;
   vec4 look = vec4(0.0);

@@ -35,6 +35,7 @@ bool touches(int i, vec3 middle, vec2 reach) {
 
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), corner = 16 * ivec2(gl_WorkGroupID.xy);
+  if (isHidden(corner, 16, field)) return;
   uint own = gl_LocalInvocationIndex;
   if (own == 0u) findLists(corner);
   barrier();

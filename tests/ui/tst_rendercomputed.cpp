@@ -92,6 +92,8 @@ class TestRenderComputed : public QObject {
   void picturesAreAsDrawn();
   void textureOfTheTargetIsWritten_data();
   void textureOfTheTargetIsWritten();
+  void whatNobodySeesIsLeftOut_data();
+  void whatNobodySeesIsLeftOut();
   void restoresWhatProgramsUse();
   void leavesNothingBehind();
   void passesTakeTime_data();
@@ -182,6 +184,61 @@ void TestRenderComputed::textureOfTheTargetIsWritten() {
   }
   QVERIFY(images[0] == images[1]);
   QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+void TestRenderComputed::whatNobodySeesIsLeftOut_data() {
+  QTest::addColumn<bool>("computed");
+  QTest::addColumn<bool>("ghost");
+  for (const bool computed : {false, true})
+    for (const bool ghost : {false, true})
+      QTest::addRow("%s%s", computed ? "computed" : "drawn", ghost ? ", with a ghost" : "") << computed << ghost;
+}
+
+/// The left third of the picture, which its panel covers too, and a fleck that is too small for a tile: black, but for
+/// an edge of two tiles at most; all the rest is as without a mask, but for what looks over the edge.
+void TestRenderComputed::whatNobodySeesIsLeftOut() {
+  QFETCH(bool, computed);
+  QFETCH(bool, ghost);
+  constexpr int kHidden = kWidth / 3, kEdge = 32, kOver = 16;  // pixels
+  Shot shot = shotFrom(0.7);
+  if (ghost) shot.look = ghostly();
+  const Eye eye = eyeThrough(viewMatrix(shot.camera), -0.4, 0.5, -0.3, 0.2, 0.03, 10);
+  const auto tangent = [&](double x) { return static_cast<float>(-0.4 + 0.9 * x / kWidth); };
+  const float edge = tangent(kHidden);
+  // Both senses of rotation; and far beyond the picture, as masks may reach.
+  auto hidden = std::make_shared<HiddenTriangles>(HiddenTriangles{{-0.4f, -0.3f},
+                                                                  {edge, -0.3f},
+                                                                  {edge, 0.2f},
+                                                                  {-2, 0.2f},
+                                                                  {edge, 0.2f},
+                                                                  {-0.4f, -0.3f},
+                                                                  {-2, 0.2f},
+                                                                  {-2, -0.3f},
+                                                                  {-0.4f, -0.3f},
+                                                                  {0.3f, 0},
+                                                                  {0.31f, 0},
+                                                                  {0.3f, 0.01f}});
+  Renderer renderer(computed ? PixelWork::Computed : PixelWork::Drawn);
+  renderer.show(hand());
+  renderer.prepare(everything(), nullptr, 1, tray(), shot.look);
+  std::vector<Image> images;
+  for (const auto& mask : {std::shared_ptr<HiddenTriangles>(), hidden, hidden, std::shared_ptr<HiddenTriangles>()}) {
+    const Sheet sheet(GL_RGBA8, true, kWidth, kHeight);
+    renderer.draw(eye, {sheet.framebuffer, 0, 0, shot.size, sheet.texture, mask});
+    images.push_back(sheet.read(kWidth, kHeight));
+  }
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  QVERIFY(images[1] == images[2]);
+  QVERIFY(images[0] == images[3]);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const size_t at = static_cast<size_t>((y * kWidth + x) * 4 + k);
+        const int whole = images[0][at], masked = images[1][at];
+        const bool left = x < kHidden - kEdge, near = x < kHidden + kOver;
+        QVERIFY2(left ? masked == 0 : near || masked == whole,
+                 qPrintable(QStringLiteral("%1, %2: %3, %4").arg(x).arg(y).arg(masked).arg(whole)));
+      }
 }
 
 void TestRenderComputed::restoresWhatProgramsUse() {

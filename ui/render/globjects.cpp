@@ -9,7 +9,8 @@
 namespace ps::render {
 namespace {
 
-GLuint compile(GLenum stage, const Program::Files& files) {
+GLuint compile(GLenum stage, Program::Files files) {
+  if (stage == GL_COMPUTE_SHADER) files.insert(files.begin(), "hidden.glsl");
   std::string source = "#version 430 core\n";
   source += embeddedText("frame.glsl");
   for (const char* file : files) {

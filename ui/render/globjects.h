@@ -17,7 +17,8 @@ namespace ps::render {
 class Program {
  public:
   using Files = std::vector<const char*>;
-  /// Names of embedded files, which follow frame.glsl in this order. Throws Error with the compiler's words.
+  /// Names of embedded files, which follow frame.glsl, and hidden.glsl where they compute, in this order. Throws Error
+  /// with the compiler's words.
   Program(const Files& vertex, const Files& fragment);
   explicit Program(const Files& compute);
   ~Program();

@@ -11,7 +11,7 @@ namespace ps::render {
 class GlState {
  public:
   static constexpr int kUnits = 8;
-  static constexpr int kImages = 3, kStorages = 7;  ///< of programs that compute
+  static constexpr int kImages = 3, kStorages = 8;  ///< of programs that compute
   GlState();
   ~GlState();
   GlState(const GlState&) = delete;

@@ -11,6 +11,7 @@ void Passes::drawNearest(const Job& job, const Texture& to, Texture& depth, Rang
   const Target target({&to}, &depth);
   clearDepth();
   clearColour(0, kFar, 0, 0, 0);
+  hideInDepth(job);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   m_drawing->fluidDepth.use();

@@ -165,4 +165,30 @@ void Passes::drawPanels(const Job& job) {
   glDisable(GL_BLEND);
 }
 
+/// Before all else, so that nothing is drawn where nobody sees it. Into the depth of the target that is bound.
+void Passes::hideInDepth(const Job& job) {
+  if (job.frame.hiddenTiles.empty()) return;
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_ALWAYS);
+  glDepthRange(0, 0);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  m_programs.hidden.use();
+  drawTiles({m_hiddenTiles, job.frame.hiddenTiles});
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthRange(0, 1);
+}
+
+/// Black, for who looks on: there the passes before have left what was there.
+void Passes::drawHidden(const Job& job) {
+  const ViewFrame& frame = job.frame;
+  if (frame.hiddenTiles.empty()) return;
+  const int scale = frame.still ? 2 : 1;
+  glBindFramebuffer(GL_FRAMEBUFFER, frame.place.framebuffer);
+  glViewport(frame.place.x, frame.place.y, frame.width / scale, frame.height / scale);
+  glDisable(GL_DEPTH_TEST);
+  m_programs.hidden.use();
+  drawTiles({m_hiddenTiles, frame.hiddenTiles});
+}
+
 }  // namespace ps::render

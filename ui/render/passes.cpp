@@ -112,8 +112,12 @@ void Passes::uploadFrame(const ViewFrame& frame) {
                                       {&m_detailTiles, &frame.detailTiles},
                                       {&m_outlineTiles, &frame.outlineTiles},
                                       {&m_ghostTiles, &frame.ghostTiles},
-                                      {&m_allTiles, &frame.allTiles}})
+                                      {&m_allTiles, &frame.allTiles},
+                                      {&m_hiddenTiles, &frame.hiddenTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
+  if (!m_quality.compute) return;
+  m_hiddenBits.upload(GL_SHADER_STORAGE_BUFFER, frame.hiddenBits.data(), frame.hiddenBits.size() * sizeof(uint32_t));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, m_hiddenBits.name());
 }
 
 void Passes::drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
@@ -159,6 +163,7 @@ void Passes::drawSurfaces(const Job& job) {
   glDepthMask(GL_TRUE);
   glClearBufferfi(GL_DEPTH_STENCIL, 0, 1, 0);
   clearColour(2, kFar, 0, 0, 0);  // the others are read only where something was drawn
+  hideInDepth(job);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_STENCIL_TEST);
@@ -336,6 +341,7 @@ void Passes::drawOver(const Job& job) {
   clock.mark("final");
   if (prepared.instances.outlined && !frame.still) drawOutline(job, frame.place);
   if (!prepared.props.panels.empty()) drawPanels(job);
+  drawHidden(job);
   clock.mark("outline and panels");
 }
 

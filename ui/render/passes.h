@@ -99,6 +99,8 @@ class Passes {
   void drawFinal(const Job& job);
   void computeFinal(const Job& job);
   void drawPanels(const Job& job);
+  void hideInDepth(const Job& job);
+  void drawHidden(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
                      int triangles = 1);
   void tellParticles(const Program& program, const Buffer& particles, Range range);
@@ -123,9 +125,9 @@ class Passes {
     std::shared_ptr<const PanelImage> image;  ///< that it holds
   };
   std::list<PanelPicture> m_panelPictures;
-  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles, m_ghostTiles,
-      m_allTiles;  // of the picture being drawn
-  Fence m_fence;   // behind the last call, whose context may have been another
+  Buffer m_uniforms, m_visible, m_liquidTiles, m_detailTiles, m_outlineTiles, m_ghostTiles, m_allTiles, m_hiddenTiles,
+      m_hiddenBits;  // of the picture being drawn
+  Fence m_fence;     // behind the last call, whose context may have been another
 };
 
 }  // namespace ps::render

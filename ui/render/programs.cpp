@@ -29,6 +29,7 @@ Programs::Programs(bool computed)
       ghost(overProgram(computed, {"ghost.glsl"})),
       panel({"panel.vert"}, {"panel.frag"}),
       outline({"tiles.vert"}, {"outline.frag"}),
+      hidden({"tiles.vert"}, {"hidden.frag"}),
       final(pixelProgram(computed, {"final.glsl"})),
       still(computed ? pixelProgram(computed, {"final.glsl"})
                      : Program(Program::Files{"fullscreen.vert"}, Program::Files{"final.glsl", "pixel.frag"})) {}

@@ -66,6 +66,10 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
+/// Parts of an eye's window through which nobody sees, as behind the edge of a lens: corners of triangles, each as the
+/// tangents of its angles to the line of sight, to the right and up.
+using HiddenTriangles = std::vector<std::array<float, 2>>;
+
 /// The rectangle of a framebuffer that a picture fills; nothing outside of it is touched.
 struct RenderTarget {
   uint32_t framebuffer = 0;  ///< its name in the context that is current; 0: the window's own
@@ -74,6 +78,8 @@ struct RenderTarget {
   /// Two-dimensional texture that is all the framebuffer has of colour, so that programs may compute into it; 0:
   /// unknown.
   uint32_t texture = 0;
+  /// What need not be drawn, and is left black, but for an edge; nullptr: all is seen.
+  std::shared_ptr<const HiddenTriangles> hidden = nullptr;
 };
 
 /// The scene's furniture that is drawn around particles.

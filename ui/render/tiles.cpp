@@ -40,6 +40,20 @@ void TileSet::markAll() { std::fill(m_marks.begin(), m_marks.end(), 1); }
 
 bool TileSet::full() const { return std::find(m_marks.begin(), m_marks.end(), 0) == m_marks.end(); }
 
+bool TileSet::any() const { return std::find(m_marks.begin(), m_marks.end(), 1) != m_marks.end(); }
+
+void TileSet::remove(const TileSet& other) {
+  for (size_t i = 0; i < m_marks.size(); ++i)
+    if (other.m_marks[i]) m_marks[i] = 0;
+}
+
+void TileSet::pack(std::vector<uint32_t>& out) const {
+  out.assign(1 + (m_marks.size() + 31) / 32, 0);
+  out[0] = static_cast<uint32_t>(m_columns);
+  for (size_t i = 0; i < m_marks.size(); ++i)
+    if (m_marks[i]) out[1 + i / 32] |= 1u << (i % 32);
+}
+
 void TileSet::triangles(std::vector<Corner>& out) const {
   out.clear();
   const auto u = [&](int x) { return static_cast<float>(x * kTile) / static_cast<float>(m_width); };

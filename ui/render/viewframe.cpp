@@ -82,6 +82,8 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   chooseThickness(prepared, eye, quality.fluidScale);
   fillUniforms(prepared, eye);
   findTiles(prepared, eye);
+  hide(target, eye);
+  listTiles();
 }
 
 void ViewFrame::fillUniforms(const Prepared& prepared, const Eye& eye) {
@@ -127,7 +129,6 @@ void ViewFrame::chooseThickness(const Prepared& prepared, const Eye& eye, int fi
 void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
   for (TileSet* tiles : {&liquid, &detail, &outline, &ghost, &all}) tiles->reset(width, height);
   all.markAll();
-  all.triangles(allTiles);
   if (culled) {
     const Instances& instances = prepared.instances;
     const Projector projector(eye, width, height);
@@ -143,6 +144,20 @@ void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
   } else {
     for (TileSet* tiles : {&liquid, &detail, &outline, &ghost}) tiles->markAll();
   }
+}
+
+void ViewFrame::hide(const RenderTarget& target, const Eye& eye) {
+  hiddenTiles.clear();
+  hiddenBits.assign(2, 0);
+  const TileSet* hidden = m_hidden.find(target.hidden, eye, width, height);
+  if (!hidden) return;
+  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost, &all}) tiles->remove(*hidden);
+  hidden->triangles(hiddenTiles);
+  hidden->pack(hiddenBits);
+}
+
+void ViewFrame::listTiles() {
+  all.triangles(allTiles);
   outline.triangles(outlineTiles);
   ghost.triangles(ghostTiles);
   liquid.triangles(liquidTiles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "ui/render/camera.h"
+#include "ui/render/hiddentiles.h"
 #include "ui/render/instances.h"
 #include "ui/render/layers.h"
 #include "ui/render/tiles.h"
@@ -34,6 +35,8 @@ struct ViewFrame {
   std::vector<TileSet::Corner> outlineTiles;    ///< where the outline may be
   std::vector<TileSet::Corner> ghostTiles;      ///< where the ghost may be
   std::vector<TileSet::Corner> allTiles;        ///< the whole picture
+  std::vector<TileSet::Corner> hiddenTiles;     ///< where nobody sees anything; none of the others are there
+  std::vector<uint32_t> hiddenBits;             ///< the same as TileSet::pack()
   std::array<int, 4> vapourBox{};               ///< x, y, width, height of the pixels that vapour may touch
 
   /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card
@@ -44,6 +47,10 @@ struct ViewFrame {
   void fillUniforms(const Prepared& prepared, const Eye& eye);
   void chooseThickness(const Prepared& prepared, const Eye& eye, int finest);
   void findTiles(const Prepared& prepared, const Eye& eye);
+  void hide(const RenderTarget& target, const Eye& eye);
+  void listTiles();
+
+  HiddenTiles m_hidden;
 };
 
 /// Pixels along a side of the inner targets for one of the picture's.

@@ -10,6 +10,7 @@
 #include "ui/vr/mirror.h"
 #include "ui/vr/refreshrate.h"
 #include "ui/vr/suggestions.h"
+#include "ui/vr/visibilitymask.h"
 
 #include <algorithm>
 #include <chrono>
@@ -41,8 +42,8 @@ Eye eyeOf(const XrView& view, double near, double far) {
 /// Extensions that are used where they are offered.
 std::vector<std::string> wishes() {
   std::vector<std::string> names = extensionsOfControllers();
-  names.insert(names.end(),
-               {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension, DepthLayer::kExtension});
+  names.insert(names.end(), {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension,
+                             DepthLayer::kExtension, VisibilityMask::kExtension});
   return names;
 }
 
@@ -73,6 +74,7 @@ class Headset::Loop {
         m_runtime(wishes()),
         m_session(m_runtime),
         m_rate(m_runtime, m_session.handle()),
+        m_mask(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
         m_scene(setup.makeScene()) {
     const auto sizes = recommendedSizes(m_runtime);
@@ -82,7 +84,10 @@ class Headset::Loop {
 
   Session& session() { return m_session; }
   void handleEvents() {
-    m_session.handleEvents([this](const XrEventDataBuffer& event) { m_rate.notice(event); });
+    m_session.handleEvents([this](const XrEventDataBuffer& event) {
+      m_rate.notice(event);
+      m_mask.notice(event);
+    });
     m_hertz = m_rate.hertz();
   }
 
@@ -131,7 +136,8 @@ class Headset::Loop {
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
     EyePicture& picture = *m_pictures[eye];
     const steady_clock::time_point asked = steady_clock::now();
-    const RenderTarget target = picture.acquire(m_detail.scale());
+    RenderTarget target = picture.acquire(m_detail.scale());
+    target.hidden = m_mask.hidden(eye);
     const bool hasDepth = m_depth && m_depth->isTaken();
     const RenderTarget depth = hasDepth ? m_depth->acquire(eye) : RenderTarget();
     m_waited += std::chrono::duration<double>(steady_clock::now() - asked).count();
@@ -156,6 +162,7 @@ class Headset::Loop {
   Runtime m_runtime;
   Session m_session;
   RefreshRate m_rate;
+  VisibilityMask m_mask;
   Hands m_hands;
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;

@@ -47,6 +47,7 @@ class Script {
   bool realTime = false;               ///< frames last as long as they say
   std::vector<std::string> extensions;
   std::vector<float> refreshRates = {72, 90, 120};  ///< Hz, that can be asked for
+  float hiddenCorners = 0.3f;                       ///< of half a window's side, that the mask hides at each corner
   bool stage = true;                                ///< there is a space of the floor
   std::vector<int64_t> formats;                     ///< of OpenGL, the preferred one first
   std::vector<ScriptEvent> events;                  ///< by frame

@@ -118,6 +118,8 @@ void ScriptReader::readTop(Script& script, const std::string& key, const json& v
     script.refreshRates.clear();
     for (const json& rate : list(value, pointer))
       script.refreshRates.push_back(static_cast<float>(number(rate, pointer, 1, 1000)));
+  } else if (key == "hidden_corners") {
+    script.hiddenCorners = static_cast<float>(number(value, pointer, 0, 1));
   } else if (key == "stage") {
     script.stage = boolean(value, pointer);
   } else if (key == "formats") {
@@ -215,8 +217,8 @@ void ScriptReader::readEvent(Script& script, const json& value, const std::strin
   ScriptEvent event{-1, value};
   if (value.contains("frame")) event.frame = number(value["frame"], pointer + "/frame", -1, kAnyFrame);
   std::string kind;
-  for (const std::string_view known :
-       {"state", "fail", "dies", "session_lost", "instance_loss", "profile", "recentre", "refresh_rate", "events_lost"})
+  for (const std::string_view known : {"state", "fail", "dies", "session_lost", "instance_loss", "profile", "recentre",
+                                       "refresh_rate", "events_lost", "hidden_corners"})
     if (value.contains(known)) kind = known;
   if (kind.empty()) refuse(pointer, "says nothing that can happen");
   checkEvent(kind, value, pointer);
@@ -248,6 +250,7 @@ void ScriptReader::checkEvent(const std::string& kind, const json& value, const 
     refuse(pointer + "/hand", "must be left or right");
   if (kind == "recentre") pose(value[kind], place);
   if (kind == "refresh_rate") number(value[kind], place, 1, 1000);
+  if (kind == "hidden_corners") number(value[kind], place, 0, 1);
   if (kind == "events_lost") number(value[kind], place, 1, kAnyFrame);
 }
 

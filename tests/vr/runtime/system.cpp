@@ -98,7 +98,11 @@ XrResult getVisibilityMask(Instance& instance, XrSession handle, XrViewConfigura
   require(kind == XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, XR_ERROR_VALIDATION_FAILURE,
           "this runtime has a mask of hidden triangles only");
   typed(mask, XR_TYPE_VISIBILITY_MASK_KHR);
-  const float edge = std::tan(instance.script.fieldOfView / 2), inner = 0.7f * edge;
+  if (instance.script.hiddenCorners <= 0) {
+    mask->vertexCountOutput = mask->indexCountOutput = 0;
+    return XR_SUCCESS;
+  }
+  const float edge = std::tan(instance.script.fieldOfView / 2), inner = (1 - instance.script.hiddenCorners) * edge;
   constexpr float kSigns[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   const auto vertex = [&](size_t i, XrVector2f& place) {
     const auto& [x, y] = kSigns[i / 3];

@@ -2,6 +2,7 @@
 #include "tests/vr/runtime/timeline.h"
 
 #include "tests/vr/runtime/lifecycle.h"
+#include "tests/vr/runtime/limits.h"
 #include "tests/vr/runtime/names.h"
 #include "tests/vr/runtime/scriptreader.h"
 
@@ -39,6 +40,18 @@ void loseInstance(Instance& instance) {
   post(instance, event);
 }
 
+void changeMask(Instance& instance, float corners) {
+  instance.script.hiddenCorners = corners;
+  if (!instance.session || !has(instance, XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) return;
+  for (uint32_t eye = 0; eye < kEyes; ++eye) {
+    auto event = structure<XrEventDataVisibilityMaskChangedKHR>(XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR);
+    event.session = instance.sessionHandle;
+    event.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    event.viewIndex = eye;
+    post(instance, event);
+  }
+}
+
 void apply(Instance& instance, const json& what) {
   const std::string kind = what["kind"];
   if (kind == "state") {
@@ -58,6 +71,8 @@ void apply(Instance& instance, const json& what) {
     recentre(instance, what);
   } else if (kind == "refresh_rate") {
     changeRefreshRate(instance, what["refresh_rate"]);
+  } else if (kind == "hidden_corners") {
+    changeMask(instance, what["hidden_corners"]);
   } else if (kind == "events_lost") {
     auto event = structure<XrEventDataEventsLost>(XR_TYPE_EVENT_DATA_EVENTS_LOST);
     event.lostEventCount = what["events_lost"];
