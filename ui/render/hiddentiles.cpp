@@ -95,8 +95,8 @@ void mark(TileSet& tiles, const HiddenTriangles& triangles, const std::array<dou
 
 }  // namespace
 
-const TileSet* HiddenTiles::find(const std::shared_ptr<const HiddenTriangles>& triangles, const Eye& eye, int width,
-                                 int height) {
+const HiddenTiles::Hidden* HiddenTiles::find(const std::shared_ptr<const HiddenTriangles>& triangles, const Eye& eye,
+                                             int width, int height) {
   if (!triangles || triangles->empty()) return nullptr;
   const std::array<double, 4> window = windowOf(eye);
   const auto known = std::find_if(m_found.begin(), m_found.end(), [&](const Found& one) {
@@ -106,11 +106,14 @@ const TileSet* HiddenTiles::find(const std::shared_ptr<const HiddenTriangles>& t
     m_found.splice(m_found.begin(), m_found, known);
   } else {
     m_found.push_front({triangles, window, width, height, {}});
-    mark(m_found.front().tiles, *triangles, window, width, height);
+    Hidden& hidden = m_found.front().hidden;
+    mark(hidden.tiles, *triangles, window, width, height);
+    hidden.tiles.triangles(hidden.corners);
+    hidden.tiles.pack(hidden.bits);
     if (m_found.size() > kKept) m_found.pop_back();
   }
-  const TileSet& tiles = m_found.front().tiles;
-  return tiles.any() ? &tiles : nullptr;
+  const Hidden& hidden = m_found.front().hidden;
+  return hidden.corners.empty() ? nullptr : &hidden;
 }
 
 }  // namespace ps::render

@@ -129,6 +129,17 @@ void Passes::drawOutline(const Job& job, const PicturePlace& place) {
   glDisable(GL_BLEND);
 }
 
+/// In the vertex array that is bound.
+void Passes::panelAttributes() {
+  glBindBuffer(GL_ARRAY_BUFFER, m_panels.name());
+  constexpr GLsizei kStride = 5 * sizeof(float);
+  for (const auto& [index, size, offset] : {std::array{0, 3, 0}, {1, 2, 3}}) {
+    glEnableVertexAttribArray(static_cast<GLuint>(index));
+    glVertexAttribPointer(static_cast<GLuint>(index), size, GL_FLOAT, GL_FALSE, kStride,
+                          reinterpret_cast<const void*>(static_cast<size_t>(offset) * sizeof(float)));
+  }
+}
+
 /// Over the smoothed picture: what is written on them stays sharp. Matter does not hide them, only hands do.
 void Passes::drawPanels(const Job& job) {
   const auto& [prepared, frame, layers, plain, clock] = job;
@@ -149,13 +160,7 @@ void Passes::drawPanels(const Job& job) {
   glUniform2i(program.at("origin"), frame.place.x, frame.place.y);
   const VertexArray array;
   array.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, m_panels.name());
-  constexpr GLsizei kStride = 5 * sizeof(float);
-  for (const auto& [index, size, offset] : {std::array{0, 3, 0}, {1, 2, 3}}) {
-    glEnableVertexAttribArray(static_cast<GLuint>(index));
-    glVertexAttribPointer(static_cast<GLuint>(index), size, GL_FLOAT, GL_FALSE, kStride,
-                          reinterpret_cast<const void*>(static_cast<size_t>(offset) * sizeof(float)));
-  }
+  panelAttributes();
   auto picture = m_panelPictures.begin();
   for (size_t k = 0; k < prepared.props.panels.size(); ++k) {
     program.texture("image", 0, (picture++)->texture.name());
@@ -165,16 +170,45 @@ void Passes::drawPanels(const Job& job) {
   glDisable(GL_BLEND);
 }
 
+void Passes::drawDepth(const Prepared& prepared, const Layers& layers, const RenderTarget& target, size_t panels) {
+  m_fence.wait();
+  PassClock clock(m_times);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, m_uniforms.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  glViewport(target.x, target.y, target.size.width, target.size.height);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_ALWAYS);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  const Program& program = m_programs.depth;
+  program.use();
+  program.texture("distanceTexture", 0, layers.distance.name());
+  program.texture("fluidTexture", 1, layers.fluid.name());
+  glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
+  const VertexArray array;
+  array.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_CULL_FACE);  // panels have one side
+  m_programs.panelDepth.use();
+  panelAttributes();
+  glDrawArrays(GL_TRIANGLES, 0, 6 * static_cast<GLsizei>(std::min(panels, prepared.props.panels.size())));
+  glDisable(GL_CULL_FACE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  clock.mark("depths");
+  m_fence.set();
+}
+
 /// Before all else, so that nothing is drawn where nobody sees it. Into the depth of the target that is bound.
 void Passes::hideInDepth(const Job& job) {
-  if (job.frame.hiddenTiles.empty()) return;
+  if (!job.frame.hidden) return;
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_ALWAYS);
   glDepthRange(0, 0);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   m_programs.hidden.use();
-  drawTiles({m_hiddenTiles, job.frame.hiddenTiles});
+  drawTiles({m_hiddenTiles, job.frame.hidden->corners});
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthRange(0, 1);
 }
@@ -182,13 +216,13 @@ void Passes::hideInDepth(const Job& job) {
 /// Black, for who looks on: there the passes before have left what was there.
 void Passes::drawHidden(const Job& job) {
   const ViewFrame& frame = job.frame;
-  if (frame.hiddenTiles.empty()) return;
+  if (!frame.hidden) return;
   const int scale = frame.still ? 2 : 1;
   glBindFramebuffer(GL_FRAMEBUFFER, frame.place.framebuffer);
   glViewport(frame.place.x, frame.place.y, frame.width / scale, frame.height / scale);
   glDisable(GL_DEPTH_TEST);
   m_programs.hidden.use();
-  drawTiles({m_hiddenTiles, frame.hiddenTiles});
+  drawTiles({m_hiddenTiles, frame.hidden->corners});
 }
 
 }  // namespace ps::render

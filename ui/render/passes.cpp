@@ -112,11 +112,15 @@ void Passes::uploadFrame(const ViewFrame& frame) {
                                       {&m_detailTiles, &frame.detailTiles},
                                       {&m_outlineTiles, &frame.outlineTiles},
                                       {&m_ghostTiles, &frame.ghostTiles},
-                                      {&m_allTiles, &frame.allTiles},
-                                      {&m_hiddenTiles, &frame.hiddenTiles}})
+                                      {&m_allTiles, &frame.allTiles}})
     buffer->upload(GL_ARRAY_BUFFER, tiles->data(), tiles->size() * sizeof(TileSet::Corner));
+  if (frame.hidden)
+    m_hiddenTiles.upload(GL_ARRAY_BUFFER, frame.hidden->corners.data(),
+                         frame.hidden->corners.size() * sizeof(TileSet::Corner));
   if (!m_quality.compute) return;
-  m_hiddenBits.upload(GL_SHADER_STORAGE_BUFFER, frame.hiddenBits.data(), frame.hiddenBits.size() * sizeof(uint32_t));
+  static const std::vector<uint32_t> kAllSeen{0, 0};
+  const std::vector<uint32_t>& bits = frame.hidden ? frame.hidden->bits : kAllSeen;
+  m_hiddenBits.upload(GL_SHADER_STORAGE_BUFFER, bits.data(), bits.size() * sizeof(uint32_t));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, m_hiddenBits.name());
 }
 

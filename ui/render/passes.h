@@ -50,6 +50,8 @@ class Passes {
   void timePasses(std::vector<PassTime>* times) { m_times = times; }
   /// What was prepared last, into the framebuffer that the frame names.
   void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
+  /// How far what that drew last is, and the first of its panels.
+  void drawDepth(const Prepared& prepared, const Layers& layers, const RenderTarget& target, size_t panels);
 
  private:
   /// What the passes of one picture share.
@@ -99,6 +101,7 @@ class Passes {
   void drawFinal(const Job& job);
   void computeFinal(const Job& job);
   void drawPanels(const Job& job);
+  void panelAttributes();
   void hideInDepth(const Job& job);
   void drawHidden(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,

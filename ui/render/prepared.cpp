@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -48,7 +49,8 @@ void Prepared::furnish(const Environment& environment) {
   const bool sameLook = m_dark == look.dark && m_section == look.section;
   if (m_furnished && sameLook && sameFurniture(*m_furnished, environment)) return;
   furniture = buildFurniture(environment, look.dark, look.section);
-  ++furnitureRevision;
+  static std::atomic<uint64_t> last = 0;
+  furnitureRevision = ++last;
   m_furnished = environment;
   m_dark = look.dark;
   m_section = look.section;

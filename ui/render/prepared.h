@@ -18,7 +18,7 @@ struct Prepared {
   Furniture furniture;
   Props props;
   std::vector<EdgeVertex> guides;  ///< triangles
-  uint64_t furnitureRevision = 0;  ///< rises with every change of `furniture`
+  uint64_t furnitureRevision = 0;  ///< another one with every change of `furniture`, of any of these
   ContactMap contact;
   FrameUniforms::Matrix toLight{}, shadow{};  ///< world to clip space of the shadow picture, and to its texture
   std::array<float, 2> shadowScale{};         ///< metres to clip space

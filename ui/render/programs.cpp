@@ -30,6 +30,8 @@ Programs::Programs(bool computed)
       panel({"panel.vert"}, {"panel.frag"}),
       outline({"tiles.vert"}, {"outline.frag"}),
       hidden({"tiles.vert"}, {"hidden.frag"}),
+      depth({"fullscreen.vert"}, {"depth.frag"}),
+      panelDepth({"panel.vert"}, {"nothing.frag"}),
       final(pixelProgram(computed, {"final.glsl"})),
       still(computed ? pixelProgram(computed, {"final.glsl"})
                      : Program(Program::Files{"fullscreen.vert"}, Program::Files{"final.glsl", "pixel.frag"})) {}

@@ -14,7 +14,7 @@ Program overProgram(bool computed, Program::Files texts);
 struct Programs {
   explicit Programs(bool computed);
   Program occlusion, fluidSmooth, fluidNormal, fluidLight, steamOver, glass, edge, outlineMask, ghost, panel, outline,
-      hidden, final, still;
+      hidden, depth, panelDepth, final, still;
 };
 
 /// Of shadows, opaque surfaces, liquids and vapour where triangles are drawn.

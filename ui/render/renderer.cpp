@@ -8,6 +8,7 @@
 #include "ui/render/viewframe.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -61,6 +62,22 @@ void Renderer::prepare(const Snapshot& now, const Snapshot* previous, double ble
   m->passes->prepare(m->prepared);
 }
 
+Preparation::Preparation() : m(std::make_unique<render::Prepared>()) {}
+Preparation::~Preparation() = default;
+
+void Preparation::make(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
+                       const Look& look) {
+  m->fill(now, previous, blend, scene, look);
+}
+
+void Renderer::take(Preparation& preparation) {
+  if (!preparation.m->ready) throw Error("there is nothing to take of what was never made");
+  std::swap(m->prepared, *preparation.m);
+  std::swap(m->prepared.props, preparation.m->props);
+  const render::GlState state;
+  m->passes->prepare(m->prepared);
+}
+
 void Renderer::timePasses(std::vector<PassTime>* times) { m->passes->timePasses(times); }
 
 void Renderer::show(const Props& props) {
@@ -94,6 +111,13 @@ void Renderer::draw(const Eye& eye, const RenderTarget& target) {
                 " for a picture of " + sizeText(target.size) + "; ask for a smaller one");
   }
   for (size_t i = 0; i < wanted.size(); ++i) layers.drawn[i] = layers.drawn[i] || wanted[i];
+}
+
+void Renderer::drawDepth(const RenderTarget& target, size_t panels) {
+  const render::Layers* drawn = m->pool.find(m->frame.width, m->frame.height);
+  if (!drawn) throw Error("there are no depths of what was never drawn");
+  const render::GlState state;
+  m->passes->drawDepth(m->prepared, *drawn, target, panels);
 }
 
 }  // namespace ps

@@ -124,6 +124,25 @@ struct PassTime {
 /// the same but for rounding.
 enum class PixelWork { AsSuitsTheCard, Drawn, Computed };
 
+namespace render {
+struct Prepared;
+}
+
+/// What the processor does of preparing a snapshot, on any thread and without a context; a renderer takes it later.
+class Preparation {
+ public:
+  Preparation();
+  ~Preparation();
+  Preparation(const Preparation&) = delete;
+  Preparation& operator=(const Preparation&) = delete;
+  /// As Renderer::prepare().
+  void make(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& look);
+
+ private:
+  friend class Renderer;
+  std::unique_ptr<render::Prepared> m;
+};
+
 /// Draws snapshots: each is prepared once and then drawn any number of times, for two eyes, a mirror, a thumbnail, a
 /// frame of a film. Needs a current OpenGL 4.3 context, whoever made it (viewport, headset, headless), which may be
 /// another one for every call as long as all share their objects; knows no widgets. One thread at a time; views on
@@ -138,11 +157,18 @@ class Renderer {
   /// Everything that does not depend on where it is seen from. `previous` (or nullptr) and `blend` in 0..1 interpolate
   /// between two snapshots; neither is needed afterwards.
   void prepare(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& look);
+  /// What another thread may have made meanwhile, as if it had been prepared here now. What was prepared before goes
+  /// there for its memory.
+  void take(Preparation& preparation);
   /// What is shown besides from now on, whatever is prepared.
   void show(const Props& props);
   /// Draws what was prepared last. Throws Error when nothing was, and when the driver runs out of memory. The same
   /// picture whatever was drawn before, and for two sizes in turn without new storage.
   void draw(const Eye& eye, const RenderTarget& target);
+  /// How far what draw() drew last is, into the depth of a target of any size: 0 at the eye's near plane, 1 at the far
+  /// one and where nothing is. Of panels the first so many count. Vapour and glass, through which one sees, are
+  /// nowhere. Throws Error when nothing was drawn.
+  void drawDepth(const RenderTarget& target, size_t panels);
   /// From now on prepare() and draw() wait for the graphics card and add what each pass took, as long as `times` is not
   /// nullptr: to find out what is slow.
   void timePasses(std::vector<PassTime>* times);

@@ -40,11 +40,9 @@ void TileSet::markAll() { std::fill(m_marks.begin(), m_marks.end(), 1); }
 
 bool TileSet::full() const { return std::find(m_marks.begin(), m_marks.end(), 0) == m_marks.end(); }
 
-bool TileSet::any() const { return std::find(m_marks.begin(), m_marks.end(), 1) != m_marks.end(); }
-
 void TileSet::remove(const TileSet& other) {
   for (size_t i = 0; i < m_marks.size(); ++i)
-    if (other.m_marks[i]) m_marks[i] = 0;
+    m_marks[i] = static_cast<char>(m_marks[i] & ~other.m_marks[i]);  // 0 or 1, without a branch
 }
 
 void TileSet::pack(std::vector<uint32_t>& out) const {

@@ -24,7 +24,6 @@ class TileSet {
   void markAll();
   void remove(const TileSet& other);  ///< of a picture of the same size
   bool full() const;                  ///< all are marked
-  bool any() const;                   ///< at least one is
   int columns() const { return m_columns; }
   int rows() const { return m_rows; }
   bool marked(int column, int row) const { return m_marks[static_cast<size_t>(row * m_columns + column)] != 0; }

@@ -83,7 +83,7 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   fillUniforms(prepared, eye);
   findTiles(prepared, eye);
   hide(target, eye);
-  listTiles();
+  listTiles(quality.compute);
 }
 
 void ViewFrame::fillUniforms(const Prepared& prepared, const Eye& eye) {
@@ -147,18 +147,16 @@ void ViewFrame::findTiles(const Prepared& prepared, const Eye& eye) {
 }
 
 void ViewFrame::hide(const RenderTarget& target, const Eye& eye) {
-  hiddenTiles.clear();
-  hiddenBits.assign(2, 0);
-  const TileSet* hidden = m_hidden.find(target.hidden, eye, width, height);
+  hidden = m_hidden.find(target.hidden, eye, width, height);
   if (!hidden) return;
-  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost, &all}) tiles->remove(*hidden);
-  hidden->triangles(hiddenTiles);
-  hidden->pack(hiddenBits);
+  for (TileSet* tiles : {&liquid, &detail, &outline, &ghost, &all}) tiles->remove(hidden->tiles);
 }
 
-void ViewFrame::listTiles() {
-  all.triangles(allTiles);
+/// Programs that compute work on all of a picture, but for the outline, which is drawn.
+void ViewFrame::listTiles(bool computed) {
   outline.triangles(outlineTiles);
+  if (computed) return;
+  all.triangles(allTiles);
   ghost.triangles(ghostTiles);
   liquid.triangles(liquidTiles);
   detail.triangles(detailTiles);

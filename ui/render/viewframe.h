@@ -35,8 +35,7 @@ struct ViewFrame {
   std::vector<TileSet::Corner> outlineTiles;    ///< where the outline may be
   std::vector<TileSet::Corner> ghostTiles;      ///< where the ghost may be
   std::vector<TileSet::Corner> allTiles;        ///< the whole picture
-  std::vector<TileSet::Corner> hiddenTiles;     ///< where nobody sees anything; none of the others are there
-  std::vector<uint32_t> hiddenBits;             ///< the same as TileSet::pack()
+  const HiddenTiles::Hidden* hidden = nullptr;  ///< where nobody sees anything, if anywhere; no others are there
   std::array<int, 4> vapourBox{};               ///< x, y, width, height of the pixels that vapour may touch
 
   /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card
@@ -48,7 +47,7 @@ struct ViewFrame {
   void chooseThickness(const Prepared& prepared, const Eye& eye, int finest);
   void findTiles(const Prepared& prepared, const Eye& eye);
   void hide(const RenderTarget& target, const Eye& eye);
-  void listTiles();
+  void listTiles(bool computed);
 
   HiddenTiles m_hidden;
 };

@@ -26,6 +26,10 @@ constexpr milliseconds kPause{5};        // between looks at a headset that lies
 constexpr milliseconds kPatience{2000};  // for the runtime to let go, once it was asked
 constexpr double kNanosecond = 1e-9;     // s
 
+double secondsSince(steady_clock::time_point start) {
+  return std::chrono::duration<double>(steady_clock::now() - start).count();
+}
+
 const char* const kNoAnswer = "The headset's software did not answer; it was left all the same.";
 
 Eye eyeOf(const XrView& view, double near, double far) {
@@ -113,8 +117,9 @@ class Headset::Loop {
     layer.viewCount = 2;
     layer.views = shown.data();
     const auto* header = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
-    const double worked = std::chrono::duration<double>(steady_clock::now() - began).count() - m_waited;
+    const double worked = secondsSince(began) - m_waited;
     m_session.endFrame(state.predictedDisplayTime, {&header, 1});
+    if (m_setup.measured) m_setup.measured({worked, secondsSince(began), m_clock.took()});
     m_detail.note(std::max(worked, m_clock.took()), kNanosecond * double(state.predictedDisplayPeriod));
     m_shown = m_detail.scale();
   }
@@ -140,7 +145,7 @@ class Headset::Loop {
     target.hidden = m_mask.hidden(eye);
     const bool hasDepth = m_depth && m_depth->isTaken();
     const RenderTarget depth = hasDepth ? m_depth->acquire(eye) : RenderTarget();
-    m_waited += std::chrono::duration<double>(steady_clock::now() - asked).count();
+    m_waited += secondsSince(asked);
     const Eye seen = eyeOf(view, m_setup.nearPlane, m_setup.farPlane);
     m_scene->draw(eye, seen, target);
     if (hasDepth) {

@@ -34,16 +34,24 @@ class HeadsetScene {
   virtual void draw(size_t eye, const Eye& view, const RenderTarget& target) = 0;
   /// Whether it knows how far what it draws is.
   virtual bool hasDepth() const { return false; }
-  /// Of the same into the depth of a target, after that: 0 at the near plane, 1 at the far one.
+  /// Of the eye that was drawn last, into the depth of a target: 0 at the near plane, 1 at the far one.
   virtual void drawDepth(size_t, const Eye&, const RenderTarget&) {}
+};
+
+/// What a frame took, s.
+struct FrameCost {
+  double processor = 0;  ///< from when the runtime let it begin to when it had it, without waits for pictures
+  double whole = 0;      ///< the same with them
+  double card = 0;       ///< of the newest frame that the graphics card has told of
 };
 
 struct HeadsetSetup {
   /// Of an OpenGL context that the headset's thread has for itself, and that shares with the others' what it shows.
   std::function<void()> makeCurrent, release;
   std::function<std::unique_ptr<HeadsetScene>()> makeScene;
-  std::shared_ptr<Mirror> mirror;           ///< gets the left eye's pictures; nullptr: nobody looks on
-  double nearPlane = 0.03, farPlane = 100;  ///< m
+  std::shared_ptr<Mirror> mirror;                            ///< gets the left eye's pictures; nullptr: nobody looks on
+  double nearPlane = 0.03, farPlane = 100;                   ///< m
+  std::function<void(const FrameCost&)> measured = nullptr;  ///< is told of each frame that shows something, there
 };
 
 /// A stay in the headset, from when it is made. The frames have a thread of their own, which the runtime's

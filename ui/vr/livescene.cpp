@@ -27,15 +27,22 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& f
   m_panels.follow(frame, *m_view);
   tellHands(frame);
   showHands(frame);
-  static const Snapshot kEmpty;
-  const double now = share(frame);
-  if (m_prepared != m_view->picture || m_share != now) {
-    const HeadsetView& view = *m_view;
-    m_renderer.prepare(view.matter ? *view.matter : kEmpty, m_before.get(), now, view.scene, view.look);
-    m_prepared = view.picture;
-    m_share = now;
-  }
+  prepareMatter(frame);
   return feel();
+}
+
+/// For the next frame, but for the first picture of all.
+void LiveScene::prepareMatter(const HeadsetFrame& frame) {
+  m_shows = m_preparing.handTo(m_renderer) || m_shows;
+  const double next = share(frame.time + 2 * frame.period);
+  if (m_preparing.idle() && (m_prepared != m_view->picture || m_share != next)) {
+    m_preparing.begin({m_view, m_before, next});
+    m_prepared = m_view->picture;
+    m_share = next;
+  }
+  if (m_shows) return;
+  m_preparing.wait();
+  m_shows = m_preparing.handTo(m_renderer);
 }
 
 void LiveScene::tellHands(const HeadsetFrame& frame) {
@@ -76,7 +83,6 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
   m_panels.addTo(m_props, m_moving.stand(), *m_view);
   m_panelsThere = m_props.panels.size();
   m_moving.addTo(m_props, frame, m_view->accent);
-  m_depthShown = false;
   m_renderer.show(m_props);
 }
 
@@ -106,20 +112,13 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
   m_view = std::move(view);
 }
 
-double LiveScene::share(const HeadsetFrame& frame) const {
+double LiveScene::share(double seconds) const {
   if (!m_before || m_lasts <= 0) return 1;
-  return std::clamp((frame.time + frame.period - m_came) / m_lasts, 0.0, 1.0);
+  return std::clamp((seconds - m_came) / m_lasts, 0.0, 1.0);
 }
 
-void LiveScene::drawDepth(size_t, const Eye& view, const RenderTarget& target) {
-  static const Snapshot kEmpty;
-  if (!m_depth) m_depth.emplace();
-  if (m_depthPrepared != m_view->picture)
-    m_depth->prepare(m_view->matter ? *m_view->matter : kEmpty, m_view->scene, m_view->look);
-  m_depthPrepared = m_view->picture;
-  if (!m_depthShown) m_depth->show(m_props, m_panelsThere);
-  m_depthShown = true;
-  m_depth->draw(m_moving.stand().toScene(view), target);
+void LiveScene::drawDepth(size_t, const Eye&, const RenderTarget& target) {
+  m_renderer.drawDepth(target, m_panelsThere);
 }
 
 void LiveScene::draw(size_t, const Eye& view, const RenderTarget& target) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "ui/vr/depthpass.h"
 #include "ui/vr/headset.h"
 #include "ui/vr/headsetlink.h"
 #include "ui/vr/moving.h"
 #include "ui/vr/panels.h"
+#include "ui/vr/preparing.h"
 
 namespace ps::vr {
 
 /// The editor's scene, as a table before whoever wears the headset. Matter moves from each picture of it to the next in
-/// the time that lay between their comings, on the headset's clock: its frames go on while the solver works.
+/// the time that lay between their comings, on the headset's clock: its frames go on while the solver works, and while
+/// a picture of the matter is prepared, for the next frame.
 class LiveScene : public HeadsetScene {
  public:
   /// With the headset's context current. Throws Error.
@@ -22,7 +23,8 @@ class LiveScene : public HeadsetScene {
 
  private:
   void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);
-  double share(const HeadsetFrame& frame) const;
+  void prepareMatter(const HeadsetFrame& frame);
+  double share(double seconds) const;
   void tellHands(const HeadsetFrame& frame);
   void showHands(const HeadsetFrame& frame);
   std::array<std::optional<Vibration>, 2> feel();
@@ -35,14 +37,13 @@ class LiveScene : public HeadsetScene {
   Moving m_moving;
   std::array<uint64_t, 2> m_felt{};  ///< ticks
   Panels m_panels;
-  Props m_props;                     ///< kept for its memory
-  size_t m_panelsThere = 0;          ///< of those in it: the others are before the eye
-  std::optional<DepthPass> m_depth;  ///< once it was asked for
-  uint64_t m_depthPrepared = 0;
-  bool m_depthShown = false;  ///< what hands hold, in this frame
-  /// What the renderer has prepared: while only head and hands move, it stays.
+  Props m_props;             ///< kept for its memory
+  size_t m_panelsThere = 0;  ///< of those in it: the others are before the eye
+  /// What is being prepared, or was last: while only head and hands move, it stays.
   uint64_t m_prepared = 0;
-  double m_share = -1;  ///< nothing yet
+  double m_share = -1;   ///< nothing yet
+  bool m_shows = false;  ///< something was prepared
+  Preparing m_preparing;
 };
 
 }  // namespace ps::vr

@@ -55,6 +55,7 @@ void Swapchain::acquire() {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffer);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, m_attachment, GL_TEXTURE_2D, m_textures.at(m_index), 0);
+  if (m_attachment == GL_DEPTH_ATTACHMENT) glDrawBuffer(GL_NONE);  // there is no colour to draw
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
 }
 
