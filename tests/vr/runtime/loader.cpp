@@ -42,7 +42,11 @@ std::string environment(const char* name) {
 // A script that cannot be read is told where a test looks first, and in the log.
 std::optional<Script> readScript() {
   try {
-    return Script(environment("PS_XR_SCRIPT"));
+    Script script(environment("PS_XR_SCRIPT"));
+    const std::string without = "," + environment("PS_XR_WITHOUT") + ",";
+    std::erase_if(script.extensions,
+                  [&](const std::string& name) { return without.find("," + name + ",") != std::string::npos; });
+    return script;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scripted OpenXR runtime: %s\n", error.what());
     Log(environment("PS_XR_LOG")).write({{"script", error.what()}});
