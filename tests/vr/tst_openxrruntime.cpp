@@ -30,6 +30,7 @@ class OpenXrRuntimeTest : public QObject {
   void unendedFrameIsDiscarded();
   void refreshRateIsChosen();
   void hiddenMeshIsTurnedRight();
+  void jointsAreWhereTheHandIs();
   void recentringMovesTheOrigin();
   void lostEventsAreTold();
   void framesMayLastAsLongAsTheySay();
@@ -171,6 +172,47 @@ void OpenXrRuntimeTest::hiddenMeshIsTurnedRight() {
     }
   }
   m_context.release();
+}
+
+/// A hand is where it aims from, in the floor's space; whoever asks for it wrongly hears of it.
+void OpenXrRuntimeTest::jointsAreWhereTheHandIs() {
+  const ScriptedRun run(R"({"keys": [{"frame": 0, "right": {"aim": [1, 1, -1], "joints": "point"}}]})");
+  {
+    RawClient client(m_context, {XR_EXT_HAND_TRACKING_EXTENSION_NAME});
+    const auto create = client.runtime().function<PFN_xrCreateHandTrackerEXT>("xrCreateHandTrackerEXT");
+    const auto locate = client.runtime().function<PFN_xrLocateHandJointsEXT>("xrLocateHandJointsEXT");
+    auto info = structure<XrHandTrackerCreateInfoEXT>(XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT);
+    std::array<XrHandTrackerEXT, 2> trackers{};
+    QCOMPARE(create(client.handle(), &info, &trackers[0]), XR_ERROR_VALIDATION_FAILURE);  // of no hand
+    for (const XrHandEXT hand : {XR_HAND_LEFT_EXT, XR_HAND_RIGHT_EXT}) {
+      info.hand = hand;
+      QCOMPARE(create(client.handle(), &info, &trackers[hand - XR_HAND_LEFT_EXT]), XR_SUCCESS);
+    }
+    client.frames(2);
+    auto where = structure<XrHandJointsLocateInfoEXT>(XR_TYPE_HAND_JOINTS_LOCATE_INFO_EXT);
+    where.baseSpace = client.session().floor();
+    where.time = client.begin();
+    std::array<XrHandJointLocationEXT, XR_HAND_JOINT_COUNT_EXT> joints{};
+    auto all = structure<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
+    all.jointLocations = joints.data();
+    all.jointCount = 3;
+    QCOMPARE(locate(trackers[1], &where, &all), XR_ERROR_VALIDATION_FAILURE);
+    all.jointCount = XR_HAND_JOINT_COUNT_EXT;
+    QCOMPARE(locate(trackers[0], &where, &all), XR_SUCCESS);
+    QVERIFY(!all.isActive && joints[0].locationFlags == 0);
+    QCOMPARE(locate(trackers[1], &where, &all), XR_SUCCESS);
+    QVERIFY(all.isActive);
+    const XrVector3f &palm = joints[XR_HAND_JOINT_PALM_EXT].pose.position,
+                     &tip = joints[XR_HAND_JOINT_INDEX_TIP_EXT].pose.position;
+    QVERIFY(std::abs(palm.x - 1) < 1e-5f && std::abs(palm.y - 1) < 1e-5f && std::abs(palm.z + 1) < 1e-5f);
+    QVERIFY(std::abs(tip.x - 0.975f) < 1e-5f && std::abs(tip.y - 1) < 1e-5f && std::abs(tip.z + 1.13f) < 1e-5f);
+    client.end(where.time, nullptr);
+    const auto destroy = client.runtime().function<PFN_xrDestroyHandTrackerEXT>("xrDestroyHandTrackerEXT");
+    QCOMPARE(destroy(trackers[0]), XR_SUCCESS);
+    QCOMPARE(locate(trackers[0], &where, &all), XR_ERROR_HANDLE_INVALID);
+  }
+  m_context.release();
+  QCOMPARE(run.lines("violation").size(), size_t{3});
 }
 
 void OpenXrRuntimeTest::recentringMovesTheOrigin() {

@@ -3,7 +3,9 @@
 
 #include "ui/render/colourmap.h"
 #include "ui/render/uniforms.h"
+#include "ui/vr/barehand.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -13,7 +15,8 @@ namespace {
 
 using Colour = std::array<float, 3>;
 
-constexpr int kSides = 20;
+constexpr int kSides = 20, kBoneSides = 8;
+constexpr double kThinnest = 0.2;  // of the wrist, where a runtime tells no radius
 constexpr float kOpacity = 0.22f;  // of a brush's volume, seen straight on
 
 MeshVertex corner(const Vector3& place, const Vector3& normal, const Colour& c, float fourth) {
@@ -27,7 +30,7 @@ struct Ring {
 
 /// The band between two rings about the hand's z, smooth around.
 void addBand(std::vector<MeshVertex>& out, const HandPose& hand, double scale, const Ring& a, const Ring& b,
-             const Colour& colour) {
+             const Colour& colour, int sides = kSides) {
   const auto at = [&](const Ring& ring, double angle) -> Vector3 {
     const Vector3 own(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along);
     return hand.position + scale * (hand.orientation * own);
@@ -37,23 +40,25 @@ void addBand(std::vector<MeshVertex>& out, const HandPose& hand, double scale, c
   const auto normal = [&](double angle) -> Vector3 {
     return hand.orientation * Vector3(run * std::cos(angle), run * std::sin(angle), rise).normalized();
   };
-  for (int k = 0; k < kSides; ++k) {
-    const double p = 2 * std::numbers::pi * k / kSides, q = 2 * std::numbers::pi * (k + 1) / kSides;
+  for (int k = 0; k < sides; ++k) {
+    const double p = 2 * std::numbers::pi * k / sides, q = 2 * std::numbers::pi * (k + 1) / sides;
     const MeshVertex corners[] = {corner(at(a, p), normal(p), colour, 0), corner(at(a, q), normal(q), colour, 0),
                                   corner(at(b, q), normal(q), colour, 0), corner(at(b, p), normal(p), colour, 0)};
     for (const int i : {0, 1, 2, 0, 2, 3}) out.push_back(corners[i]);
   }
 }
 
-void addBall(std::vector<MeshVertex>& out, const Vector3& centre, const Vector3& half, const Colour& colour) {
-  constexpr int kRows = 12, kColumns = 24;
+/// `rows`: half of its columns; `fourth`: as in MeshVertex::material.
+void addBall(std::vector<MeshVertex>& out, const Vector3& centre, const Vector3& half, const Colour& colour, int rows,
+             float fourth) {
+  const int columns = 2 * rows;
   const auto at = [&](int row, int column) {
-    const double up = std::numbers::pi * (0.5 - double(row) / kRows), around = 2 * std::numbers::pi * column / kColumns;
+    const double up = std::numbers::pi * (0.5 - double(row) / rows), around = 2 * std::numbers::pi * column / columns;
     const Vector3 unit(std::cos(up) * std::cos(around), std::sin(up), std::cos(up) * std::sin(around));
-    return corner(centre + unit.cwiseProduct(half), unit.cwiseQuotient(half).normalized(), colour, kOpacity);
+    return corner(centre + unit.cwiseProduct(half), unit.cwiseQuotient(half).normalized(), colour, fourth);
   };
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns; ++column) {
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
       const MeshVertex corners[] = {at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)};
       for (const int i : {0, 1, 2, 0, 2, 3}) out.push_back(corners[i]);
     }
@@ -85,6 +90,25 @@ void addWand(Props& props, const HandPose& hand, double scale, const Colour& col
     addBand(props.opaque, hand, scale, kRings[i + 1], kRings[i], *colours[i]);
 }
 
+void addHand(Props& props, const HandJoints& joints, const Colour& colour, bool dark) {
+  constexpr size_t kFingers[] = {2, 6, 11, 16, 21, kJoints};  // their first joints; the thumb has one less
+  const Colour skin = render::sceneColour(dark, "rim");
+  const auto radius = [&](size_t joint) { return std::max(joints[joint].radius, kThinnest * joints[1].radius); };
+  const auto bone = [&](size_t a, size_t b) {
+    const Vector3 way = joints[b].position - joints[a].position;
+    const HandPose pose{joints[a].position, Quaternion::FromTwoVectors(Vector3::UnitZ(), way)};
+    addBand(props.opaque, pose, 1, {0, radius(a)}, {way.norm(), radius(b)}, skin, kBoneSides);
+  };
+  for (size_t finger = 0; finger + 1 < std::size(kFingers); ++finger) {
+    bone(kWristJoint, kFingers[finger]);
+    for (size_t joint = kFingers[finger]; joint + 1 < kFingers[finger + 1]; ++joint) bone(joint, joint + 1);
+    if (finger > 1) bone(kFingers[finger - 1] + 1, kFingers[finger] + 1);  // from knuckle to knuckle
+  }
+  for (size_t joint = kWristJoint; joint < kJoints; ++joint)
+    addBall(props.opaque, joints[joint].position, Vector3::Constant(radius(joint)), joint == kIndexTip ? colour : skin,
+            kBoneSides / 2, 0);
+}
+
 void addBeam(Props& props, const HandPose& hand, double scale, double length, const Colour& colour) {
   const Ring rings[] = {
       {-kTip, 0.003}, {0.004 - length, 0.001}, {0.004 - length, 0.005}, {0.001 - length, 0.005}, {0.001 - length, 0}};
@@ -93,7 +117,10 @@ void addBeam(Props& props, const HandPose& hand, double scale, double length, co
 
 void addVolume(Props& props, const Vector3& centre, const BrushVolume& brush) {
   if ((brush.half.array() <= 0).any()) return;
-  (brush.box ? addBox : addBall)(props.clear, centre, brush.half, brush.colour);
+  if (brush.box)
+    addBox(props.clear, centre, brush.half, brush.colour);
+  else
+    addBall(props.clear, centre, brush.half, brush.colour, 12, kOpacity);
 }
 
 }  // namespace ps::vr

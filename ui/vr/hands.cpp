@@ -86,11 +86,12 @@ void Hands::suggest() {
       bind(m_steerPress, hand, suggestion.steerPress);
       bind(m_first, hand, hand == kLeft ? suggestion.leftFirst : suggestion.rightFirst);
       bind(m_second, hand, hand == kLeft ? suggestion.leftSecond : suggestion.rightSecond);
-      bind(m_feel, hand, suggestion.vibrates ? "/output/haptic" : "");
+      bind(m_feel, hand, suggestion.bareHand ? "" : "/output/haptic");
     }
     auto info = structure<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     info.interactionProfile = m_runtime.path(std::string(suggestion.profile));
     if (suggestion.steer == kPad) m_pads.insert(info.interactionProfile);
+    if (suggestion.bareHand) m_bareHands.insert(info.interactionProfile);
     info.countSuggestedBindings = static_cast<uint32_t>(bindings.size());
     info.suggestedBindings = bindings.data();
     // A runtime may not know a controller; the others are suggested all the same.
@@ -137,10 +138,16 @@ bool Hands::pressed(XrAction action, size_t hand) const {
   return state.isActive && state.currentState;
 }
 
-bool Hands::hasPad(size_t hand) const {
+XrPath Hands::profile(size_t hand) const {
   auto state = structure<XrInteractionProfileState>(XR_TYPE_INTERACTION_PROFILE_STATE);
   check(xrGetCurrentInteractionProfile(m_session.handle(), m_paths[hand], &state), "xrGetCurrentInteractionProfile");
-  return m_pads.count(state.interactionProfile) > 0;
+  return state.interactionProfile;
+}
+
+Hands::Holds Hands::holds(size_t hand) const {
+  const XrPath now = profile(hand);
+  if (now == XR_NULL_PATH) return Holds::Nothing;
+  return m_bareHands.count(now) > 0 ? Holds::BareHand : Holds::Controller;
 }
 
 double Hands::number(XrAction action, size_t hand) const {
@@ -173,7 +180,7 @@ HandInput Hands::input(size_t hand, XrTime time) const {
   auto state = structure<XrActionStateVector2f>(XR_TYPE_ACTION_STATE_VECTOR2F);
   check(xrGetActionStateVector2f(m_session.handle(), &info, &state), "xrGetActionStateVector2f");
   if (state.isActive) input.steerX = double(state.currentState.x), input.steerY = double(state.currentState.y);
-  input.pad = hasPad(hand);
+  input.pad = m_pads.count(profile(hand)) > 0;
   input.steerPressed = pressed(m_steerPress, hand);
   input.first = pressed(m_first, hand);
   input.second = pressed(m_second, hand);

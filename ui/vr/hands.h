@@ -23,6 +23,8 @@ class Hands {
   /// Reads both controllers; once a frame. While the session has not the focus, hands are still and nowhere.
   void sync();
   HandInput input(size_t hand, XrTime time) const;
+  enum class Holds { Nothing, Controller, BareHand };  ///< or the runtime reads a bare hand as if it held one
+  Holds holds(size_t hand) const;
   void vibrate(size_t hand, const Vibration& vibration);
 
  private:
@@ -32,14 +34,15 @@ class Hands {
   void attach();
   XrActionStateGetInfo stateInfo(XrAction action, size_t hand) const;
   bool pressed(XrAction action, size_t hand) const;
-  bool hasPad(size_t hand) const;
+  XrPath profile(size_t hand) const;
   double number(XrAction action, size_t hand) const;
   std::optional<HandPose> locate(XrSpace space, XrTime time, Vector3* velocity) const;
 
   Runtime& m_runtime;
   Session& m_session;
   std::array<XrPath, 2> m_paths;
-  std::set<XrPath> m_pads;  ///< controllers that have one instead of a stick
+  std::set<XrPath> m_pads;       ///< controllers that have one instead of a stick
+  std::set<XrPath> m_bareHands;  ///< profiles that are none of controllers
   XrActionSet m_set = XR_NULL_HANDLE;
   XrAction m_grip = XR_NULL_HANDLE, m_aim = XR_NULL_HANDLE, m_draw = XR_NULL_HANDLE, m_hold = XR_NULL_HANDLE;
   XrAction m_steer = XR_NULL_HANDLE, m_steerPress = XR_NULL_HANDLE, m_first = XR_NULL_HANDLE, m_second = XR_NULL_HANDLE;

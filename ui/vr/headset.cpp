@@ -7,6 +7,7 @@
 #include "ui/vr/eyepicture.h"
 #include "ui/vr/floor.h"
 #include "ui/vr/hands.h"
+#include "ui/vr/handtracking.h"
 #include "ui/vr/mirror.h"
 #include "ui/vr/refreshrate.h"
 #include "ui/vr/suggestions.h"
@@ -47,7 +48,7 @@ Eye eyeOf(const XrView& view, double near, double far) {
 std::vector<std::string> wishes() {
   std::vector<std::string> names = extensionsOfControllers();
   names.insert(names.end(), {XR_MNDX_EGL_ENABLE_EXTENSION_NAME, Floor::kExtension, RefreshRate::kExtension,
-                             DepthLayer::kExtension, VisibilityMask::kExtension});
+                             DepthLayer::kExtension, VisibilityMask::kExtension, HandTracking::kExtension});
   return names;
 }
 
@@ -80,6 +81,7 @@ class Headset::Loop {
         m_rate(m_runtime, m_session.handle()),
         m_mask(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
+        m_tracking(m_runtime, m_session),
         m_scene(setup.makeScene()) {
     const auto sizes = recommendedSizes(m_runtime);
     for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
@@ -132,10 +134,19 @@ class Headset::Loop {
     frame.time = kNanosecond * double(state.predictedDisplayTime);
     frame.period = kNanosecond * double(state.predictedDisplayPeriod);
     frame.focused = m_session.focused();
-    for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = m_hands.input(hand, state.predictedDisplayTime);
+    for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
     const auto vibrations = m_scene->prepare(frame);
     for (const size_t hand : {kLeft, kRight})
       if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
+  }
+
+  HandInput input(size_t hand, XrTime time) const {
+    HandInput input = m_hands.input(hand, time);
+    const Hands::Holds holds = m_hands.holds(hand);
+    if (holds == Hands::Holds::Controller || !m_session.focused()) return input;
+    const auto seen = m_tracking.locate(hand, time);
+    if (seen) useBareHand(input, hand, *seen, holds == Hands::Holds::BareHand);
+    return input;
   }
 
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
@@ -169,6 +180,7 @@ class Headset::Loop {
   RefreshRate m_rate;
   VisibilityMask m_mask;
   Hands m_hands;
+  HandTracking m_tracking;
   std::unique_ptr<HeadsetScene> m_scene;
   std::array<std::optional<EyePicture>, 2> m_pictures;
   std::optional<DepthLayer> m_depth;

@@ -52,6 +52,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     const HandInput& input = frame.hands[hand];
     HandsSeen::Hand& told = seen.hands[hand];
     told.input = input;
+    told.input.joints.reset();  // they are for the eye alone
     told.holds = input.hold > kHeld && !m_moving.carries();
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_panels.takes(hand)) told.input.draw = 0;
@@ -64,6 +65,14 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   m_link->tell(seen);
 }
 
+void LiveScene::showHand(const HandInput& input, const std::array<float, 3>& colour) {
+  const Stand& stand = m_moving.stand();
+  if (!input.joints) return addWand(m_props, stand.toScene(*input.aim), 1 / stand.scale, colour, m_view->look.dark);
+  HandJoints joints = *input.joints;
+  for (HandJoint& joint : joints) joint = {stand.toScene(joint.position), joint.radius / stand.scale};
+  addHand(m_props, joints, colour, m_view->look.dark);
+}
+
 void LiveScene::showHands(const HeadsetFrame& frame) {
   m_props.opaque.clear();
   m_props.clear.clear();
@@ -72,7 +81,7 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
     const std::optional<HandPose>& aim = frame.hands[hand].aim;
     if (!aim) continue;
     const BrushVolume& brush = m_view->brushes[hand];
-    addWand(m_props, m_moving.stand().toScene(*aim), 1 / m_moving.stand().scale, brush.colour, m_view->look.dark);
+    showHand(frame.hands[hand], brush.colour);
     if (m_moving.carries()) continue;
     if (const auto hit = m_panels.hit(hand))
       addBeam(m_props, m_moving.stand().toScene(*aim), 1 / m_moving.stand().scale, (*hit - aim->position).norm(),

@@ -26,9 +26,9 @@ const std::vector<Suggestion>& suggestions() {
        "/input/thumbstick", "/input/thumbstick/click", "/input/x/click", "/input/y/click", "/input/a/click",
        "/input/b/click", "XR_HTC_vive_cosmos_controller_interaction"},
       {"/interaction_profiles/microsoft/hand_interaction", "/input/select/value", "/input/squeeze/value", "", "", "",
-       "", "", "", "XR_MSFT_hand_interaction", false},
+       "", "", "", "XR_MSFT_hand_interaction", true},
       {"/interaction_profiles/ext/hand_interaction_ext", "/input/pinch_ext/value", "/input/grasp_ext/value", "", "", "",
-       "", "", "", "XR_EXT_hand_interaction", false},
+       "", "", "", "XR_EXT_hand_interaction", true},
   };
   return kSuggestions;
 }

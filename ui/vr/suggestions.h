@@ -13,7 +13,7 @@ struct Suggestion {
   std::string_view draw, hold, steer, steerPress;
   std::string_view leftFirst, leftSecond, rightFirst, rightSecond;
   std::string_view extension = "";  ///< that brings it
-  bool vibrates = true;             ///< it has /output/haptic
+  bool bareHand = false;            ///< it is no controller, and cannot vibrate
 };
 
 /// Of controllers, and of bare hands that the headset sees: a pinch is a trigger, a fist a grip. Each has

@@ -37,8 +37,8 @@ void noteViolation(Instance& instance, std::string_view function, const Refusal&
 
 /// Whether a function's first argument is a session or belongs to one, so that the session's loss concerns it.
 template <class First, class...>
-inline constexpr bool kOfSession =
-    std::is_same_v<First, XrSession> || std::is_same_v<First, XrSpace> || std::is_same_v<First, XrSwapchain>;
+inline constexpr bool kOfSession = std::is_same_v<First, XrSession> || std::is_same_v<First, XrSpace> ||
+                                   std::is_same_v<First, XrSwapchain> || std::is_same_v<First, XrHandTrackerEXT>;
 
 template <FunctionName name, auto implementation>
 struct Entry;

@@ -61,6 +61,11 @@ XrResult destroySpace(Instance&, XrSpace);
 XrResult locateSpace(Instance&, XrSpace, XrSpace, XrTime, XrSpaceLocation*);
 XrResult locateViews(Instance&, XrSession, const XrViewLocateInfo*, XrViewState*, uint32_t, uint32_t*, XrView*);
 
+// handtracking.cpp
+XrResult createHandTracker(Instance&, XrSession, const XrHandTrackerCreateInfoEXT*, XrHandTrackerEXT*);
+XrResult destroyHandTracker(Instance&, XrHandTrackerEXT);
+XrResult locateHandJoints(Instance&, XrHandTrackerEXT, const XrHandJointsLocateInfoEXT*, XrHandJointLocationsEXT*);
+
 // action.cpp
 XrResult createActionSet(Instance&, XrInstance, const XrActionSetCreateInfo*, XrActionSet*);
 XrResult destroyActionSet(Instance&, XrActionSet);

@@ -183,6 +183,9 @@ std::vector<Function> sessionFunctions() {
           entry<"xrLocateSpace", locateSpace>(),
           entry<"xrLocateViews", locateViews>(),
           entry<"xrGetVisibilityMaskKHR", getVisibilityMask>("XR_KHR_visibility_mask"),
+          entry<"xrCreateHandTrackerEXT", createHandTracker>("XR_EXT_hand_tracking"),
+          entry<"xrDestroyHandTrackerEXT", destroyHandTracker>("XR_EXT_hand_tracking"),
+          entry<"xrLocateHandJointsEXT", locateHandJoints>("XR_EXT_hand_tracking"),
           entry<"xrEnumerateDisplayRefreshRatesFB", enumerateDisplayRefreshRates>("XR_FB_display_refresh_rate"),
           entry<"xrGetDisplayRefreshRateFB", getDisplayRefreshRate>("XR_FB_display_refresh_rate"),
           entry<"xrRequestDisplayRefreshRateFB", requestDisplayRefreshRate>("XR_FB_display_refresh_rate")};

@@ -18,7 +18,8 @@ const std::vector<std::string>& knownExtensions() {
                                                        "XR_EXT_hp_mixed_reality_controller",
                                                        "XR_HTC_vive_cosmos_controller_interaction",
                                                        "XR_MSFT_hand_interaction",
-                                                       "XR_EXT_hand_interaction"};
+                                                       "XR_EXT_hand_interaction",
+                                                       "XR_EXT_hand_tracking"};
   return kExtensions;
 }
 
@@ -52,6 +53,7 @@ HandState Script::hand(size_t hand, double frame) const {
     if (key.frame > frame) break;
     state.active = key.active.value_or(state.active);
     state.tracked = key.tracked.value_or(state.tracked);
+    state.shape = key.shape.value_or(state.shape);
     for (const auto& [component, value] : key.inputs) state.inputs[component] = value;
   }
   return state;

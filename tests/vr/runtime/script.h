@@ -24,6 +24,7 @@ struct HandState {
   bool active = true;   ///< switched on and awake
   bool tracked = true;  ///< false: where it is, is a guess
   std::map<std::string, float, std::less<>> inputs;
+  std::string shape;  ///< of a bare hand, among kHandShapes; "": none is seen
 };
 
 /// What happens in a run of the runtime: what is on offer, how head and hands move, and what goes wrong. The README
@@ -48,6 +49,7 @@ class Script {
   std::vector<std::string> extensions;
   std::vector<float> refreshRates = {72, 90, 120};  ///< Hz, that can be asked for
   float hiddenCorners = 0.3f;                       ///< of half a window's side, that the mask hides at each corner
+  bool seesHands = true;                            ///< joints of bare hands can be located
   bool stage = true;                                ///< there is a space of the floor
   std::vector<int64_t> formats;                     ///< of OpenGL, the preferred one first
   std::vector<ScriptEvent> events;                  ///< by frame
@@ -61,6 +63,7 @@ class Script {
     double frame;
     std::optional<bool> active, tracked;
     std::map<std::string, float> inputs;
+    std::optional<std::string> shape;
   };
   using Track = std::vector<Key>;
   friend class ScriptReader;

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/jsontext.h"
+#include "tests/vr/runtime/joints.h"
 #include "tests/vr/runtime/names.h"
 #include "tests/vr/runtime/profiles.h"
 
@@ -120,6 +121,8 @@ void ScriptReader::readTop(Script& script, const std::string& key, const json& v
       script.refreshRates.push_back(static_cast<float>(number(rate, pointer, 1, 1000)));
   } else if (key == "hidden_corners") {
     script.hiddenCorners = static_cast<float>(number(value, pointer, 0, 1));
+  } else if (key == "sees_hands") {
+    script.seesHands = boolean(value, pointer);
   } else if (key == "stage") {
     script.stage = boolean(value, pointer);
   } else if (key == "formats") {
@@ -192,7 +195,7 @@ void ScriptReader::readKey(Script& script, const json& value, const std::string&
 
 void ScriptReader::readHand(Script& script, size_t hand, double frame, const json& value,
                             const std::string& pointer) const {
-  Script::HandKey state{frame, {}, {}, {}};
+  Script::HandKey state{frame, {}, {}, {}, {}};
   for (const auto& [key, part] : value.items()) {
     const std::string place = pointer + "/" + key;
     if (key == "grip") {
@@ -203,6 +206,9 @@ void ScriptReader::readHand(Script& script, size_t hand, double frame, const jso
       state.active = boolean(part, place);
     } else if (key == "tracked") {
       state.tracked = boolean(part, place);
+    } else if (key == "joints") {
+      state.shape = text(part, place);
+      if (!holds(kHandShapes, *state.shape)) refuse(place, "no such shape of a hand");
     } else if (key.starts_with("/input/")) {
       state.inputs[key] = part.is_boolean() ? float(part.get<bool>()) : float(number(part, place, -1, 1));
     } else {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/vr/runtime/functions.h"
 #include "tests/vr/runtime/limits.h"
+#include "tests/vr/runtime/placing.h"
 #include "tests/vr/runtime/sources.h"
 #include "tests/vr/runtime/timeline.h"
 
@@ -85,6 +86,11 @@ void checkOffered(const Instance& instance, XrReferenceSpaceType type) {
 }
 
 }  // namespace
+
+std::optional<XrPosef> originAt(Instance& instance, const Space& space, double frame) {
+  const Place place = placeOf(instance, space, frame);
+  return (place.flags & kValid) != 0 ? std::optional(place.pose) : std::nullopt;
+}
 
 XrResult enumerateReferenceSpaces(Instance& instance, XrSession handle, uint32_t capacity, uint32_t* count,
                                   XrReferenceSpaceType* types) {

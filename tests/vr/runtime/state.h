@@ -65,6 +65,10 @@ struct Swapchain {
 /// What a profile's components are bound to: action and path, "/user/hand/left/input/trigger/value".
 using Bindings = std::vector<std::pair<XrAction, std::string>>;
 
+struct HandTracker {
+  size_t hand = 0;
+};
+
 struct PredictedFrame {
   int64_t frame;
   XrTime time;
@@ -78,6 +82,7 @@ struct Session {
   GraphicsBinding graphics;
   Handles<XrSpace, Space> spaces;
   Handles<XrSwapchain, Swapchain> swapchains;
+  Handles<XrHandTrackerEXT, HandTracker> handTrackers;
   std::array<std::string, 2> reportedProfile;  ///< which the client was told of
 };
 

@@ -36,13 +36,18 @@ XrResult getSystem(Instance&, XrInstance, const XrSystemGetInfo* info, XrSystemI
   return XR_SUCCESS;
 }
 
-XrResult getSystemProperties(Instance&, XrInstance, XrSystemId system, XrSystemProperties* properties) {
+XrResult getSystemProperties(Instance& instance, XrInstance, XrSystemId system, XrSystemProperties* properties) {
   checkSystem(system);
   typed(properties, XR_TYPE_SYSTEM_PROPERTIES).systemId = system;
   properties->vendorId = 0;
   std::snprintf(properties->systemName, sizeof properties->systemName, "Scripted headset");
   properties->graphicsProperties = {kMaximumPixels, kMaximumPixels, kMaximumLayers};
   properties->trackingProperties = {XR_TRUE, XR_TRUE};
+  auto* next = static_cast<XrBaseOutStructure*>(properties->next);
+  for (; next; next = next->next)
+    if (next->type == XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT)
+      reinterpret_cast<XrSystemHandTrackingPropertiesEXT*>(next)->supportsHandTracking =
+          instance.script.seesHands ? XR_TRUE : XR_FALSE;
   return XR_SUCCESS;
 }
 
