@@ -72,18 +72,18 @@ int layersOf(double extent, double spacing, bool even) {
   return 2 * static_cast<int>(std::floor(half)) + 1;
 }
 
-/// Of so many cells about `middle` in m, those whose centres a test holds to be inside.
+/// Of so many cells about the solid's middle, those whose centres a test holds to be inside.
 template <class Inside>
-SolidCells filledBy(const Vector3& middle, double spacing, const std::array<int, 3>& count, const Inside& inside) {
+SolidCells filledBy(double spacing, const std::array<int, 3>& count, const Inside& inside) {
   // Halves of whole numbers are exact, so that both sides of the middle get the same answer.
   const Vector3 half = 0.5 * Vector3(count[0] - 1, count[1] - 1, count[2] - 1);
-  return {middle - spacing * half,
-          cellsWithin(count, [&](int x, int y, int z) { return inside(middle + spacing * (Vector3(x, y, z) - half)); }),
+  return {-spacing * half,
+          cellsWithin(count, [&](int x, int y, int z) { return inside(spacing * (Vector3(x, y, z) - half)); }),
           {1, 1, 1}};
 }
 
-SolidCells orMiddle(SolidCells filled, const Vector3& middle) {
-  return filled.cells.empty() ? SolidCells{middle, {{0, 0, 0}}, {1, 1, 1}} : std::move(filled);
+SolidCells orMiddle(SolidCells filled) {
+  return filled.cells.empty() ? SolidCells{{0, 0, 0}, {{0, 0, 0}}, {1, 1, 1}} : std::move(filled);
 }
 
 double within(double stretch) { return std::clamp(stretch, kLeastStretch, kMostStretch); }
@@ -93,7 +93,7 @@ SolidCells filledBlock(Vector3 size, double spacing, bool thin) {
   if (thin) size[1] = spacing;
   std::array<int, 3> count;
   for (size_t a = 0; a < 3; ++a) count[a] = static_cast<int>(layersAlong(size[a], spacing));
-  SolidCells filled = filledBy({}, spacing, count, [](const Vector3&) { return true; });
+  SolidCells filled = filledBy(spacing, count, [](const Vector3&) { return true; });
   for (size_t a = 0; a < 3; ++a) filled.stretch[a] = within(size[a] / (count[a] * spacing));
   return filled;
 }
@@ -186,13 +186,13 @@ SolidCells newFill(const SolidShape& shape, double spacing) {
       suits = suits && even == (std::lround(size[a] / spacing) % 2 == 0);
     }
     if (wanted > small && !suits) continue;
-    SolidCells one = filledBy({}, spacing, count, [&](const Vector3& own) { return solid.holds(own); });
+    SolidCells one = filledBy(spacing, count, [&](const Vector3& own) { return solid.holds(own); });
     const double miss = std::abs(static_cast<double>(one.cells.size()) - wanted);
     if (one.cells.empty() || miss >= missed) continue;
     missed = miss;
     best = std::move(one);
   }
-  best = orMiddle(std::move(best), {});
+  best = orMiddle(std::move(best));
   // Of an open mesh nobody knows the volume; steps of a single layer do not tell its area.
   if (solid.form().isHollow() || (shape.mesh && !factsOf(*shape.mesh).closed())) return best;
   best.stretch = Vector3::Constant(within(std::cbrt(wanted / static_cast<double>(best.cells.size()))));
@@ -286,22 +286,6 @@ std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing)
   const SolidForm form(shape);
   if (form.kind() == SolidForm::Kind::Rope) return inScene(form, alongRope(form, spacing));
   return inScene(form, ownPlaces(fillSolid(shape, spacing), spacing));
-}
-
-SolidCells cellsInScene(const SolidShape& shape, double spacing) {
-  const SolidInside solid(shape, spacing);
-  const SolidForm& form = solid.form();
-  if (!form.isTurned()) {
-    SolidCells own = fillSolid(shape, spacing);
-    own.first += form.middle();
-    own.stretch = {1, 1, 1};
-    return own;
-  }
-  std::array<int, 3> count;
-  const Vector3 extent = form.axes().cwiseAbs() * reachOf(form, spacing);
-  for (size_t a = 0; a < 3; ++a) count[a] = layersOf(extent[a], spacing, false);
-  return orMiddle(filledBy(form.middle(), spacing, count, [&](const Vector3& p) { return solid.holds(form.toOwn(p)); }),
-                  form.middle());
 }
 
 }  // namespace ps

@@ -41,9 +41,6 @@ struct SolidCells {
 /// the number of cells come closest to its volume where it is small, else as suits its size. At least one cell. Tells
 /// its steps to the thread's Progress.
 SolidCells fillSolid(const SolidShape& shape, double spacing);
-/// Cells of a cubic lattice along the scene's axes that lie in the solid, in order of z, y, x; cell (0, 0, 0) is
-/// centred at `first`. For a solid that is not turned, those of fillSolid().
-SolidCells cellsInScene(const SolidShape& shape, double spacing);
 
 /// What a solid is filled with.
 struct SolidMatter {

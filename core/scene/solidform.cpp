@@ -82,9 +82,9 @@ SolidForm::SolidForm(const SolidShape& shape) : m_mesh(shape.mesh) {
   }
   const std::string held = choiceOf(shape.parameters, list, "held");
   m_heldEnds = !isThin() || held == "none" ? 0 : held == "start" ? 1 : 2;
-  const Vector3 degrees = three("rotation"), angle = degrees * kPi / 180;
-  m_isTurned = degrees != Vector3::Zero();
-  m_axes = m_isTurned
+  m_rotation = three("rotation");
+  const Vector3 angle = m_rotation * kPi / 180;
+  m_axes = isTurned()
                ? Matrix3((Eigen::AngleAxisd(angle[2], Vector3::UnitZ()) *
                           Eigen::AngleAxisd(angle[1], Vector3::UnitY()) * Eigen::AngleAxisd(angle[0], Vector3::UnitX()))
                              .toRotationMatrix())

@@ -15,10 +15,11 @@ class SolidForm {
   explicit SolidForm(const SolidShape& shape);
 
   Kind kind() const { return m_kind; }
-  const Vector3& size() const { return m_size; }      ///< m, along its own axes
-  const Vector3& middle() const { return m_middle; }  ///< m, in the scene
-  double wall() const { return m_wall; }              ///< m, thickness of that of a tube or bowl
-  bool isTurned() const { return m_isTurned; }
+  const Vector3& size() const { return m_size; }          ///< m, along its own axes
+  const Vector3& middle() const { return m_middle; }      ///< m, in the scene
+  double wall() const { return m_wall; }                  ///< m, thickness of that of a tube or bowl
+  const Vector3& rotation() const { return m_rotation; }  ///< degrees about the scene's x, then y, then z
+  bool isTurned() const { return m_rotation != Vector3::Zero(); }
   const Matrix3& axes() const { return m_axes; }  ///< its own, as columns
   Vector3 toScene(const Vector3& own) const { return m_middle + m_axes * own; }
   Vector3 toOwn(const Vector3& place) const { return m_axes.transpose() * (place - m_middle); }
@@ -43,12 +44,12 @@ class SolidForm {
 
  private:
   Kind m_kind;
-  Vector3 m_size, m_middle;
+  Vector3 m_size, m_middle, m_rotation;
   double m_wall = 0;
   std::vector<Vector3> m_points;
   double m_thickness = 0;  ///< m, of a rope, for brushes
   int m_heldEnds = 0;
-  bool m_isTurned = false, m_isHollow = false;
+  bool m_isHollow = false;
   Matrix3 m_axes;
   std::shared_ptr<const SceneMesh> m_mesh;
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What strokes change in a document: cells added, carved, and taken to another spacing.
+#include "core/geometry/solidfill.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
+#include "core/sketch/cellset.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/document.h"
 
@@ -178,6 +180,38 @@ class TestStrokeRecord : public QObject {
     const auto edit = eraseEdit(body, 0, eraser, {{0, 0, 0}});
     QVERIFY(edit);
     QCOMPARE(cellCount(*std::get<BodyEdit>(*edit).after), 15);
+  }
+
+  /// A solid that is turned becomes cells along its own axes: those that fill it.
+  void turnedSolidsKeepTheirAxes() {
+    Body body = drops();
+    SolidShape solid;
+    for (const auto& [key, value] : {std::pair("size_x", 0.3),
+                                     {"size_y", 0.09},
+                                     {"size_z", 0.15},
+                                     {"rotation_x", 20.0},
+                                     {"rotation_z", 30.0},
+                                     {"position_x", 0.2},
+                                     {"position_y", 0.4}})
+      solid.parameters.values[key] = value;
+    solid.parameters.values["kind"] = std::string("block");
+    body.shape = solid;
+    const std::vector<api::Double3> fills = latticePlaces(solid, 0.03);
+    const Body cells = asVoxels(body, 0.03);
+    const SketchGrid grid = gridOf(std::get<VoxelShape>(cells.shape));
+    std::vector<Vector3> centres;
+    for (const VoxelShape::Run& run : std::get<VoxelShape>(cells.shape).runs)
+      for (int k = 0; k < run.length; ++k) centres.push_back(grid.centreOf({run.x + k, run.y, run.z}));
+    QCOMPARE(centres.size(), size_t{150});
+    QCOMPARE(fills.size(), centres.size());
+    for (size_t i = 0; i < fills.size(); ++i) QVERIFY((vectorOf(fills[i]) - centres[i]).norm() < 1e-12);
+    // Painted in part, the rest is what it was.
+    VoxelShape here = lattice();
+    const auto painted = repaintEdits(body, 0, here, cube(4, 4, 11, -2), "iron");
+    QCOMPARE(painted.size(), size_t{2});
+    QCOMPARE(cellCount(*std::get<BodyEdit>(painted[0]).after), 150);
+    QVERIFY(std::get<VoxelShape>(std::get<BodyEdit>(painted[0]).after->shape).runs ==
+            std::get<VoxelShape>(cells.shape).runs);
   }
 
   /// A box becomes cells first; undo makes it a box again. Of what is of the material already there is nothing to do.

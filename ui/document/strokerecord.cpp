@@ -41,11 +41,14 @@ VoxelShape voxelsOf(const BoxShape& box, const Body& body, double spacing) {
   return voxels;
 }
 
-/// Of a turned solid nearly the same: its cells lie along the scene's axes now.
+/// Along its own axes, as it is filled, but for the lattice's stretch.
 VoxelShape voxelsOf(const SolidShape& solid, const Body& body, double spacing) {
-  const SolidCells filled = cellsInScene(solid, spacing);
+  const SolidCells filled = fillSolid(solid, spacing);
+  const SolidForm form(solid);
   VoxelShape voxels;
   voxels.origin = filled.first;
+  voxels.rotation = form.rotation();
+  (form.isTurned() ? voxels.shift : voxels.origin) += form.middle();
   voxels.spacing = spacing;
   voxels.palette.push_back({body.material, numberOf(body.parameters, bodyParameters(), "temperature"), {}});
   voxels.runs = encodeRuns(cellSet(filled.cells), 0);
