@@ -81,10 +81,12 @@ std::vector<MatterKey> NamedMatter::erasedOrPainted() const {
   return keys;
 }
 
-std::vector<std::pair<MatterKey, uint64_t>> NamedMatter::bytes() const {
-  std::vector<std::pair<MatterKey, uint64_t>> all;
-  for (const auto& [key, entry] : m_entries) all.emplace_back(key, bytesOf(entry));
-  return all;
+std::shared_ptr<const MatterBytes> NamedMatter::bytes() const {
+  if (m_bytes) return m_bytes;
+  MatterBytes all;
+  for (const auto& [key, entry] : m_entries) all.emplace(key, bytesOf(entry));
+  m_bytes = std::make_shared<const MatterBytes>(std::move(all));
+  return m_bytes;
 }
 
 uint64_t NamedMatter::bytesOf(const Entry& entry) {
@@ -123,6 +125,7 @@ void NamedMatter::act(Engine& engine) {
 }
 
 void NamedMatter::act(Engine& engine, Entry& entry) {
+  m_bytes.reset();
   HandDeeds done = entry.hand->act(engine);
   addTo(entry.heat, done.heat);
   std::move(done.ties.begin(), done.ties.end(), std::back_inserter(entry.ties));
@@ -147,6 +150,7 @@ void NamedMatter::putBack(Engine& engine, Entry& entry) {
 }
 
 void NamedMatter::apply(Engine& engine, const AddCells& command) {
+  m_bytes.reset();
   finishHands(engine);
   const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette);
   if (command.key == 0) return;
@@ -155,6 +159,7 @@ void NamedMatter::apply(Engine& engine, const AddCells& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const TakeCells& command) {
+  m_bytes.reset();
   const std::vector<uint32_t> ids = sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared);
   Entry& entry = m_entries[command.key];
   entry.afterStart = engine.solver().frame() > 0;
@@ -163,6 +168,7 @@ void NamedMatter::apply(Engine& engine, const TakeCells& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const TakeBody& command) {
+  m_bytes.reset();
   const ParticleStore& store = engine.particles();
   Entry& entry = m_entries[command.key];
   entry = {};
@@ -171,6 +177,7 @@ void NamedMatter::apply(Engine& engine, const TakeBody& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
+  m_bytes.reset();
   const auto found = m_entries.find(command.key);
   if (found != m_entries.end()) {  // it may have taken nothing: what stands there by now is none of its
     extract(engine, found->second, found->second.ids);
@@ -180,6 +187,7 @@ void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const PutBack& command) {
+  m_bytes.reset();
   if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
     putBack(engine, found->second);
     return;
@@ -228,6 +236,7 @@ void NamedMatter::redoTies(Engine& engine, Entry& entry) {
 }
 
 void NamedMatter::apply(Engine& engine, const PaintCells& command) {
+  m_bytes.reset();
   std::vector<Coat> coats{
       {sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared), command.material}};
   std::vector<Coat> painted;
@@ -239,6 +248,7 @@ void NamedMatter::apply(Engine& engine, const PaintCells& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const NameMatter& command) {
+  m_bytes.reset();
   std::vector<uint32_t> ids = ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body);
   Entry& entry = m_entries[command.key];
   if (!command.paintedFrom.empty()) {
@@ -250,6 +260,7 @@ void NamedMatter::apply(Engine& engine, const NameMatter& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
+  m_bytes.reset();
   if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
     putBack(engine, found->second);
     return;
@@ -263,6 +274,7 @@ void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
 }
 
 void NamedMatter::apply(Engine&, const ForgetMatter& command) {
+  m_bytes.reset();
   for (const MatterKey key : command.keys) {
     const auto found = m_entries.find(key);
     if (found == m_entries.end()) continue;
@@ -272,6 +284,7 @@ void NamedMatter::apply(Engine&, const ForgetMatter& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const TouchMatter& command) {
+  m_bytes.reset();
   Hand::require(command, engine);
   Entry& entry = m_entries[command.key];
   if (!entry.hand) entry.hand.emplace();
@@ -280,6 +293,7 @@ void NamedMatter::apply(Engine& engine, const TouchMatter& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
+  m_bytes.reset();
   const auto found = m_entries.find(command.key);
   if (found == m_entries.end()) return;
   Entry& entry = found->second;
@@ -292,6 +306,7 @@ void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
 }
 
 void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
+  m_bytes.reset();
   const auto found = m_entries.find(command.key);
   if (found == m_entries.end()) return;
   found->second.heat = giveHeat(engine, found->second.taken);

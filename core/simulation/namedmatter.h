@@ -2,9 +2,11 @@
 #pragma once
 #include "core/simulation/command.h"
 #include "core/simulation/hand.h"
+#include "core/simulation/snapshot.h"
 #include "core/solver/matter.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,8 +31,9 @@ class NamedMatter {
   std::vector<MatterKey> keysInScene() const;  ///< those of inScene()
   /// The keys of those that took cells out of a scene that had begun, or painted them, and still do.
   std::vector<MatterKey> erasedOrPainted() const;
-  /// Bytes that each key keeps, so that what it names can be undone and redone.
-  std::vector<std::pair<MatterKey, uint64_t>> bytes() const;
+  /// Bytes that each key keeps, so that what it names can be undone and redone. Never changed; another one after edits
+  /// alone.
+  std::shared_ptr<const MatterBytes> bytes() const;
   /// The keys of hands that are in matter: neither is that in a state.
   std::vector<MatterKey> hands() const;
   /// What hands do in a frame, before it.
@@ -73,7 +76,7 @@ class NamedMatter {
              painted.empty() && bare.empty() && before.empty() && stripped.empty();
     }
   };
-  static void act(Engine& engine, Entry& entry);
+  void act(Engine& engine, Entry& entry);
   void finishHands(Engine& engine);
   static void extract(Engine& engine, Entry& entry, const std::vector<uint32_t>& ids);
   static void putBack(Engine& engine, Entry& entry);
@@ -83,7 +86,8 @@ class NamedMatter {
   static void redoTies(Engine& engine, Entry& entry);
   static uint64_t bytesOf(const Entry& entry);
   std::map<MatterKey, Entry> m_entries;
-  std::vector<MatterKey> m_settled;  ///< of erasedOrPainted(), forgotten since: nobody can undo them
+  mutable std::shared_ptr<const MatterBytes> m_bytes;  ///< nullptr: something has changed
+  std::vector<MatterKey> m_settled;                    ///< of erasedOrPainted(), forgotten since: nobody can undo them
 };
 
 }  // namespace ps

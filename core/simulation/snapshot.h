@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace ps {
@@ -64,6 +64,9 @@ struct FieldValues {
   std::vector<float> values;
 };
 
+/// Bytes by keys of commands that name matter.
+using MatterBytes = std::map<uint64_t, uint64_t>;
+
 /// One published frame: immutable, read by viewport, graphs and recorder without a lock. Static particles included.
 struct Snapshot {
   FrameStats stats;
@@ -74,7 +77,7 @@ struct Snapshot {
   std::vector<Limit> limits;
   std::vector<ToolContact> tools;         ///< bodies that hands have led in this run, the last one first
   std::vector<uint64_t> erasedOrPainted;  ///< keys of commands that did so after the start, and were not undone
-  std::vector<std::pair<uint64_t, uint64_t>> keptForUndo;  ///< bytes by keys of commands that name matter
+  std::shared_ptr<const MatterBytes> keptForUndo;  ///< what that keeps; nullptr: nothing
   Period period;                      ///< positions lie within its box: one that jumps by it has crossed a face
   std::vector<api::Float4> position;  ///< m; w: radius of a sphere of the rest volume, m
   std::vector<float> temperature;     ///< K

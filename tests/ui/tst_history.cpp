@@ -237,7 +237,7 @@ class TestHistory : public SampleWindowTest {
       return onEngine<size_t>(session(), [](Engine& engine) {
         size_t bytes = 0;
         const SnapshotPtr now = engine.snapshot();
-        for (const auto& [key, size] : now->keptForUndo) bytes += size;
+        for (const auto& [key, size] : *now->keptForUndo) bytes += size;
         return bytes;
       });
     };

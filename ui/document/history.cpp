@@ -153,7 +153,8 @@ void History::setLimit(size_t bytes) {
   trim();
 }
 
-void History::setMatter(std::map<MatterKey, size_t> bytes) {
+void History::setMatter(std::shared_ptr<const MatterBytes> bytes) {
+  if (bytes == m_matter) return;
   m_matter = std::move(bytes);
   trim();
 }
@@ -188,7 +189,9 @@ void History::lighten(const Step& step) {
 size_t History::bytes() const {
   size_t all = m_own;
   for (const auto& [what, shared] : m_shared) all += shared.bytes;
-  for (const auto& [key, bytes] : m_matter) all += m_named.contains(key) ? bytes : 0;
+  if (m_matter) {
+    for (const auto& [key, bytes] : *m_matter) all += m_named.contains(key) ? bytes : 0;
+  }
   if (!m_held || m_shared.empty()) return all;
   Weight held;
   m_held(held);

@@ -3,6 +3,7 @@
 // A step of ours may hold a number or a mesh of a hundred megabytes.
 #pragma once
 #include "core/simulation/command.h"
+#include "core/simulation/snapshot.h"
 #include "ui/document/weight.h"
 
 #include <QtCore/QObject>
@@ -69,7 +70,7 @@ class History : public QObject {
   /// What the document itself holds; asked for when bytes are counted.
   void setDocument(std::function<void(Weight&)> held) { m_held = std::move(held); }
   /// Bytes that somebody else keeps for edits, by their keys; others keep none.
-  void setMatter(std::map<MatterKey, size_t> bytes);
+  void setMatter(std::shared_ptr<const MatterBytes> bytes);
 
  Q_SIGNALS:
   void indexChanged(int index);
@@ -106,7 +107,8 @@ class History : public QObject {
   };
   size_t m_own = 0;
   std::map<const void*, Shared> m_shared;
-  std::map<MatterKey, size_t> m_named, m_matter;  ///< steps that name it; bytes of it
+  std::map<MatterKey, size_t> m_named;  ///< steps that name it
+  std::shared_ptr<const MatterBytes> m_matter;
 };
 
 }  // namespace ps

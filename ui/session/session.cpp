@@ -49,8 +49,7 @@ Session::Session(const Options& options, QObject* parent)
   m_totals.setSingleShot(true);
   connect(&m_totals, &QTimer::timeout, this, &Session::totalsDue);
   connect(this, &Session::totalsDue, this, [this] {
-    if (const SnapshotPtr now = newest())
-      m_document->undoStack().setMatter({now->keptForUndo.begin(), now->keptForUndo.end()});
+    if (const SnapshotPtr now = newest()) m_document->undoStack().setMatter(now->keptForUndo);
   });
   applyUndoMemory();
   m_making.setInterval(kMakingInterval);
