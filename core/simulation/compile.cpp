@@ -53,13 +53,10 @@ BodyHeat heatOf(const Body& body, bool fixed) {
   heat.watts = numberOf(body.parameters, list, "heating_power");
   if (!fixed) return heat;
   const std::string kind = choiceOf(body.parameters, list, "heat");
-  if (kind == "fixed_temperature" || kind == "convective")
-    heat.held = numberOf(body.parameters, list, "held_temperature");
-  if (kind == "convective") {
-    heat.convection = numberOf(body.parameters, list, "convection");
-    heat.insulated = heat.convection == 0;
-  }
-  heat.insulated = heat.insulated || kind == "adiabatic";
+  const bool convects = kind == "convective";
+  if (convects || kind == "fixed_temperature") heat.held = numberOf(body.parameters, list, "held_temperature");
+  if (convects) heat.convection = numberOf(body.parameters, list, "convection");
+  heat.insulated = kind == "adiabatic" || (convects && heat.convection == 0);
   return heat;
 }
 

@@ -385,6 +385,8 @@ class TestContentWindow : public SampleWindowTest {
     panel.append(held);
     QVERIFY2(panel.findChild<QLabel*>()->text().contains(QStringLiteral("Heat in matter")),
              qPrintable(panel.findChild<QLabel*>()->text()));
+    panel.clear();  // as another scene comes, which may be empty
+    QCOMPARE(panel.findChild<QLabel*>()->text(), QString());
   }
 
   /// However fast they came, the last frame's values are those that stay.

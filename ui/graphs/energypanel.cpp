@@ -113,6 +113,8 @@ QString EnergyPanel::balanceText() const {
 
 void EnergyPanel::clear() {
   m_graph->clear();
+  m_ledger->clear();
+  m_last = {};
   m_started = m_shown = false;
 }
 

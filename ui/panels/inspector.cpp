@@ -139,7 +139,7 @@ void Inspector::addPinned(std::vector<RowModel>& rows) {
     if (!row) continue;
     QString label = awayLabel(project, *address, QString::fromUtf8(row->declaration.label));
     // Of another material than the panel's: its name tells the two apart. It may be long and stands last.
-    if (address->owner == Owner::Material && address->id != m_materialId)
+    if (address->owner == Owner::Material && address->id != material())
       label += QStringLiteral(" · ") + ownerLabel(project, *address);
     row->declaration.label = keep(label);
     row->pinned = true;
@@ -296,13 +296,12 @@ void Inspector::onChanged(const ChangeEvent& event) {
     if (address.owner == Owner::Shape || address.owner == Owner::Solver) countSoon();
     note(*parameter);
     if (address.owner == Owner::Material && propertyIndex(address.key) < 0) refreshProperties(address.id);
-    if (address.owner == Owner::Material && address.id == m_materialId) showMaterialHeader();
+    if (address.owner == Owner::Material && address.id == material()) showMaterialHeader();
   } else if (std::holds_alternative<ProjectOpened>(event)) {
     m_things.clear();
     m_bodies.clear();
     if (!m_document.project().bodies.empty())
       m_bodies.push_back({Owner::Body, m_document.project().bodies.front().id, ""});
-    m_materialId.clear();
     m_materials.clear();
     m_notes.clear();
     m_mean.clear();

@@ -40,7 +40,7 @@ class Inspector : public QObject {
   void setThings(std::vector<Address> things);
   void setMaterials(const std::vector<std::string>& ids);  ///< rows are of the last one, edits reach all
   void setMaterial(const std::string& id) { setMaterials(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
-  const std::string& material() const { return m_materialId; }
+  std::string material() const { return m_materials.empty() ? std::string() : m_materials.back().id; }
   /// The panel that shows an address, after selecting its owner alone; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 
@@ -123,9 +123,8 @@ class Inspector : public QObject {
   Selection& m_selection;
   ParameterPanel *m_body, *m_material, *m_scene, *m_solver;
   RowNotes m_notes;
-  std::string m_materialId;
   std::vector<Address> m_bodies, m_things;                 ///< what is shown; bodies while none of the others is there
-  std::vector<Address> m_materials;                        ///< the last one is m_materialId
+  std::vector<Address> m_materials;                        ///< the last one is material()
   mutable std::map<std::string, std::string> m_differing;  ///< one of them with another value, by the row's address
   mutable size_t m_compared = 0, m_searched = 0;
   std::set<std::string> m_texts;                        ///< headings and labels that rows borrow; grows with names only

@@ -31,7 +31,6 @@ void Inspector::setMaterials(const std::vector<std::string>& ids) {
   for (const std::string& id : ids) materials.push_back({Owner::Material, id, ""});
   if (materials == m_materials) return;
   m_materials = std::move(materials);
-  m_materialId = ids.empty() ? std::string() : ids.back();
   m_differing.clear();
   rebuildMaterial();
 }
@@ -39,7 +38,7 @@ void Inspector::setMaterials(const std::vector<std::string>& ids) {
 void Inspector::rebuildMaterial() {
   const Project& project = m_document.project();
   const auto found = std::find_if(project.materials.begin(), project.materials.end(),
-                                  [&](const SceneMaterial& m) { return m.id == m_materialId; });
+                                  [&](const SceneMaterial& m) { return m.id == material(); });
   const auto material =
       found == project.materials.end() && !project.materials.empty() ? project.materials.begin() : found;
   std::vector<RowModel> rows;
@@ -48,12 +47,11 @@ void Inspector::rebuildMaterial() {
     m_material->setModel({});
     return;
   }
-  m_materialId = material->id;
   std::erase_if(m_materials, [&](const Address& one) {
     return std::none_of(project.materials.begin(), project.materials.end(),
                         [&](const SceneMaterial& each) { return each.id == one.id; });
   });
-  if (m_materials.empty() || m_materials.back().id != m_materialId) m_materials = {{Owner::Material, m_materialId, ""}};
+  if (this->material() != material->id) m_materials = {{Owner::Material, material->id, ""}};
   const PluginRegistry* plugins = m_document.plugins();
   showMaterialHeader();
   const Address any{Owner::Material, material->id, ""};
@@ -87,7 +85,7 @@ void Inspector::showMaterialHeader() {
     return;
   }
   const auto material = std::find_if(project.materials.begin(), project.materials.end(),
-                                     [&](const SceneMaterial& m) { return m.id == m_materialId; });
+                                     [&](const SceneMaterial& m) { return m.id == this->material(); });
   if (material == project.materials.end()) return;
   const PluginRegistry* plugins = m_document.plugins();
   const bool missing = plugins && !plugins->material(material->base);
@@ -107,7 +105,7 @@ void Inspector::showMaterialHeader() {
 }
 
 QString Inspector::materialDetail() const {
-  const QString at = QStringLiteral("At ") + temperatureText(temperatureOf(m_materialId), 1);
+  const QString at = QStringLiteral("At ") + temperatureText(temperatureOf(material()), 1);
   return m_grade.isEmpty() ? at : at + QStringLiteral(" · ") + m_grade;
 }
 

@@ -157,12 +157,11 @@ QString scale(Value& value, const ParameterDeclaration& d, double factor, double
   if (response->kind == Response::Kind::Law && lawCoefficientCount(response->law) == 0)
     return QStringLiteral("The law “%1” is not known here and cannot be scaled")
         .arg(QString::fromStdString(response->law));
-  *response = response->scaled(factor);
-  if (added == 0) return {};
-  if (response->kind == Response::Kind::Law && response->law != "linear")
+  if (added != 0 && response->kind == Response::Kind::Law && response->law != "linear")
     return QStringLiteral("Nothing can be added to the law “%1”; it can be scaled, as *2 does")
         .arg(QString::fromStdString(response->law));
-  raise(*response, added);
+  *response = response->scaled(factor);
+  if (added != 0) raise(*response, added);
   return {};
 }
 
