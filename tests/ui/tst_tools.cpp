@@ -525,6 +525,22 @@ class TestTools : public ToolTest {
     QCOMPARE(m_document->undoStack().count(), 0);
   }
 
+  /// Its shadow lies on the matter below it, and on the floor beside that.
+  void theCursorsShadowLiesOnWhatIsBelow() {
+    const auto scene = std::make_shared<Snapshot>();
+    scene->spacing = kSpacing;
+    for (int k = 0; k < 8; ++k) scene->position.push_back({0.1F + 0.03F * float(k), 0.3F, 0, float(kSpacing / 2)});
+    setBrush("sphere");
+    m_tools->activate(kBrushTool);
+    Tool& tool = m_tools->tool();
+    tool.hover(aimed({0.19, 0.3, 0}, scene));
+    const BrushCursor above = *tool.picture().cursor;
+    QVERIFY2(std::abs(above.floor - 0.3 - kSpacing / 2) < 0.01, qPrintable(QString::number(above.floor)));
+    QVERIFY(above.centre.y() > above.floor);
+    tool.hover(aimed({-0.2, 0, 0}, scene));
+    QCOMPARE(tool.picture().cursor->floor, 0.0);
+  }
+
   /// A sweep that begins beside the matter takes what comes under it, at its depth and not below its own hole.
   void anEraserTakesWhatIsUnderIt() {
     const auto scene = std::make_shared<Snapshot>();

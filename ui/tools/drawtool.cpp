@@ -34,7 +34,6 @@ void DrawTool::hover(const Pointer& pointer) {
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
   cursor.erase = !touches() && erases(pointer);
-  cursor.floor = floorHeight(environment);
   if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !meetsMatter()) {
     m_plane = *plane;
     const auto point = placeOf(pointer);
@@ -52,6 +51,7 @@ void DrawTool::hover(const Pointer& pointer) {
     cursor.centre += m_plane.normal.cwiseProduct(cursor.extent);
     m_plane.point = cursor.centre;
   }
+  cursor.floor = heightBelow(pointer, cursor.centre, environment);
   m_cursor = cursor;
 }
 

@@ -59,6 +59,14 @@ std::optional<Vector3> matterOn(const Pointer& pointer) {
   return ray.origin + along * ray.direction;
 }
 
+double heightBelow(const Pointer& pointer, const Vector3& point, const Environment& environment) {
+  Pointer down = pointer;
+  down.ray = {point, {0, -1, 0}};
+  const double floor = floorHeight(environment);
+  const auto hit = matterOn(down);
+  return hit ? std::max(floor, hit->y()) : floor;
+}
+
 std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment) {
   const Ray& ray = pointer.ray;
   if (const auto point = matterOn(pointer)) return Surface{*point, normalAt(pointer, *point)};

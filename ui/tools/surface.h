@@ -17,6 +17,8 @@ std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& e
 std::optional<Vector3> matterOn(const Pointer& pointer);
 /// m, of the highest level wall, or of the bounds.
 double floorHeight(const Environment& environment);
+/// m, of the matter that is shown straight below a point, else of the floor.
+double heightBelow(const Pointer& pointer, const Vector3& point, const Environment& environment);
 /// m, of the particles as they are shown; `fallback` where there are none.
 double shownSpacing(const Pointer& pointer, double fallback);
 
