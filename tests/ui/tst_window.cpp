@@ -387,6 +387,18 @@ class TestWindow : public QObject {
     QCOMPARE(m_window->selection().material(), std::string("water"));
   }
 
+  /// By what its file calls it too; words that begin so come before those that hold it.
+  void thePaletteFindsByOtherWords() {
+    const auto entries = m_window->paletteEntries();
+    const auto first = [&](const char* query) {
+      const std::vector<size_t> found = paletteMatches(entries, QString::fromLatin1(query));
+      return found.empty() ? QString() : entries[found.front()].title;
+    };
+    QCOMPARE(first("torus"), QStringLiteral("Add body: ring"));
+    QCOMPARE(first("tint"), QStringLiteral("Brush shape: Paint colour"));
+    QCOMPARE(first("ring"), QStringLiteral("Add body: ring"));  // and not "sharing"
+  }
+
   /// It is found, behind what can be done.
   void whatCannotBeDoneSaysWhy() {
     const auto entries = m_window->paletteEntries();

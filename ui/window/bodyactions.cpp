@@ -173,6 +173,7 @@ void BodyActions::makeMenu(QMenu* menu) {
     QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(nameOf(row.kind)),
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
                                     [this, kind = row.kind, name] { addSolid(kind, name); });
+    action->setProperty(kWords, QString::fromStdString(nameOf(row.kind)));
     m_adding.push_back(action);
   }
   connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);

@@ -60,14 +60,18 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
                                      [&](const QString& word) { return all.contains(word, Qt::CaseInsensitive); });
     if (!matches) continue;
     const QString joined = words.join(QLatin1Char(' '));
+    const auto inTitle = [&](const QString& before) {
+      return !words.isEmpty() && (QLatin1Char(' ') + entry.title).contains(before + words.front(), Qt::CaseInsensitive);
+    };
     const bool is = entry.title.compare(joined, Qt::CaseInsensitive) == 0;
     const bool begins = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive);
-    const int rank = !entry.whyNot.isEmpty()                                    ? 5
-                     : is                                                       ? 0
-                     : begins                                                   ? 1
-                     : entry.replaces                                           ? 4
-                     : entry.title.contains(words.front(), Qt::CaseInsensitive) ? 2
-                                                                                : 3;
+    const int rank = !entry.whyNot.isEmpty()        ? 6
+                     : is                           ? 0
+                     : begins                       ? 1
+                     : entry.replaces               ? 5
+                     : inTitle(QStringLiteral(" ")) ? 2
+                     : inTitle({})                  ? 3
+                                                    : 4;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

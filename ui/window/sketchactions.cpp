@@ -126,11 +126,13 @@ QList<QKeySequence> SketchActions::keysOf(const std::string& brush) const {
 void SketchActions::addBrushes() {
   const PluginRegistry* plugins = m_session.plugins();
   for (const std::string& id : plugins->ids(PluginKind::Brush)) {
-    m_actions.add(m_shapes, QStringLiteral("sketch.shape.") + QString::fromStdString(id),
-                  QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), keysOf(id), [this, id] {
-                    if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
-                    m_tools.takeBrush(id);
-                  });
+    QAction* action =
+        m_actions.add(m_shapes, QStringLiteral("sketch.shape.") + QString::fromStdString(id),
+                      QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), keysOf(id), [this, id] {
+                        if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
+                        m_tools.takeBrush(id);
+                      });
+    action->setProperty(kWords, QString::fromStdString(id));
   }
   m_shapes->setEnabled(!m_shapes->isEmpty());
 }

@@ -245,6 +245,10 @@ void VrMode::showMirror() {
 void VrMode::showState() {
   m_action.setChecked(m_headset != nullptr);
   m_without.setChecked(m_window != nullptr);
+  const QString why = m_window ? QStringLiteral("The window of the trial shows that already") : QString();
+  m_mirrors.setEnabled(!m_window);
+  m_mirrors.setProperty(kWhyNot, why);
+  m_mirrors.setToolTip(why);
   QString in = QStringLiteral("In VR");
   if (m_headset && m_headset->hertz() > 0) in += QStringLiteral(", %1 Hz").arg(std::lround(m_headset->hertz()));
   if (m_headset && m_headset->detail() < 1)
