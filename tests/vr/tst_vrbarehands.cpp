@@ -189,11 +189,10 @@ void VrBareHandsTest::aFistDrawsNothing() {
 /// The right eye's pictures without hands and with both of them.
 std::array<QImage, 2> VrBareHandsTest::before(const QString& more, const char* shape) {
   const vr::Stand s = stand();
-  const QString away = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
   const QString back = QStringLiteral(R"(, {"frame": 20, "left": {"active": true}, "right": {"active": true}})");
   const char* left = shape == std::string("fist") ? "relaxed" : shape;  // two would carry the scene, which dims it
   std::string text = vrScript(QStringLiteral(R"(, "pictures": [15, 50])") + more,
-                              away + back + shaped(20, vr::kLeft, s.toRoom({-0.16, 0.45, 0.25}), left) +
+                              kHandsAway + back + shaped(20, vr::kLeft, s.toRoom({-0.16, 0.45, 0.25}), left) +
                                   shaped(20, vr::kRight, s.toRoom({0.16, 0.4, 0.25}), shape));
   text = QString::fromStdString(text).replace(QString::number(kSide), QStringLiteral("512")).toStdString();
   const ScriptedRun run(text);

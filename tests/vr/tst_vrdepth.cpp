@@ -39,8 +39,7 @@ class VrDepthTest : public PanelsTest {
 };
 
 void VrDepthTest::depthsAreThoseOfWhatIsSeen() {
-  const QString away = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
-  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [40, 120])"), away));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [40, 120])"), kHandsAway));
   enter();
   const vr::Stand s = stand();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 44, kLong);

@@ -362,10 +362,10 @@ void VrHandsTest::handsAreSeen() {
   constexpr int kWide = 512;
   const vr::Stand s = stand();
   const std::array<Vector3, 2> tips{Vector3(-0.16, 0.45, 0.25), Vector3(0.16, 0.4, 0.25)};
-  const QString away = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
   const QString there = QStringLiteral(R"(, "active": true)");
-  const std::string text = vrScript(QStringLiteral(R"(, "pictures": [15, 40])"),
-                                    away + key(20, "left", s, tips[0], there) + key(20, "right", s, tips[1], there));
+  const std::string text =
+      vrScript(QStringLiteral(R"(, "pictures": [15, 40])"),
+               kHandsAway + key(20, "left", s, tips[0], there) + key(20, "right", s, tips[1], there));
   const ScriptedRun run(
       QString::fromStdString(text).replace(QString::number(kSide), QString::number(kWide)).toStdString());
   action()->trigger();

@@ -11,7 +11,6 @@ using namespace ps;
 
 namespace {
 
-const QString kAway = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
 constexpr int kCorner = 64;  // pixels along both sides of a corner that are hidden together with a tile around them
 
 /// Pixels from the nearest corner of the picture, along both its sides.
@@ -43,7 +42,8 @@ class VrMaskTest : public VrWindowTest {
 
 VrMaskTest::Pictures VrMaskTest::seen(const QString& more) {
   constexpr int kFirst = 40, kSecond = 90;
-  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [%1, %2])").arg(kFirst).arg(kSecond) + more, kAway));
+  const ScriptedRun run(
+      vrScript(QStringLiteral(R"(, "pictures": [%1, %2])").arg(kFirst).arg(kSecond) + more, kHandsAway));
   Pictures pictures;
   [&] {
     enter();

@@ -156,9 +156,7 @@ void VrMirrorTest::theWindowShowsTheLeftEye() {
   backToTheStart();
   QAction* mirrors = m_window->action(QStringLiteral("simulation.mirror"));
   QVERIFY(mirrors && mirrors->isCheckable() && !mirrors->isChecked());
-  const ScriptedRun run(
-      vrScript(QStringLiteral(R"(, "pictures": [60])"),
-               QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})")));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [60])"), kHandsAway));
   enter();
   QVERIFY(!vr().mirror() && view()->updatesEnabled());
   mirrors->trigger();

@@ -26,6 +26,9 @@ inline Eye scriptEye(bool right) {
   return eyeThrough(place.inverse().matrix(), -1, 1, -1, 1, 0.03, 100);
 }
 
+/// Keys of a script: neither hand is there.
+const QString kHandsAway = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
+
 /// Frames as long as a headset's, so that the window has its share of the machine. `keys`: further ones, `more`: other
 /// keys of the script, each with a comma before it.
 inline std::string vrScript(const QString& more = {}, const QString& keys = {}) {
