@@ -42,7 +42,7 @@ void meshAttributes(GLuint buffer) {
 Quality qualityOf(const char* rendererName, PixelWork work) {
   Quality quality;
   for (const char* name : kSoftware)
-    if (rendererName && std::strstr(rendererName, name)) quality = {512, 2, 2, 6, 2, 5, 2, 4, 2, 2, true, false};
+    if (rendererName && std::strstr(rendererName, name)) quality = {512, 2, 2, 6, 2, 5, 2, 4, 2, 2, true, false, true};
   if (work != PixelWork::AsSuitsTheCard) quality.compute = work == PixelWork::Computed;
   quality.cull = quality.cull && !quality.compute;
   return quality;

@@ -28,8 +28,9 @@ struct Quality {
   int fluidScale = 2, fluidTaps = 12, fluidRounds = 2;
   int steamScale = 2, steamSprites = 4;
   int outlineScale = 1;
-  bool cull = false;    ///< the processor leaves out hidden spheres
-  bool compute = true;  ///< surfaces and pixels by programs that compute, else by drawing triangles
+  bool cull = false;        ///< the processor leaves out hidden spheres
+  bool compute = true;      ///< surfaces and pixels by programs that compute, else by drawing triangles
+  bool takesTurns = false;  ///< no two threads may draw at once, each in a context of its own
 };
 Quality qualityOf(const char* rendererName, PixelWork work);
 /// Of the buffer's corners of triangles, MeshVertex or EdgeVertex, in the vertex array that is bound.

@@ -8,6 +8,7 @@
 #include "ui/render/viewframe.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 namespace ps {
@@ -24,6 +25,24 @@ GLenum takeErrors() {
   }
   return first;
 }
+
+/// What a renderer tells OpenGL, where only one thread may do so at a time. Seen with Mesa 22.3's llvmpipe, where the
+/// headset and the window draw at once: now and then one of them falls in the driver's rasterizer, or never comes back.
+class Turn {
+ public:
+  explicit Turn(const render::Quality& quality) {
+    static std::mutex mutex;
+    if (quality.takesTurns) m_lock = std::unique_lock(mutex);
+  }
+  ~Turn() {
+    if (m_lock) glFinish();  // nothing is left for the driver's own threads
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::unique_lock<std::mutex> m_lock;
+};
 
 }  // namespace
 
@@ -58,6 +77,7 @@ void Renderer::checkSize(const PictureSize& size) const {
 void Renderer::prepare(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene,
                        const Look& look) {
   m->prepared.fill(now, previous, blend, scene, look);
+  const Turn turn(m->passes->quality());
   const render::GlState state;
   m->passes->prepare(m->prepared);
 }
@@ -93,6 +113,7 @@ void Renderer::draw(const Eye& eye, const RenderTarget& target) {
   render::ViewFrame& frame = m->frame;
   frame.fill(m->prepared, eye, target, m->passes->quality());
 
+  const Turn turn(m->passes->quality());
   const render::GlState state;
   const render::Instances& drawn = m->prepared.instances;
   const std::array wanted{drawn.liquids() > 0, drawn.vapours > 0, drawn.outlined > 0, drawn.ghosts > 0};
@@ -116,6 +137,7 @@ void Renderer::draw(const Eye& eye, const RenderTarget& target) {
 void Renderer::drawDepth(const RenderTarget& target, size_t panels) {
   const render::Layers* drawn = m->pool.find(m->frame.width, m->frame.height);
   if (!drawn) throw Error("there are no depths of what was never drawn");
+  const Turn turn(m->passes->quality());
   const render::GlState state;
   m->passes->drawDepth(m->prepared, *drawn, target, panels);
 }
