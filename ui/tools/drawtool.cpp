@@ -77,7 +77,7 @@ bool DrawTool::press(const Pointer& pointer) {
 }
 
 void DrawTool::beginTouch(const Pointer& pointer) {
-  const QString problem = m_touch.begin(erases(pointer), m_cursor->centre, m_plane.normal,
+  const QString problem = m_touch.begin(box().brush(), erases(pointer), m_cursor->centre, m_plane.normal,
                                         pointer.ray.direction.normalized(), heldBy(pointer));
   if (!problem.isEmpty()) return refuse(problem);
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};

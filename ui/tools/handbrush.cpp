@@ -31,14 +31,22 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   m_began = hand.seconds;
   m_last = hand;
   m_up = hand.up;
-  const QString problem = m_box.touchesMatter()
-                              ? m_touch.begin(opposite, *hand.place, hand.up, hand.forward, heldBy(hand))
+  const QString problem = !m_always.empty() || m_box.touchesMatter()
+                              ? m_touch.begin(brush(), opposite, *hand.place, hand.up, hand.forward, heldBy(hand))
                               : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, heldBy(hand));
   if (active()) ++m_begun;
   if (!problem.isEmpty()) {
     m_stroke.cancel();
     say(problem);
   }
+}
+
+BrushSettings HandBrush::brush() const {
+  BrushSettings brush = m_box.brush();
+  if (m_always.empty()) return brush;
+  brush.shape = m_always;
+  brush.symmetry = {};
+  return brush;
 }
 
 /// A level hand that points away along z is turned by nothing.
@@ -78,7 +86,7 @@ void HandBrush::cancel() {
 
 void HandBrush::say(const QString& problem) {
   if (problem.isEmpty()) return;
-  const bool draws = !m_box.touchesMatter() && !m_box.reworks();
+  const bool draws = m_always.empty() && !m_box.touchesMatter() && !m_box.reworks();
   m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
 }
 

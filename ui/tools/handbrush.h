@@ -4,6 +4,8 @@
 #include "ui/tools/livetouch.h"
 
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace ps {
 
@@ -22,7 +24,9 @@ struct HandInScene {
 /// undo. There may be several; the stroke of one goes on while that of another ends.
 class HandBrush {
  public:
-  explicit HandBrush(Toolbox& box) : m_box(box), m_stroke(box), m_touch(box) {}
+  /// `always`: it has that brush for matter, whatever is chosen, with the size of the chosen one.
+  explicit HandBrush(Toolbox& box, std::string always = {})
+      : m_box(box), m_always(std::move(always)), m_stroke(box), m_touch(box) {}
   /// `scene`: as it is shown; nullptr: nothing yet.
   void follow(const HandInScene& hand, const SnapshotPtr& scene);
   void end();     ///< as far as it came
@@ -34,10 +38,12 @@ class HandBrush {
  private:
   void begin(const HandInScene& hand, const SnapshotPtr& scene);
   void move(const HandInScene& hand);
+  BrushSettings brush() const;
   Held heldBy(const HandInScene& hand) const;
   void say(const QString& problem);
 
   Toolbox& m_box;
+  std::string m_always;
   LiveStroke m_stroke;
   LiveTouch m_touch;
   bool m_pressed = false;

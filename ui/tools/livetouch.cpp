@@ -29,10 +29,9 @@ bool keeps(const std::vector<api::Touch>& touches) {
 
 }  // namespace
 
-QString LiveTouch::whyNot() const {
+QString LiveTouch::whyNot(const std::string& brush) const {
   const PluginRegistry* plugins = m_box.document().plugins();
   if (!plugins || !m_box.link()) return QStringLiteral("Plugins are still being loaded.");
-  const std::string& brush = m_box.brush().shape;
   if (!plugins->brush(brush))
     return QStringLiteral("The brush “%1” is not installed. See Plugins.").arg(QString::fromStdString(brush));
   if (!m_box.link()->runs())
@@ -40,13 +39,13 @@ QString LiveTouch::whyNot() const {
   return {};
 }
 
-QString LiveTouch::begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look,
-                         const Held& held) {
-  if (const QString problem = whyNot(); !problem.isEmpty()) return problem;
+QString LiveTouch::begin(const BrushSettings& brush, bool opposite, const Vector3& point, const Vector3& up,
+                         const Vector3& look, const Held& held) {
+  if (const QString problem = whyNot(brush.shape); !problem.isEmpty()) return problem;
   const PluginRegistry& plugins = *m_box.document().plugins();
-  m_brush = m_box.brush().shape;
+  m_brush = brush.shape;
   m_kind = opposite ? api::EditKind::Remove : api::EditKind::Add;
-  m_setup = strokeSetup(m_box.brush(), plugins, m_box.spacing(), up);
+  m_setup = strokeSetup(brush, plugins, m_box.spacing(), up);
   m_setup.look = look;
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_record = std::make_shared<StrokeRecord>();

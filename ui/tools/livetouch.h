@@ -22,9 +22,10 @@ class LiveTouch {
  public:
   explicit LiveTouch(Toolbox& box) : m_box(box) {}
 
-  /// "" or why the hand does nothing. `opposite`: of what the brush is called; `up`: away from what it points at;
-  /// `look`: unit vector along which one sees it.
-  QString begin(bool opposite, const Vector3& point, const Vector3& up, const Vector3& look, const Held& held);
+  /// "" or why the hand does nothing. `brush`: that it has in hand; `opposite`: of what that is called; `up`: away from
+  /// what it points at; `look`: unit vector along which one sees it.
+  QString begin(const BrushSettings& brush, bool opposite, const Vector3& point, const Vector3& up, const Vector3& look,
+                const Held& held);
   /// "" or what went wrong; the hand then lets go. `seconds` since it began.
   QString move(const Vector3& point, double seconds, const Held& held);
   /// The next place is not joined to the last one.
@@ -37,7 +38,7 @@ class LiveTouch {
   bool holds() const { return m_holds; }              ///< it carries what it has taken hold of
 
  private:
-  QString whyNot() const;
+  QString whyNot(const std::string& brush) const;
   QString send(std::vector<api::StrokeSample> way, const std::optional<api::StrokeSample>& stays);
   Vector3 speedTo(const Vector3& point, double seconds);
 

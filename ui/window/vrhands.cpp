@@ -22,7 +22,8 @@ using vr::kLeft, vr::kRight;
 constexpr double kPushed = 0.7;    // of a stick's way, or from the middle of a pad
 constexpr double kRepeats = 0.15;  // s, while it stays there
 constexpr double kLong = 0.5;      // s
-constexpr double kTurned = 0.05;   // about rad, after which a brush is shown turned
+constexpr const char* kGrabBrush = "grab";
+constexpr double kTurned = 0.05;  // about rad, after which a brush is shown turned
 
 }  // namespace
 
@@ -30,11 +31,13 @@ VrHands::VrHands(Session& session, Toolbox& tools)
     : m_session(session),
       m_tools(tools),
       m_brushes{HandBrush(tools), HandBrush(tools)},
+      m_grabs{HandBrush(tools, kGrabBrush), HandBrush(tools, kGrabBrush)},
       m_held{HandTool(tools), HandTool(tools)} {
   // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
   connect(&session.document().undoStack(), &History::indexChanged, this, [this] {
     if (m_ends) return;
     for (HandBrush& brush : m_brushes) brush.cancel();
+    for (HandBrush& grab : m_grabs) grab.cancel();
     for (HandTool& held : m_held) held.letGo();
   });
 }
@@ -56,7 +59,7 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   const uint64_t begun = brush.begun();
   HandInScene there{now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds};
   m_ends = true;
-  if (lead(hand, there, scene)) there.pressure = 0;  // it has no brush meanwhile
+  if (lead(hand, there, scene) || grab(hand, there, scene)) there.pressure = 0;  // it has no brush meanwhile
   const bool heated = brush.heats();
   brush.follow(there, scene);
   m_ends = false;
@@ -78,6 +81,28 @@ bool VrHands::lead(size_t hand, const HandInScene& there, const SnapshotPtr& sce
     ++m_taken[hand];
   }
   return held.active();
+}
+
+/// What is free is carried while time passes: before that there is nothing that would bear it.
+bool VrHands::grab(size_t hand, HandInScene there, const SnapshotPtr& scene) {
+  HandBrush& grab = m_grabs[hand];
+  const bool begins = there.opposite && !m_seen.hands[hand].holds && there.pressure == 0;
+  const bool meant = grab.active() ? there.pressure == 0 : begins && m_session.playing() && meets(there, scene);
+  there.pressure = there.opposite && meant ? 1 : 0;
+  there.opposite = false;
+  const uint64_t begun = grab.begun();
+  grab.follow(there, scene);
+  m_taken[hand] += grab.begun() - begun;
+  m_changed = m_changed || grab.begun() != begun;
+  return grab.active();
+}
+
+/// Whether there is matter within the hand's brush.
+bool VrHands::meets(const HandInScene& there, const SnapshotPtr& scene) const {
+  const double reach = m_tools.brush().radius + m_tools.spacing();
+  return there.place && scene && std::any_of(scene->position.begin(), scene->position.end(), [&](const auto& p) {
+           return (vectorOf(p) - *there.place).squaredNorm() < reach * reach;
+         });
 }
 
 /// First and second button. Hands with pads have one for both: for half a second it is the second.
@@ -129,6 +154,7 @@ void VrHands::step(int direction, double seconds) {
 void VrHands::letGo() {
   m_ends = true;
   for (HandBrush& brush : m_brushes) brush.end();
+  for (HandBrush& grab : m_grabs) grab.end();
   for (HandTool& held : m_held) held.letGo();
   m_ends = false;
   m_seen = {};

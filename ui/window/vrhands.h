@@ -15,8 +15,9 @@ namespace ps {
 
 class Session;
 
-/// What hands in the headset do in the editor: either draws with the chosen brush, or takes hold of a body that is held
-/// in place and leads it, and its buttons undo, play, and choose size, shape and material.
+/// What hands in the headset do in the editor: either draws with the chosen brush, or takes hold of what is there (of a
+/// body that is held in place, to lead it, or of free matter while time passes), and its buttons undo, play, and choose
+/// size, shape and material.
 class VrHands : public QObject {
   Q_OBJECT
  public:
@@ -36,6 +37,8 @@ class VrHands : public QObject {
  private:
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
   bool lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene);
+  bool grab(size_t hand, HandInScene there, const SnapshotPtr& scene);
+  bool meets(const HandInScene& there, const SnapshotPtr& scene) const;
   vr::Feeling feeling(size_t hand, const Snapshot* scene) const;
   void press(size_t hand, const vr::HandInput& now, double seconds);
   std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
@@ -45,7 +48,7 @@ class VrHands : public QObject {
 
   Session& m_session;
   Toolbox& m_tools;
-  std::array<HandBrush, 2> m_brushes;
+  std::array<HandBrush, 2> m_brushes, m_grabs;
   std::array<HandTool, 2> m_held;
   std::array<uint64_t, 2> m_taken{};                  ///< bodies so far
   vr::HandsSeen m_seen;                               ///< the last one
