@@ -2,6 +2,7 @@
 #include "tests/vr/scriptedrun.h"
 
 #include <QFile>
+#include <QSaveFile>
 
 namespace ps {
 
@@ -17,6 +18,13 @@ ScriptedRun::ScriptedRun(const std::string& script) {
 
 ScriptedRun::~ScriptedRun() {
   for (const char* name : {"XR_RUNTIME_JSON", "PS_XR_SCRIPT", "PS_XR_LOG", "PS_XR_PICTURES"}) qunsetenv(name);
+}
+
+void ScriptedRun::goOn(const std::string& script) {
+  QSaveFile file(this->file("script.json.later"));  // whole, or not there
+  if (!file.open(QFile::WriteOnly)) qFatal("the script cannot be written");
+  file.write(QByteArray::fromStdString(script));
+  if (!file.commit()) qFatal("the script cannot be written");
 }
 
 std::vector<nlohmann::json> ScriptedRun::lines(const std::string& key) const {

@@ -18,6 +18,8 @@ class ScriptedRun {
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;
 
+  /// What head and hands do from now on, from this script's own frame 0.
+  void goOn(const std::string& script);
   /// The lines of the log that have this key, "" for all.
   std::vector<nlohmann::json> lines(const std::string& key) const;
   /// What is under the key in each of them, in words: {"IDLE", "READY", ...} for "state".

@@ -101,7 +101,7 @@ XRAPI_ATTR XrResult XRAPI_CALL createInstance(const XrInstanceCreateInfo* info, 
   if (own.instance) return XR_ERROR_LIMIT_REACHED;
   std::optional<Script> script = readScript();
   if (!script) return XR_ERROR_RUNTIME_FAILURE;
-  auto instance = std::make_unique<Instance>(std::move(*script), environment("PS_XR_LOG"));
+  auto instance = std::make_unique<Instance>(std::move(*script), environment("PS_XR_SCRIPT"), environment("PS_XR_LOG"));
   try {
     start(*instance, *info);
   } catch (const Refusal& refusal) {

@@ -5,6 +5,7 @@
 #include "tests/vr/runtime/scriptreader.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ps::scripted {
 
@@ -30,6 +31,18 @@ Script::Script(const std::string& path) {
   if (!path.empty()) ScriptReader(path).read(*this);
 }
 
+void Script::goOn(Script&& later, int64_t begin) {
+  m_begin = begin;
+  m_head = std::move(later.m_head);
+  m_grip = std::move(later.m_grip);
+  m_aim = std::move(later.m_aim);
+  m_hands = std::move(later.m_hands);
+  m_pictures.clear();
+  for (const int64_t frame : later.m_pictures) m_pictures.insert(frame + begin);
+  events = std::move(later.events);
+  for (ScriptEvent& event : events) event.frame += double(begin);
+}
+
 XrPosef Script::at(const Track& track, double frame, const XrPosef& otherwise) {
   if (track.empty()) return otherwise;
   const auto after =
@@ -41,16 +54,18 @@ XrPosef Script::at(const Track& track, double frame, const XrPosef& otherwise) {
 }
 
 // Of somebody who stands and holds both hands in front.
-XrPosef Script::head(double frame) const { return at(m_head, frame, {{0, 0, 0, 1}, {0, 1.6f, 0}}); }
+XrPosef Script::head(double frame) const { return at(m_head, frame - double(m_begin), {{0, 0, 0, 1}, {0, 1.6f, 0}}); }
 XrPosef Script::grip(size_t hand, double frame) const {
-  return at(m_grip[hand], frame, {{0, 0, 0, 1}, {hand == 0 ? -0.2f : 0.2f, 1.3f, -0.4f}});
+  return at(m_grip[hand], frame - double(m_begin), {{0, 0, 0, 1}, {hand == 0 ? -0.2f : 0.2f, 1.3f, -0.4f}});
 }
-XrPosef Script::aim(size_t hand, double frame) const { return at(m_aim[hand], frame, grip(hand, frame)); }
+XrPosef Script::aim(size_t hand, double frame) const {
+  return at(m_aim[hand], frame - double(m_begin), grip(hand, frame));
+}
 
 HandState Script::hand(size_t hand, double frame) const {
   HandState state;
   for (const HandKey& key : m_hands[hand]) {
-    if (key.frame > frame) break;
+    if (key.frame > frame - double(m_begin)) break;
     state.active = key.active.value_or(state.active);
     state.tracked = key.tracked.value_or(state.tracked);
     state.shape = key.shape.value_or(state.shape);

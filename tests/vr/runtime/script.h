@@ -33,6 +33,9 @@ class Script {
  public:
   /// Throws InputError "FILE:/events/0/fail: ..." where something is amiss. An empty path is an empty script.
   explicit Script(const std::string& path);
+  /// Goes on with what another one does from its frame 0, as if that were the frame `begin` here. What is on offer is
+  /// not changed by it.
+  void goOn(Script&& later, int64_t begin);
 
   XrPosef head(double frame) const;  ///< in the stage, whose origin is on the floor
   XrPosef grip(size_t hand, double frame) const;
@@ -70,6 +73,7 @@ class Script {
 
   static XrPosef at(const Track& track, double frame, const XrPosef& otherwise);
 
+  int64_t m_begin = 0;  ///< the frame from which those of the keys count
   Track m_head;
   std::array<Track, 2> m_grip, m_aim;
   std::array<std::vector<HandKey>, 2> m_hands;

@@ -101,9 +101,11 @@ struct Clock {
 };
 
 struct Instance {
-  explicit Instance(Script theScript, const std::string& logFile) : script(std::move(theScript)), log(logFile) {}
+  Instance(Script theScript, const std::string& scriptFile, const std::string& logFile)
+      : script(std::move(theScript)), laterScript(scriptFile.empty() ? "" : scriptFile + ".later"), log(logFile) {}
 
   Script script;
+  std::string laterScript;  ///< a file that a test may bring while its client is at it; "": none
   Log log;
   std::set<std::string, std::less<>> extensions;
   Paths paths;

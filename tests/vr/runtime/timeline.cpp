@@ -6,7 +6,11 @@
 #include "tests/vr/runtime/names.h"
 #include "tests/vr/runtime/scriptreader.h"
 
+#include <unistd.h>
+
 #include <cmath>
+#include <exception>
+#include <string>
 
 namespace ps::scripted {
 namespace {
@@ -80,6 +84,20 @@ void apply(Instance& instance, const json& what) {
   }
 }
 
+bool isThere(const std::string& file) { return !file.empty() && access(file.c_str(), R_OK) == 0; }
+
+// The script that a test has brought meanwhile, which is gone then: another one may follow.
+void goOn(Instance& instance) {
+  try {
+    instance.script.goOn(Script(instance.laterScript), instance.frame);
+    instance.nextEvent = 0;
+    instance.log.write({{"later_script", "begun"}, {"frame", instance.frame}});
+  } catch (const std::exception& error) {
+    instance.log.write({{"later_script", error.what()}, {"frame", instance.frame}});
+  }
+  unlink(instance.laterScript.c_str());
+}
+
 }  // namespace
 
 XrTime timeOf(const Instance& instance, int64_t frame) {
@@ -101,6 +119,7 @@ void changeRefreshRate(Instance& instance, float rate) {
 
 void nextFrame(Instance& instance) {
   ++instance.frame;
+  if (isThere(instance.laterScript)) goOn(instance);
   applyEvents(instance);
 }
 
