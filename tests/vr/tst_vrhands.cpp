@@ -21,20 +21,6 @@ using namespace ps;
 
 namespace {
 
-/// A key of the script: a hand whose tip is at a place in the scene, level and looking away from its wearer, with more
-/// of its inputs.
-QString key(int frame, const char* hand, const vr::Stand& stand, const Vector3& tip, const QString& inputs) {
-  const Vector3 at = stand.toRoom(tip) + Vector3(0, 0, vr::kTip);
-  return QStringLiteral(R"(, {"frame": %1, "%2": {"grip": [%3, %4, %5], "aim": [%3, %4, %5]%6}})")
-      .arg(QString::number(frame), QString::fromLatin1(hand), QString::number(at.x()), QString::number(at.y()),
-           QString::number(at.z()), inputs);
-}
-
-const QString kPulled = QStringLiteral(R"(, "/input/trigger/value": 1)");
-const QString kLetGo = QStringLiteral(R"(, "/input/trigger/value": 0)");
-const QString kPulledHeld = QStringLiteral(R"(, "/input/trigger/value": 1, "/input/squeeze/value": 1)");
-const QString kLetGoHeld = QStringLiteral(R"(, "/input/trigger/value": 0, "/input/squeeze/value": 0)");
-
 /// Around a body's cells, m.
 Box boxOfCells(const Body& body) {
   const auto& voxels = std::get<VoxelShape>(body.shape);
@@ -90,9 +76,9 @@ void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
   const vr::Stand s = stand();
   const Vector3 from(-0.15, 0.5, 0.1), to(0.15, 0.5, 0.1);
   const std::set<uint32_t> before = idsNow(session());
-  const ScriptedRun run(vrScript({}, key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) +
-                                         key(50, "right", s, to, kLetGo) +
-                                         key(200, "right", s, to, QStringLiteral(R"(, "/input/a/click": true)"))));
+  const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, {}) + tipKey(20, "right", s, from, kPulled) +
+                                         tipKey(50, "right", s, to, kLetGo) +
+                                         tipKey(200, "right", s, to, QStringLiteral(R"(, "/input/a/click": true)"))));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QVERIFY2(vr().frames() < 200, "the button came first");
@@ -118,10 +104,10 @@ void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
 void VrHandsTest::bothHandsDrawAtOnce() {
   const vr::Stand s = stand();
   const Vector3 left(-0.2, 0.6, 0), right(0.2, 0.6, 0), way(0, 0, 0.2);
-  const ScriptedRun run(vrScript({}, key(5, "left", s, left, {}) + key(5, "right", s, right, {}) +
-                                         key(20, "left", s, left, kPulled) + key(20, "right", s, right, kPulled) +
-                                         key(40, "left", s, left + way, kLetGo) +
-                                         key(50, "right", s, right + way, kLetGo)));
+  const ScriptedRun run(vrScript({}, tipKey(5, "left", s, left, {}) + tipKey(5, "right", s, right, {}) +
+                                         tipKey(20, "left", s, left, kPulled) + tipKey(20, "right", s, right, kPulled) +
+                                         tipKey(40, "left", s, left + way, kLetGo) +
+                                         tipKey(50, "right", s, right + way, kLetGo)));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 2, kLong);
   QCOMPARE(bodies(), m_before + 2);
@@ -141,8 +127,8 @@ void VrHandsTest::aHeldGripErases() {
   const vr::Stand s = stand();
   const Vector3 at(0.15, 0.28, 0.15);  // a corner of the block
   const size_t before = idsNow(session()).size();
-  const ScriptedRun run(vrScript(
-      {}, key(5, "left", s, at, {}) + key(20, "left", s, at, kPulledHeld) + key(40, "left", s, at, kLetGoHeld)));
+  const ScriptedRun run(vrScript({}, tipKey(5, "left", s, at, {}) + tipKey(20, "left", s, at, kPulledHeld) +
+                                         tipKey(40, "left", s, at, kLetGoHeld)));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QCOMPARE(document().undoStack().undoText(), QStringLiteral("erasing stroke"));
@@ -164,8 +150,8 @@ void VrHandsTest::aHandHeatsWhileTheSceneRuns() {
   const vr::Stand s = stand();
   const Vector3 at(0, 0.28, 0);
   m_window->tools().takeBrush("heat");
-  const ScriptedRun run(
-      vrScript({}, key(5, "right", s, at, {}) + key(20, "right", s, at, kPulled) + key(60, "right", s, at, kLetGo)));
+  const ScriptedRun run(vrScript(
+      {}, tipKey(5, "right", s, at, {}) + tipKey(20, "right", s, at, kPulled) + tipKey(60, "right", s, at, kLetGo)));
   session().play();
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
@@ -255,8 +241,8 @@ void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
   {
     const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
     const QString open = QStringLiteral(R"(, "/input/squeeze/value": 0)");
-    const ScriptedRun run(vrScript({}, key(5, "right", s, from, open) + key(20, "right", s, from, held) +
-                                           key(110, "right", s, to, held) + key(180, "right", s, to, open)));
+    const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, open) + tipKey(20, "right", s, from, held) +
+                                           tipKey(110, "right", s, to, held) + tipKey(180, "right", s, to, open)));
     session().play();
     action()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(m_window->selection().items(), (std::vector<SelectedItem>{{OutlineKind::Body, id}}),
@@ -275,8 +261,9 @@ void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
     QVERIFY((middle() - from).norm() < 1e-6);
   }
   {
-    const ScriptedRun run(vrScript({}, key(5, "right", s, from, {}) + key(20, "right", s, from, kLetGoHeld) +
-                                           key(25, "right", s, from, kPulledHeld) + key(60, "right", s, from, kLetGo)));
+    const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, {}) + tipKey(20, "right", s, from, kLetGoHeld) +
+                                           tipKey(25, "right", s, from, kPulledHeld) +
+                                           tipKey(60, "right", s, from, kLetGo)));
     action()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(document().undoStack().undoText() == QStringLiteral("erasing stroke"), kLong);
     leave();
@@ -289,9 +276,9 @@ void VrHandsTest::aStrokeOutlivesItsHeadset() {
   const vr::Stand s = stand();
   const Vector3 from(-0.15, 0.5, 0), to(0.15, 0.5, 0);
   {
-    const ScriptedRun run(
-        vrScript(QStringLiteral(R"(, "events": [{"frame": 40, "dies": "XR_ERROR_INSTANCE_LOST"}])"),
-                 key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) + key(60, "right", s, to, kLetGo)));
+    const ScriptedRun run(vrScript(
+        QStringLiteral(R"(, "events": [{"frame": 40, "dies": "XR_ERROR_INSTANCE_LOST"}])"),
+        tipKey(5, "right", s, from, {}) + tipKey(20, "right", s, from, kPulled) + tipKey(60, "right", s, to, kLetGo)));
     action()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
   }
@@ -309,9 +296,9 @@ void VrHandsTest::aStrokeOutlivesItsHeadset() {
 void VrHandsTest::aHeadsetTakenOffEndsItsStroke() {
   const vr::Stand s = stand();
   const Vector3 from(-0.15, 0.5, 0), to(0.15, 0.5, 0);
-  const ScriptedRun run(
-      vrScript(QStringLiteral(R"(, "events": [{"frame": 40, "state": "IDLE"}])"),
-               key(5, "right", s, from, {}) + key(20, "right", s, from, kPulled) + key(60, "right", s, to, {})));
+  const ScriptedRun run(vrScript(
+      QStringLiteral(R"(, "events": [{"frame": 40, "state": "IDLE"}])"),
+      tipKey(5, "right", s, from, {}) + tipKey(20, "right", s, from, kPulled) + tipKey(60, "right", s, to, {})));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QVERIFY(vr().active());
@@ -322,10 +309,10 @@ void VrHandsTest::buttonsPlayAndChoose() {
   const double radius = m_window->tools().brush().radius;
   const vr::Stand s = stand();
   const ScriptedRun run(
-      vrScript({}, key(10, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": true)")) +
-                       key(20, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": false)")) +
-                       key(30, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 1)")) +
-                       key(34, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 0)"))));
+      vrScript({}, tipKey(10, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": true)")) +
+                       tipKey(20, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": false)")) +
+                       tipKey(30, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 1)")) +
+                       tipKey(34, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 0)"))));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
   QTRY_VERIFY_WITH_TIMEOUT(m_window->tools().brush().radius > radius, kLong);
@@ -365,7 +352,7 @@ void VrHandsTest::handsAreSeen() {
   const QString there = QStringLiteral(R"(, "active": true)");
   const std::string text =
       vrScript(QStringLiteral(R"(, "pictures": [15, 40])"),
-               kHandsAway + key(20, "left", s, tips[0], there) + key(20, "right", s, tips[1], there));
+               kHandsAway + tipKey(20, "left", s, tips[0], there) + tipKey(20, "right", s, tips[1], there));
   const ScriptedRun run(
       QString::fromStdString(text).replace(QString::number(kSide), QString::number(kWide)).toStdString());
   action()->trigger();
@@ -402,8 +389,8 @@ void VrHandsTest::validationIsSilent() {
   const ScriptedRun run(vrScript(
       QStringLiteral(
           R"(, "extensions": ["XR_KHR_opengl_enable", "XR_KHR_composition_layer_depth", "XR_FB_display_refresh_rate"])"),
-      key(5, "right", s, {0, 0.5, 0}, {}) + key(10, "right", s, {0, 0.5, 0}, kPulled) +
-          key(30, "right", s, {0.1, 0.5, 0}, kLetGo)));
+      tipKey(5, "right", s, {0, 0.5, 0}, {}) + tipKey(10, "right", s, {0, 0.5, 0}, kPulled) +
+          tipKey(30, "right", s, {0.1, 0.5, 0}, kLetGo)));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   leave();

@@ -82,28 +82,12 @@ void VrModeTest::eyesShowWhatTheViewShows() {
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 32, kLong);
   leave();
-  const Look look = view()->look();
-  view()->doneCurrent();
-  HeadlessContext context;
-  Renderer renderer;
-  renderer.prepare(*view()->snapshot(), nullptr, 1, view()->scene(), look);
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
   for (const bool right : {false, true}) {
-    const QImage picture = run.picture(30, right ? 1 : 0).convertToFormat(QImage::Format_RGBA8888);
-    QCOMPARE(picture.size(), QSize(kSide, kSide));
-    const auto wanted = renderImage(renderer, stand().toScene(scriptEye(right)), {kSide, kSide, false});
-    const QImage drawn(wanted.data(), kSide, kSide, 4 * kSide, QImage::Format_RGBA8888);
-    const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+    const QImage picture = run.picture(30, right ? 1 : 0);
     if (!folder.isEmpty()) picture.save(folder + (right ? "/eye-right.png" : "/eye-left.png"));
-    if (!folder.isEmpty()) drawn.save(folder + (right ? "/drawn-right.png" : "/drawn-left.png"));
-    double difference = 0, contrast = 0;
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < 4 * kSide; ++x) {
-        difference += std::abs(picture.constScanLine(y)[x] - drawn.constScanLine(y)[x]);
-        contrast += std::abs(picture.constScanLine(y)[x] - picture.constScanLine(0)[x % 4]);
-      }
-    const double each = 4.0 * kSide * kSide;
-    QVERIFY2(difference / each < 1, qPrintable(QString::number(difference / each)));
-    QVERIFY2(contrast / each > 10, qPrintable(QString::number(contrast / each)));
+    QCOMPARE(picture.size(), QSize(kSide, kSide));
+    seesWhatTheViewDraws(picture, right, stand());
   }
 }
 

@@ -7,7 +7,10 @@
 #include "ui/window/vrmode.h"
 
 #include <QtGui/QAction>
+#include <QtGui/QImage>
 
+#include <cmath>
+#include <cstdlib>
 #include <string>
 
 // The real window on the first sample, whose headset a script wears.
@@ -27,7 +30,22 @@ inline Eye scriptEye(bool right) {
 }
 
 /// Keys of a script: neither hand is there.
-const QString kHandsAway = QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
+inline const QString kHandsAway =
+    QStringLiteral(R"(, {"frame": 1, "left": {"active": false}, "right": {"active": false}})");
+
+inline const QString kPulled = QStringLiteral(R"(, "/input/trigger/value": 1)");
+inline const QString kLetGo = QStringLiteral(R"(, "/input/trigger/value": 0)");
+inline const QString kPulledHeld = QStringLiteral(R"(, "/input/trigger/value": 1, "/input/squeeze/value": 1)");
+inline const QString kLetGoHeld = QStringLiteral(R"(, "/input/trigger/value": 0, "/input/squeeze/value": 0)");
+
+/// A key of the script: a hand whose tip is at a place in the scene, level and looking away from its wearer, with more
+/// of its inputs.
+inline QString tipKey(int frame, const char* hand, const vr::Stand& stand, const Vector3& tip, const QString& inputs) {
+  const Vector3 at = stand.toRoom(tip) + Vector3(0, 0, vr::kTip);
+  return QStringLiteral(R"(, {"frame": %1, "%2": {"grip": [%3, %4, %5], "aim": [%3, %4, %5]%6}})")
+      .arg(QString::number(frame), QString::fromLatin1(hand), QString::number(at.x()), QString::number(at.y()),
+           QString::number(at.z()), inputs);
+}
 
 /// Frames as long as a headset's, so that the window has its share of the machine. `keys`: further ones, `more`: other
 /// keys of the script, each with a comma before it.
@@ -57,6 +75,29 @@ class VrWindowTest : public SampleWindowTest {
     action()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
     QVERIFY(!action()->isChecked());
+  }
+  /// The picture of one of the script's eyes, whose hands are away, is what the view would draw from there. It may be
+  /// smaller than was asked for, where the headset was late.
+  void seesWhatTheViewDraws(const QImage& eye, bool right, const vr::Stand& stand) {
+    const QImage picture = eye.convertToFormat(QImage::Format_RGBA8888);
+    const int side = picture.width();
+    QVERIFY(side > 0 && picture.height() == side);
+    view()->doneCurrent();
+    HeadlessContext context;
+    Renderer renderer;
+    renderer.prepare(*view()->snapshot(), nullptr, 1, view()->scene(), view()->look());
+    const auto wanted = renderImage(renderer, stand.toScene(scriptEye(right)), {side, side, false});
+    const QImage drawn(wanted.data(), side, side, 4 * side, QImage::Format_RGBA8888);
+    double difference = 0, contrast = 0;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < 4 * side; ++x) {
+        difference += std::abs(picture.constScanLine(y)[x] - drawn.constScanLine(y)[x]);
+        contrast += std::abs(picture.constScanLine(y)[x] - picture.constScanLine(0)[x % 4]);
+      }
+    const double each = 4.0 * side * side;
+    // A smaller picture is made of fewer and larger steps of light, and has more edge for its area.
+    QVERIFY2(difference / each < (side == kSide ? 1 : 2), qPrintable(QString::number(difference / each)));
+    QVERIFY2(contrast / each > 10, qPrintable(QString::number(contrast / each)));
   }
   void leaveAtLast() {
     if (!m_window) return;

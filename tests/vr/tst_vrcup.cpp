@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// The story of the cup in the headset, in one stay: it is sketched with the right hand while the left one takes some of
+// its rim away, made rigid, and water is sketched into it; an ice cube is sketched beside it, taken by the grip,
+// dropped in and heated until it melts; two undos. What the desktop has then, and saves, is what is there, and both
+// eyes see it.
+#include "tests/ui/cupstory.h"
+#include "tests/vr/vrwindow.h"
+#include "ui/tools/tooltable.h"
+
+#include <cmath>
+
+using namespace ps;
+
+class VrCupTest : public CupStory<VrWindowTest> {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { emptyScene(); }
+  void cleanupTestCase() {
+    leaveAtLast();
+    m_window.reset();
+  }
+
+  void aCupIsSketchedWhileTheOtherHandErases();
+  void itIsMadeRigidAndFilled();
+  void anIceCubeIsTakenAndDroppedIn();
+  void itIsHeatedUntilItMelts();
+  void twoUndos();
+  void theDesktopHasExactlyThat();
+
+ private:
+  /// What a hand does next, from its own frame 0; the head stays.
+  void next(const QString& keys, const QString& more = {}) { m_run->goOn(vrScript(more, keys)); }
+  QString right(int frame, const Vector3& tip, const QString& inputs = {}) {
+    return tipKey(frame, "right", m_stand, tip, inputs);
+  }
+  QString left(int frame, const Vector3& tip, const QString& inputs = {}) {
+    return tipKey(frame, "left", m_stand, tip, inputs);
+  }
+  void brush(const char* shape, double radius, double temperature, bool held) {
+    BrushSettings settings = m_window->tools().brush();
+    settings.radius = radius;
+    settings.temperature = temperature;
+    settings.held = held;
+    m_window->tools().setBrush(settings);
+    m_window->tools().takeBrush(shape);
+  }
+  int steps() { return document().undoStack().index(); }
+  QImage eye(bool isRight) {
+    const auto names = m_run->texts("picture");
+    for (auto name = names.rbegin(); name != names.rend(); ++name)
+      if (name->ends_with(isRight ? "-right.png" : "-left.png"))
+        return QImage(QString::fromStdString(*name));
+    return {};
+  }
+
+  std::unique_ptr<ScriptedRun> m_run;
+  vr::Stand m_stand;
+  Vector3 m_above{0, 0, 0};  ///< m, of the cup
+};
+
+void VrCupTest::aCupIsSketchedWhileTheOtherHandErases() {
+  choose("aluminium");
+  m_window->tools().activate(kBrushTool);
+  brush("tube", kCupRadius, 293.15, true);
+  m_stand = stand();
+  const Vector3 foot(0, 0.1, 0), rim(0, 0.1 + kCupHeight, 0);
+  m_run = std::make_unique<ScriptedRun>(
+      vrScript({}, left(0, {-0.4, 0.4, 0}) + right(0, foot) + right(20, foot, kPulled) + right(60, rim, kLetGo)));
+  const int before = steps();
+  enter();
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  m_cup = document().project().bodies.back().id;
+  const size_t wall = placesOf(m_cup).size();
+  QVERIFY2(wall > 200, qPrintable(QString::number(wall)));
+  // The bottom with one hand, and a lip out of the rim with the other one, in the same frames.
+  brush("disc", kCupRadius, 293.15, true);
+  const double half = m_window->tools().spacing() / 2;
+  const Vector3 lip(-kCupRadius, kCupHeight + 0.1 - 3 * half, 0), bottom(0, 0.1 - half, 0);
+  next(left(0, lip, kLetGo) + right(0, bottom, kLetGo) + left(20, lip, kPulledHeld) + right(20, bottom, kPulled) +
+       left(40, lip, kLetGoHeld) + right(40, bottom, kLetGo));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 3, kLong);
+  QCOMPARE(document().project().bodies.size(), size_t{1});
+  const std::vector<Vector3> places = placesOf(m_cup);
+  const auto rimOf = [&](double side) {
+    return std::count_if(places.begin(), places.end(), [&](const Vector3& p) {
+      return side * p.x() > kCupRadius / 2 && p.y() > lip.y() - 2 * kCupRadius / 5;
+    });
+  };
+  const auto bottomCells = std::count_if(places.begin(), places.end(), [&](const Vector3& p) {
+    return std::abs(p.y() - bottom.y()) < half && std::hypot(p.x(), p.z()) < kCupRadius / 2;
+  });
+  QVERIFY2(rimOf(-1) < rimOf(1) && bottomCells > 12,
+           qPrintable(QStringLiteral("%1 %2 %3").arg(rimOf(-1)).arg(rimOf(1)).arg(bottomCells)));
+}
+
+void VrCupTest::itIsMadeRigidAndFilled() {
+  makeRigid(m_cup);
+  choose("water");
+  brush("sphere", 0.04, 290, true);
+  const Vector3 low(0, 0.16, 0), high(0, 0.19, 0), away(0.4, 0.3, 0);
+  const int before = steps();
+  next(left(0, {-0.4, 0.4, 0}) + right(0, low, kLetGo) + right(20, low, kPulled) + right(40, high, kLetGo) +
+       right(60, away));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  m_water = document().project().bodies.back().id;
+  QVERIFY(m_water != m_cup);
+  const size_t count = placesOf(m_water).size();
+  QVERIFY2(count > 30, qPrintable(QString::number(count)));
+  const double start = meanOf(m_cup).y();
+  // The left hand makes both real, and lets time pass.
+  next(left(0, {-0.4, 0.4, 0}) + right(0, away) +
+       left(10, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/y/click": true)")) +
+       left(20, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/y/click": false, "/input/x/click": true)")) +
+       left(30, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/x/click": false)")));
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(timeNow() > 1.5, kRun);
+  QVERIFY2(meanOf(m_cup).y() < start - 0.05, qPrintable(QString::number(meanOf(m_cup).y())));
+  QVERIFY2(inCup(m_water) >= 0.95 * count, qPrintable(QString::number(inCup(m_water))));
+}
+
+/// While it all goes on. The grip takes it, whatever brush the hand has.
+void VrCupTest::anIceCubeIsTakenAndDroppedIn() {
+  brush("cube", 0.03, 263, false);
+  const Vector3 at(0.3, 0.05, 0);
+  const int before = steps();
+  next(right(0, at, kLetGo) + right(10, at, kPulled) + right(14, at, kLetGo) + right(20, {0.3, 0.3, 0}));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  m_ice = document().project().bodies.back().id;
+  QVERIFY(m_ice != m_water);
+  m_iceCount = placesOf(m_ice).size();
+  QVERIFY(m_iceCount > 8);
+  const double drawn = timeNow();
+  QTRY_VERIFY_WITH_TIMEOUT(timeNow() > drawn + 0.4, kRun);
+  const Vector3 lies = meanOf(m_ice), cup = meanOf(m_cup);
+  m_above = {cup.x(), 0.4, cup.z()};
+  const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
+  next(right(0, {0.3, 0.3, 0}) + right(20, lies) + right(30, lies, held) + right(130, {0.3, 0.4, 0}) +
+       right(260, m_above));
+  QTRY_VERIFY_WITH_TIMEOUT((meanOf(m_ice) - m_above).norm() < 0.05, kRun);
+  const double there = timeNow();
+  QTRY_VERIFY_WITH_TIMEOUT(timeNow() > there + 0.5, kRun);  // it swings no more
+  next(right(0, m_above, held) + right(5, m_above, QStringLiteral(R"(, "/input/squeeze/value": 0)")) +
+       right(30, {0.4, 0.4, 0}));
+  const double dropped = timeNow();
+  QTRY_VERIFY_WITH_TIMEOUT(timeNow() > dropped + 1, kRun);
+  QVERIFY2(inCup(m_ice) == m_iceCount, qPrintable(QString::number(inCup(m_ice))));
+  QCOMPARE(steps(), before + 1);  // what is carried is no step: the timeline goes back
+}
+
+void VrCupTest::itIsHeatedUntilItMelts() {
+  brush("heat", 0.1, 263, false);
+  BrushSettings settings = m_window->tools().brush();
+  settings.parameters["heat"].values = {{"power", 5000.0}, {"limit", 340.0}};
+  m_window->tools().setBrush(settings);
+  const int before = steps();
+  const Vector3 cup = meanOf(m_cup);
+  next(right(0, m_above) + right(20, cup) + right(25, cup, kPulled));
+  QTRY_VERIFY_WITH_TIMEOUT(liquidOf(m_ice) == m_iceCount, kRun);
+  next(right(0, cup, kPulled) + right(5, cup, kLetGo) + right(20, {0.4, 0.4, 0}));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  QVERIFY(document().undoStack().undoText().contains(QStringLiteral("Heat")));
+}
+
+/// By the right hand's first button; the left one stops time before.
+void VrCupTest::twoUndos() {
+  const double heated = heaters();
+  QVERIFY(heated > 0);
+  const int before = steps();
+  const Vector3 off(0.4, 0.4, 0), rest(-0.4, 0.4, 0);
+  const auto button = [](const char* name, bool down) {
+    return QStringLiteral(R"(, "/input/%1/click": %2)").arg(QString::fromLatin1(name), down ? "true" : "false");
+  };
+  next(left(0, rest) + right(0, off) + left(5, rest, button("x", true)) + left(10, rest, button("x", false)));
+  QTRY_VERIFY_WITH_TIMEOUT(!session().playing(), kLong);
+  next(left(0, rest) + right(0, off) + right(5, off, button("a", true)) + right(10, off, button("a", false)));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before - 1, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(std::abs(heaters()) < 1e-3 * heated, kLong);
+  QCOMPARE(placesOf(m_ice).size(), m_iceCount);
+  next(left(0, rest) + right(0, off) + right(5, off, button("a", true)) + right(10, off, button("a", false)));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before - 2, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(placesOf(m_ice).empty(), kLong);
+  QVERIFY(!document().body(m_ice));
+}
+
+/// Both eyes see what the view draws from there, and the file holds it.
+void VrCupTest::theDesktopHasExactlyThat() {
+  QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().snapshot(), kLong);
+  const size_t pictures = m_run->lines("picture").size();
+  next(kHandsAway, QStringLiteral(R"(, "pictures": [20])"));
+  QTRY_VERIFY_WITH_TIMEOUT(m_run->lines("picture").size() == pictures + 2, kLong);
+  leave();
+  QVERIFY(m_run->lines("violation").empty());
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) eye(false).save(folder + "/vr-cup.png");
+  for (const bool isRight : {false, true}) seesWhatTheViewDraws(eye(isRight), isRight, m_stand);
+  savedIsWhatIsThere(2);  // cup and water
+}
+
+QTEST_MAIN(VrCupTest)
+#include "tst_vrcup.moc"
