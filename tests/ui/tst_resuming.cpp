@@ -5,6 +5,8 @@
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
 #include "tests/shared/scenes.h"
+#include "ui/graphs/graphspanel.h"
+#include "ui/graphs/plot.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
@@ -112,6 +114,18 @@ class TestResuming : public QObject {
     QCOMPARE(session().now(), moment);
     QCOMPARE(session().newest()->stats.frame, kLeft);
     QVERIFY(!session().playing());
+  }
+
+  void cursorsOfGraphsComeBack() {
+    Plot* plot = m_window->findChild<GraphsPanel*>()->plots().front();
+    plot->setReading(0, 0.125);
+    plot->setReading(1, 0.25);
+    m_window->findChild<GraphsPanel*>()->plots().back()->setReading(1, 0.5);
+    reopen();
+    const std::vector<Plot*> plots = m_window->findChild<GraphsPanel*>()->plots();
+    QVERIFY(plots.size() > 1);
+    QVERIFY(plots.front()->reading(0) == 0.125 && plots.front()->reading(1) == 0.25);
+    QVERIFY(!plots.back()->reading(0) && plots.back()->reading(1) == 0.5);
   }
 
   void theSelectionComesBack() {

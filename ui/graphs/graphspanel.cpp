@@ -140,6 +140,22 @@ GraphView* GraphsPanel::valuesIn(const std::string& unit) const {
 
 PhaseStackView* GraphsPanel::phases() const { return findChild<PhaseStackView*>(); }
 
+std::map<std::string, std::array<std::optional<double>, 2>> GraphsPanel::readings() const {
+  std::map<std::string, std::array<std::optional<double>, 2>> all;
+  for (const Shown& shown : m_shown) {
+    const std::array both{shown.plot->reading(0), shown.plot->reading(1)};
+    if (both[0] || both[1]) all[shown.graph.id] = both;
+  }
+  return all;
+}
+
+void GraphsPanel::setReadings(const std::map<std::string, std::array<std::optional<double>, 2>>& readings) {
+  for (const auto& [id, both] : readings) {
+    Plot* of = plot(id);
+    for (size_t which = 0; of && which < both.size(); ++which) of->setReading(which, both[which]);
+  }
+}
+
 void GraphsPanel::fit() {
   for (const Shown& shown : m_shown) shown.plot->fit();
 }

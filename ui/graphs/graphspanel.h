@@ -8,6 +8,8 @@
 #include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +35,11 @@ class GraphsPanel : public QWidget {
   /// The first graph over time whose first curve is in this SI unit; nullptr where there is none.
   GraphView* valuesIn(const std::string& unit) const;
   PhaseStackView* phases() const;  ///< the first of its kind; nullptr: none
-  void fit();                      ///< all, up to now
-  void remake();                   ///< all anew: units are shown otherwise
+  /// Cursors A and B of those graphs that have one, by Graph::id.
+  std::map<std::string, std::array<std::optional<double>, 2>> readings() const;
+  void setReadings(const std::map<std::string, std::array<std::optional<double>, 2>>& readings);
+  void fit();     ///< all, up to now
+  void remake();  ///< all anew: units are shown otherwise
   /// The menu of a graph; "": of the place where none is. The caller owns it.
   QMenu* makeMenu(const std::string& id);
   /// A graph as a file: "png", "svg" or "csv".

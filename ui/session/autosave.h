@@ -9,9 +9,12 @@
 #include <QtCore/QString>
 #include <QtCore/QTimer>
 
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ps {
@@ -33,6 +36,8 @@ struct LastLook {
   bool playing = true;            ///< whether the run went on
   std::optional<double> shownAt;  ///< s, of a recorded frame that was shown instead of the newest
   bool hasRun = false;            ///< whether notes::runPath() is of this end
+  /// Cursors A and B of graphs, by Graph::id, along their axis.
+  std::map<std::string, std::array<std::optional<double>, 2>> readings{};
 };
 
 /// What an earlier session left behind.

@@ -84,6 +84,13 @@ QJsonObject toJson(const LastLook& look) {
                    {QStringLiteral("playing"), look.playing},
                    {QStringLiteral("run"), look.hasRun}};
   if (look.shownAt) json.insert(QStringLiteral("shownAt"), *look.shownAt);
+  QJsonObject readings;
+  for (const auto& [graph, both] : look.readings) {
+    QJsonArray places;
+    for (const std::optional<double>& at : both) places.append(at ? QJsonValue(*at) : QJsonValue());
+    readings.insert(QString::fromStdString(graph), places);
+  }
+  if (!readings.isEmpty()) json.insert(QStringLiteral("cursors"), readings);
   return json;
 }
 
@@ -101,6 +108,14 @@ LastLook lookOf(const QJsonObject& json) {
   look.hasRun = json.value(QStringLiteral("run")).toBool();
   const QJsonValue at = json.value(QStringLiteral("shownAt"));
   if (at.isDouble()) look.shownAt = at.toDouble();
+  const QJsonObject readings = json.value(QStringLiteral("cursors")).toObject();
+  for (auto graph = readings.begin(); graph != readings.end(); ++graph) {
+    auto& both = look.readings[graph.key().toStdString()];
+    for (size_t which = 0; which < both.size(); ++which) {
+      const QJsonValue place = graph.value()[static_cast<int>(which)];
+      if (place.isDouble()) both[which] = place.toDouble();
+    }
+  }
   return look;
 }
 

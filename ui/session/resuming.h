@@ -4,6 +4,7 @@
 
 #include <QtCore/QObject>
 
+#include <functional>
 #include <optional>
 
 namespace ps {
@@ -18,6 +19,9 @@ class Resuming : public QObject {
  public:
   Resuming(Session& session, Selection& selection);
   ~Resuming() override;
+  /// By which the cursors of the graphs are asked for and brought back.
+  void setReadings(std::function<decltype(LastLook::readings)()> read,
+                   std::function<void(const decltype(LastLook::readings)&)> show);
 
  private:
   LastLook present() const;
@@ -26,6 +30,8 @@ class Resuming : public QObject {
 
   Session& m_session;
   Selection& m_selection;
+  std::function<decltype(LastLook::readings)()> m_read;
+  std::function<void(const decltype(LastLook::readings)&)> m_show;
   std::optional<LastLook> m_left;     ///< of the work that is being reopened
   std::optional<LastLook> m_waiting;  ///< of the work that is open, until its run is there
 };

@@ -70,10 +70,24 @@ int Dock::addPage(const QString& title, QWidget* page) {
   return index;
 }
 
-void Dock::choosePage(const QString& title) {
+int Dock::indexOf(const QString& title) const {
   for (int i = 0; i < m_tabs->count(); ++i) {
-    if (m_tabs->tabData(i).toString() == title) m_tabs->setCurrentIndex(i);
+    if (m_tabs->tabData(i).toString() == title) return i;
   }
+  return -1;
+}
+
+QWidget* Dock::takePage(const QString& title) {
+  const int index = indexOf(title);
+  if (index < 0) return nullptr;
+  QWidget* page = m_pages->widget(index);
+  m_pages->removeWidget(page);
+  m_tabs->removeTab(index);
+  return page;
+}
+
+void Dock::choosePage(const QString& title) {
+  if (const int index = indexOf(title); index >= 0) m_tabs->setCurrentIndex(index);
 }
 
 void Dock::showPage(const QString& title) {

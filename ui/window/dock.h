@@ -17,7 +17,9 @@ class Dock : public QDockWidget {
   Dock(const QString& name, const QString& title, QWidget* parent);
   /// The first page gives a plain title until there is a second.
   int addPage(const QString& title, QWidget* page);
-  void choosePage(const QString& title);  ///< shown or not
+  bool hasPage(const QString& title) const { return indexOf(title) >= 0; }
+  QWidget* takePage(const QString& title);  ///< for another dock; nullptr: there is none of this title
+  void choosePage(const QString& title);    ///< shown or not
   void showPage(const QString& title);
   QString currentPage() const;
   void setPageTitle(int index, const QString& title);
@@ -30,6 +32,7 @@ class Dock : public QDockWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  int indexOf(const QString& title) const;  ///< -1: there is none
   QWidget* m_header;
   QHBoxLayout* m_actions;
   QTabBar* m_tabs;

@@ -336,6 +336,8 @@ void MainWindow::connectParts() {
   connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {
     m_files->exportGraph(*graphs(), id.toStdString(), ending);
   });
+  m_resuming->setReadings([this] { return graphs() ? graphs()->readings() : decltype(graphs()->readings())(); },
+                          [this](const auto& readings) { graphs()->setReadings(readings); });
   addGraphButton();
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });

@@ -24,17 +24,21 @@ namespace {
 constexpr const char* kTheme = "look/dark";
 constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kHint = "view/hint";
+constexpr const char *kSize = "window/size", *kOwn = "window/own", *kJoined = "window/joined";
+const QString kMaterials = QStringLiteral("Materials");
 constexpr std::pair<Workspace, const char*> kStates[] = {
     {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
 constexpr int kStateVersion = 4;
 
 /// A column of the layout table: pixels of docks in windows of at least a width.
 struct Column {
-  int from, left, right, outliner, materials, graphs, curve, curveGraphs, points;
+  int from;
+  bool joined;  ///< outliner and materials are pages of one dock
+  int left, right, outliner, materials, graphs, curve, curveGraphs, points;
 };
-constexpr Column kColumns[] = {{0, 204, 352, 270, 140, 182, 400, 150, 400},
-                               {1500, 236, 392, 380, 252, 206, 520, 206, 500},
-                               {2200, 300, 460, 520, 252, 288, 760, 288, 640}};
+constexpr Column kColumns[] = {{0, true, 204, 352, 270, 140, 182, 400, 150, 400},
+                               {1500, false, 236, 392, 380, 252, 206, 520, 206, 500},
+                               {2200, false, 300, 460, 520, 252, 288, 760, 288, 640}};
 
 const Column& columnOf(int width) {
   return *std::find_if(std::rbegin(kColumns), std::rend(kColumns) - 1,
@@ -61,7 +65,11 @@ void WindowLayout::makeDocks(const PanelContext& context) {
     }
     if (!first.isEmpty()) dock->showPage(first);
     m_docks.push_back(dock);
+    connect(dock, &QDockWidget::topLevelChanged, this, [this](bool dragged) {
+      if (dragged) setOwn();
+    });
   }
+  m_window.installEventFilter(this);
   // The bar of buttons has neither title nor choice.
   Dock* transport = dock(QStringLiteral("dock.transport"));
   transport->setTitleBarWidget(new QWidget);
@@ -79,14 +87,12 @@ Dock* WindowLayout::dock(const QString& name) const {
 }
 
 void WindowLayout::showPage(const QString& title) {
-  for (const PanelRow& row : panelTable()) {
-    if (title != QLatin1String(row.title)) continue;
-    Dock* holder = dock(QString::fromLatin1(row.dock));
-    const auto index = static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), holder) - m_docks.begin());
-    if (shows(index))
-      holder->showPage(title);
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    if (!m_docks[i]->hasPage(title)) continue;
+    if (shows(i))
+      m_docks[i]->showPage(title);
     else
-      holder->choosePage(title);  // to show and hide it would leave the window as wide as both together
+      m_docks[i]->choosePage(title);  // to show and hide it would leave the window as wide as both together
   }
 }
 
@@ -105,6 +111,8 @@ void WindowLayout::applyDefault() {
   if (!m_window.testAttribute(Qt::WA_Resized))
     m_window.resize(screen.width() >= 1700 && screen.height() >= 1050 ? QSize(1600, 1000) : QSize(1280, 800));
   m_left.clear();
+  m_own = 0;
+  m_waiting.clear();
   lay();
 }
 
@@ -120,6 +128,7 @@ void WindowLayout::lay() {
 }
 
 bool WindowLayout::shows(size_t dock) const {
+  if (m_joined && m_docks[dock] == m_docks[1]) return false;
   const std::vector<Workspace>& in = dockTable()[dock].workspaces;
   return std::find(in.begin(), in.end(), m_workspace) != in.end();
 }
@@ -127,14 +136,66 @@ bool WindowLayout::shows(size_t dock) const {
 void WindowLayout::setWorkspace(Workspace workspace) {
   if (workspace == m_workspace) return;
   setFullViewport(false);
-  m_left[m_workspace] = m_window.saveState(kStateVersion);
+  m_left[m_workspace] = m_waiting.isEmpty() ? m_window.saveState(kStateVersion) : m_waiting;
+  m_waiting.clear();
   m_workspace = workspace;
   // What goes is hidden first: for a moment there would be room for neither.
   for (size_t i = 0; i < m_docks.size(); ++i) {
     if (!shows(i)) m_docks[i]->hide();
   }
   const auto left = m_left.find(workspace);
-  if (left == m_left.end() || !m_window.restoreState(left->second, kStateVersion)) lay();
+  const bool fits = workspace != Workspace::Scene || isOwn() || m_joined == columnOf(m_window.width()).joined;
+  if (left == m_left.end() || !fits || !restoreDocks(left->second)) lay();
+}
+
+/// Those of this workspace, as a state has them.
+bool WindowLayout::restoreDocks(const QByteArray& state) {
+  const bool restored = m_window.restoreState(state, kStateVersion);
+  if (m_joined) m_docks[1]->hide();
+  return restored;
+}
+
+/// Outliner and materials as pages of one dock, where there is no room for one above the other.
+void WindowLayout::setJoined(bool joined) {
+  if (joined == m_joined) return;
+  m_joined = joined;
+  Dock *outliner = m_docks[0], *materials = m_docks[1];
+  if (joined) {
+    materials->hide();
+    outliner->addPage(kMaterials, materials->takePage(kMaterials));
+  } else {
+    materials->addPage(kMaterials, outliner->takePage(kMaterials));
+  }
+}
+
+void WindowLayout::joinMaterials(bool joined) {
+  if (joined == m_joined) return;
+  setJoined(joined);
+  if (m_workspace != Workspace::Scene) return;
+  if (!joined) m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
+  m_docks[1]->setVisible(!joined);
+  sizeDocks();
+}
+
+bool WindowLayout::isOwn() const { return m_own & (1 << static_cast<int>(m_workspace)); }
+
+/// From here on the docks of this workspace stay as somebody arranged them, whatever size the window gets.
+void WindowLayout::setOwn() {
+  m_own |= 1 << static_cast<int>(m_workspace);
+  m_waiting.clear();
+}
+
+/// A separator was dragged where docks have other sizes after it than before.
+bool WindowLayout::eventFilter(QObject* watched, QEvent* event) {
+  const auto sizes = [this] {
+    std::vector<QSize> all;
+    for (const Dock* dock : m_docks) all.push_back(dock->isVisible() ? dock->size() : QSize());
+    return all;
+  };
+  if (event->type() == QEvent::MouseButtonPress) m_pressed = sizes();
+  if (event->type() == QEvent::MouseButtonRelease && !m_pressed.empty() && std::exchange(m_pressed, {}) != sizes())
+    setOwn();
+  return QObject::eventFilter(watched, event);
 }
 
 /// Docks move while they are hidden: those in sight would ask for room that they need nowhere.
@@ -151,6 +212,7 @@ void WindowLayout::showDocks() {
 }
 
 void WindowLayout::layScene() {
+  setJoined(columnOf(m_window.width()).joined);
   putAway();
   m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   // All have a place, so that a saved state says of each that it is hidden.
@@ -161,7 +223,7 @@ void WindowLayout::layScene() {
   m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
   m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[2]);
   m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[3]);
-  m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
+  if (!m_joined) m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
   m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
   showDocks();
 }
@@ -199,7 +261,7 @@ void WindowLayout::sizeDocks() {
   }
   if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[8]}, {column.right}, Qt::Horizontal);
   m_window.resizeDocks({m_docks[0], m_docks[2]}, {column.left, column.right}, Qt::Horizontal);
-  m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
+  if (!m_joined) m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
   m_window.resizeDocks({m_docks[3], m_docks[4]}, {column.graphs, 40}, Qt::Vertical);
 }
 
@@ -210,8 +272,12 @@ void WindowLayout::restore() {
   if (m_options.dark != Theme::current().dark()) Theme::apply(*qApp, m_options.dark);
   if (settings.contains(QLatin1String(kGeometry))) {
     m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
+    m_own = settings.value(QLatin1String(kOwn), ~0).toInt();  // from before it was noted: nobody can tell
+    setJoined(settings.value(QLatin1String(kJoined), false).toBool());
     const QByteArray state = settings.value(QLatin1String(kStates[0].second)).toByteArray();
-    m_sizeAtShow = !m_window.restoreState(state, kStateVersion);
+    m_sizeAtShow = !restoreDocks(state);
+    m_waitingSize = settings.value(QLatin1String(kSize)).toSize();
+    if (!m_sizeAtShow) m_waiting = state;
   }
   for (const auto& [workspace, key] : kStates) {
     if (workspace != Workspace::Scene) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
@@ -225,7 +291,11 @@ void WindowLayout::save() const {
   if (!m_options.themeAsked) settings.setValue(QLatin1String(kTheme), m_options.dark);
   settings.setValue(QLatin1String(kGeometry), m_window.saveGeometry());
   std::map<Workspace, QByteArray> states = m_left;
-  states[m_workspace] = m_full ? m_beforeFull : m_window.saveState(kStateVersion);
+  const bool waits = !m_waiting.isEmpty();  // it was hardly open
+  states[m_workspace] = m_full ? m_beforeFull : waits ? m_waiting : m_window.saveState(kStateVersion);
+  settings.setValue(QLatin1String(kSize), waits ? m_waitingSize : m_window.size());
+  settings.setValue(QLatin1String(kOwn), m_own);
+  settings.setValue(QLatin1String(kJoined), m_joined);
   for (const auto& [workspace, key] : kStates) settings.setValue(QLatin1String(key), states[workspace]);
   if (m_view) settings.setValue(QLatin1String(kHint), m_view->hintShown());
 }
@@ -242,20 +312,43 @@ void WindowLayout::setDark(bool dark) {
 
 void WindowLayout::setFullViewport(bool on) {
   if (on == m_full) return;
-  if (on) m_beforeFull = m_window.saveState(kStateVersion);
+  if (on) m_beforeFull = m_waiting.isEmpty() ? m_window.saveState(kStateVersion) : m_waiting;
+  m_waiting.clear();
   m_full = on;
   for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(!on && shows(i));
-  if (!on) m_window.restoreState(m_beforeFull, kStateVersion);
+  if (!on) restoreDocks(m_beforeFull);
 }
 
+/// A window that was maximised has the size that its docks were left for only some time after it is shown; sizes that
+/// do not fit before would be cut.
 void WindowLayout::onResized(int widthBefore) {
-  if (widthBefore >= 0 && &columnOf(widthBefore) != &columnOf(m_window.width())) sizeDocks();
+  if (m_window.isVisible() && takeWaiting()) return;
+  if (widthBefore >= 0 && &columnOf(widthBefore) != &columnOf(m_window.width())) fitColumn();
+}
+
+bool WindowLayout::takeWaiting() {
+  if (m_waiting.isEmpty() || m_window.size() != m_waitingSize) return false;
+  QTimer::singleShot(0, this, [this] {
+    if (!m_waiting.isEmpty()) restoreDocks(std::exchange(m_waiting, {}));
+  });
+  return true;
+}
+
+/// Nothing that somebody arranged moves.
+void WindowLayout::fitColumn() {
+  if (isOwn() || m_full) return;
+  const bool joined = columnOf(m_window.width()).joined;
+  if (m_workspace == Workspace::Scene && joined != m_joined)
+    joinMaterials(joined);
+  else
+    sizeDocks();
 }
 
 /// Sizes given before the window is laid out are not kept.
 void WindowLayout::onShown() {
-  if (m_sizeAtShow) QTimer::singleShot(0, this, &WindowLayout::sizeDocks);
+  if (m_sizeAtShow) QTimer::singleShot(0, this, &WindowLayout::fitColumn);
   m_sizeAtShow = false;
+  takeWaiting();
 }
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #pragma once
 #include <QtCore/QByteArray>
 #include <QtCore/QObject>
+#include <QtCore/QSize>
 #include <QtCore/QString>
 
 #include <map>
@@ -39,6 +40,10 @@ class WindowLayout : public QObject {
   void save() const;
   bool fullViewport() const { return m_full; }
   void setFullViewport(bool on);
+  /// Outliner and materials as pages of one dock, as narrow windows have them by default, or one above the other.
+  void joinMaterials(bool joined);
+  bool materialsJoined() const { return m_joined; }
+  void setOwn();  ///< somebody arranged this workspace: no size of the window moves its docks any more
   bool isDark() const { return m_options.dark; }
   void setDark(bool dark);
   void onResized(int widthBefore);  ///< of the window; below 0: it had none
@@ -56,6 +61,12 @@ class WindowLayout : public QObject {
   void layTune();
   void layFilm();
   void sizeDocks();  ///< as the layout table has it for this width
+  void fitColumn();  ///< the same, where nobody arranged them
+  bool isOwn() const;
+  void setJoined(bool joined);
+  bool restoreDocks(const QByteArray& state);
+  bool takeWaiting();  ///< soon, where the window is as large as for what waits
+  bool eventFilter(QObject* watched, QEvent* event) override;
   QMainWindow& m_window;
   Options m_options;
   Viewport* m_view = nullptr;
@@ -64,6 +75,11 @@ class WindowLayout : public QObject {
   QByteArray m_beforeFull;
   Workspace m_workspace{};
   std::map<Workspace, QByteArray> m_left;  ///< states of those that were shown before
+  int m_own = 0;                           ///< a bit for each workspace that somebody arranged
+  bool m_joined = false;                   ///< materials are a page of the outliner's dock
+  QByteArray m_waiting;                    ///< a state, until the window is as large as
+  QSize m_waitingSize;
+  std::vector<QSize> m_pressed;  ///< of the docks, when a button went down on the window itself
 };
 
 }  // namespace ps
