@@ -22,6 +22,7 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
+#include <QtGui/QFontMetricsF>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
@@ -87,6 +88,34 @@ class TestWelcome : public QObject {
       }
     }
     worker.wait();
+  }
+
+  /// In windows of any width: a summary takes the lines that it needs, and pictures stand in rows all the same.
+  void wordsOfCardsAreWhole_data() {
+    QTest::addColumn<int>("width");  // of the grid: 1600 pixels at 100, 125, 200 and 300 %, with what is beside it
+    for (const int width : {1140, 860, 640, 420, 214, 200}) QTest::newRow(qPrintable(QString::number(width))) << width;
+  }
+  void wordsOfCardsAreWhole() {
+    QFETCH(int, width);
+    Theme::apply(*qApp, true);
+    Sample brief, wordy;
+    brief.title = wordy.title = QStringLiteral("A floor with keys");
+    brief.summary = QStringLiteral("Ice");
+    wordy.summary = QStringLiteral("A floor whose heat has keys over time, and what else it has");
+    CardGrid grid;
+    grid.setSamples({brief, wordy});
+    grid.resize(width, grid.heightForWidth(width));
+    grid.show();
+    const std::vector<Card*> cards = grid.cards();
+    QCOMPARE(cards.size(), size_t{2});
+    if (cards[0]->y() == cards[1]->y()) QCOMPARE(cards[0]->height(), cards[1]->height());
+    const QFontMetricsF metrics(Theme::font(TextRole::Normal));
+    const int room = cards[1]->width() - 24;
+    QVERIFY(metrics.horizontalAdvance(wordy.summary) <= room * cards[1]->lines());
+    QVERIFY(cards[1]->lines() == cards[1]->linesIn(cards[1]->width()));
+    QCOMPARE(cards.back()->geometry().bottom() + 1, grid.height());
+    QCOMPARE(cards[1]->linesIn(1000), 1);
+    QVERIFY(cards[1]->linesIn(200) > 1);
   }
 
   void theFirstStartShowsTheSample() {

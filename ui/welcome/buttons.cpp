@@ -18,8 +18,9 @@
 namespace ps {
 namespace {
 
+constexpr int kInset = 12;                   // px left and right of words
 constexpr double kRadius = 7, kShape = 0.8;  // of a picture: height over width
-constexpr int kWords = 54;                   // px below it
+constexpr int kWords = 38, kLine = 16;       // px below it: the title with what is around it, a line of its summary
 
 /// Fills the rectangle with the middle of the picture; `scaled` keeps it for the next time.
 void paintPicture(QPainter& painter, const QRectF& rect, const QImage& picture, QPixmap& scaled) {
@@ -71,7 +72,22 @@ void Card::setBadge(const QString& text) {
 }
 
 QSize Card::sizeHint() const { return {232, heightForWidth(232)}; }
-int Card::heightForWidth(int width) const { return static_cast<int>(std::lround(width * kShape)) + kWords; }
+int Card::heightForWidth(int width) const { return heightFor(width, m_lines); }
+int Card::heightFor(int width, int lines) {
+  return static_cast<int>(std::lround(width * kShape)) + kWords + lines * kLine;
+}
+
+int Card::linesIn(int width) const {
+  const QRectF room(0, 0, width - 2 * kInset, 1000);
+  const QFontMetricsF metrics(Theme::font(TextRole::Normal));
+  const QRectF taken = metrics.boundingRect(room, Qt::AlignLeft | Qt::TextWordWrap, m_sample.summary);
+  return std::max(1, static_cast<int>(std::lround(taken.height() / metrics.lineSpacing())));
+}
+
+void Card::setLines(int lines) {
+  m_lines = lines;
+  update();
+}
 
 void Card::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
@@ -80,7 +96,7 @@ void Card::paintEvent(QPaintEvent*) {
   const QRectF card(rect());
   const QColor under = ground();
   paintBox(painter, card, under.isValid() ? under : theme[Token::Header], {}, kRadius);
-  const QRectF picture(0, 0, card.width(), card.height() - kWords);
+  const QRectF picture(0, 0, card.width(), card.height() - kWords - m_lines * kLine);
   QPainterPath round;
   round.addRoundedRect(card, kRadius, kRadius);
   painter.save();
@@ -101,10 +117,12 @@ void Card::paintEvent(QPaintEvent*) {
   }
   QFont bold = Theme::font(TextRole::Normal);
   bold.setWeight(QFont::DemiBold);
-  const QRectF words(12, picture.bottom() + 8, card.width() - 24, 18);
+  const QRectF words(kInset, picture.bottom() + 8, card.width() - 2 * kInset, 18);
   paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_sample.title, bold, theme[Token::Text]);
-  paintText(painter, words.translated(0, 19), Qt::AlignLeft | Qt::AlignVCenter, m_sample.summary,
-            Theme::font(TextRole::Normal), theme[Token::Text2]);
+  painter.setFont(Theme::font(TextRole::Normal));
+  painter.setPen(theme[Token::Text2]);
+  painter.drawText(QRectF(words.left(), words.bottom() + 1, words.width(), m_lines * kLine + 2),
+                   Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, m_sample.summary);
   if (hasFocus()) paintFocusRing(painter, card, kRadius);
 }
 

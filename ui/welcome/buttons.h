@@ -31,12 +31,17 @@ class Card : public PageButton {
   QSize sizeHint() const override;
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override;
+  static int heightFor(int width, int lines);
+  int linesIn(int width) const;  ///< that its summary takes in a card of this width
+  void setLines(int lines);      ///< that there are for it
+  int lines() const { return m_lines; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
   Sample m_sample;
+  int m_lines = 1;
   QString m_badge;
   QPixmap m_scaled;  ///< the picture at the size and scale at which it was painted last
 };

@@ -43,22 +43,28 @@ std::vector<Card*> CardGrid::cards() const {
 int CardGrid::columnsIn(int width) const { return std::max(1, (width + kGap) / (kLeast + kGap)); }
 int CardGrid::cardWidth(int width) const { return (width + kGap) / columnsIn(width) - kGap; }
 
-int CardGrid::heightForWidth(int width) const {
+/// Row by row, as high as the longest summary of each needs.
+int CardGrid::arrange(int width, bool moves) const {
   const std::vector<Card*> shown = cards();
-  if (shown.empty()) return 0;
-  const int columns = columnsIn(width), rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
-  return rows * (shown.front()->heightForWidth(cardWidth(width)) + kGap) - kGap;
+  const auto columns = static_cast<size_t>(columnsIn(width));
+  const int wide = cardWidth(width);
+  int top = 0;
+  for (size_t first = 0; first < shown.size(); first += columns) {
+    const size_t end = std::min(first + columns, shown.size());
+    int lines = 1;
+    for (size_t i = first; i < end; ++i) lines = std::max(lines, shown[i]->linesIn(wide));
+    const int high = Card::heightFor(wide, lines);
+    for (size_t i = first; moves && i < end; ++i) {
+      shown[i]->setLines(lines);
+      shown[i]->setGeometry(static_cast<int>(i - first) * (wide + kGap), top, wide, high);
+    }
+    top += high + kGap;
+  }
+  return std::max(0, top - kGap);
 }
 
-void CardGrid::place() {
-  const int columns = columnsIn(width()), wide = cardWidth(width());
-  int index = 0;
-  for (Card* card : cards()) {
-    const int high = card->heightForWidth(wide);
-    card->setGeometry(index % columns * (wide + kGap), index / columns * (high + kGap), wide, high);
-    ++index;
-  }
-}
+int CardGrid::heightForWidth(int width) const { return arrange(width, false); }
+void CardGrid::place() { arrange(width(), true); }
 
 void CardGrid::resizeEvent(QResizeEvent*) { place(); }
 

@@ -33,6 +33,7 @@ class CardGrid : public QWidget {
  private:
   int columnsIn(int width) const;
   int cardWidth(int width) const;
+  int arrange(int width, bool moves) const;  ///< px, how high they are
   void place();
   std::vector<Card*> m_cards;
 };

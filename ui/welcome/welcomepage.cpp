@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/welcome/welcomepage.h"
 
+#include "ui/library/flow.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
@@ -140,11 +141,10 @@ QWidget* WelcomePage::makeMiddle() {
   column->setSpacing(4);
   auto* head = new QHBoxLayout;
   head->setSpacing(8);
-  head->addWidget(words(QStringLiteral("Samples"), TextRole::Title));
-  head->addStretch(1);
-  m_chips = new QHBoxLayout;
-  m_chips->setSpacing(8);
-  head->addLayout(m_chips);
+  head->addWidget(words(QStringLiteral("Samples"), TextRole::Title), 0, Qt::AlignTop);
+  head->addSpacing(12);
+  m_chips = new Flow(8);
+  head->addLayout(m_chips, 1);
   column->addLayout(head);
   column->addWidget(words(QStringLiteral("Each opens running and has a few values marked “Try these”. Nothing "
                                          "that you change touches the sample."),

@@ -10,6 +10,7 @@ class QAction;
 class QButtonGroup;
 class QLabel;
 class QHBoxLayout;
+class QLayout;
 class QScrollArea;
 class QVBoxLayout;
 
@@ -66,7 +67,7 @@ class WelcomePage : public QWidget {
   Gallery& m_gallery;
   CardGrid *m_samples, *m_templates;
   QScrollArea* m_scroll = nullptr;
-  QHBoxLayout* m_chips = nullptr;
+  QLayout* m_chips = nullptr;
   QButtonGroup* m_tags = nullptr;
   QWidget *m_list = nullptr, *m_side = nullptr, *m_offer = nullptr;
   QLabel *m_offerTitle = nullptr, *m_offerText = nullptr, *m_present = nullptr, *m_noRecent = nullptr;
