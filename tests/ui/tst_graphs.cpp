@@ -36,6 +36,7 @@ class TestGraphs : public QObject {
   void labelsKeepClearOfTheTitle_data();
   void labelsKeepClearOfTheTitle();
   void stackAddsUp();
+  void labelsOfAStackCanBeReadOverIt();
   void whatMeltsIsHatched();
   void unitsTakePrefixes();
   void nothingIsNoData();
@@ -296,6 +297,30 @@ void TestGraphs::labelsKeepClearOfTheTitle() {
     }
   }
   QVERIFY(changed > 100);
+}
+
+/// Looked back at, labels stand where the run goes on: on a ground of their own.
+void TestGraphs::labelsOfAStackCanBeReadOverIt() {
+  const auto coloured = [](double present) {
+    EnergyStackView stack;
+    for (double time = 0; time <= 10; time += 1) stack.append(time, {20, 20, 20, 20, 20}, 100);
+    stack.resize(500, 220);
+    stack.setPresentTime(present);
+    const QImage image = stack.grab().toImage();
+    const QRectF plot = stack.plotRect();
+    const QRect after(static_cast<int>(plot.left() + 0.25 * plot.width()) + 30, static_cast<int>(plot.top()) + 20, 60,
+                      static_cast<int>(plot.height()) - 40);
+    int count = 0;
+    for (int y = after.top(); y <= after.bottom(); ++y) {
+      for (int x = after.left(); x <= after.right(); ++x) {
+        for (int layer = 0; layer < 5; ++layer) count += image.pixelColor(x, y) == Theme::current().series(layer);
+      }
+    }
+    return count;
+  };
+  // Five labels of 16 pixels.
+  QVERIFY2(coloured(10) - coloured(2.5) > 0.8 * 5 * 16 * 60,
+           qPrintable(QStringLiteral("%1 %2").arg(coloured(10)).arg(coloured(2.5))));
 }
 
 void TestGraphs::stackAddsUp() {

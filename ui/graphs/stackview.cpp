@@ -187,9 +187,10 @@ void StackView::paintLabels(QPainter& painter) {
     const double left = labelLeft(edge - 2, width);
     const QRectF swatch(left, label.top + 1, 14, 14);
     const QRectF text(swatch.right() + 5, label.top, width - 19, 16);
-    if (left < edge) {
+    // Over what is drawn: left of the place, and right of it while that is not the end.
+    if (left < x(lastTime())) {
       QColor ground = theme[Token::Field];
-      ground.setAlphaF(0.8f);
+      ground.setAlphaF(0.92f);
       paintBox(painter, swatch.united(text).adjusted(-2, 0, 3, 0), ground, QColor(), 3);
     }
     const QColor colour = colourOf(label.layer);
