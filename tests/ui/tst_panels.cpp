@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/ui/rowtesting.h"
 #include "ui/rows/groupheading.h"
+#include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
 #include <QtCore/QPointer>
@@ -68,6 +69,7 @@ class TestPanels : public QObject {
   void emptyPanelHasItsSentence();
   void noTextIsCut_data();
   void noTextIsCut();
+  void wideSymbolsAreWhole();
   void themeChangesWhileRunning();
 };
 
@@ -329,6 +331,18 @@ void TestPanels::noTextIsCut() {
   }
   const ParameterRow* row = panel.row(QStringLiteral("conductivity"));
   QCOMPARE(row->sliderRect().left() - row->labelRect().right() > kSymbolWidth - 2, symbols);
+}
+
+/// A symbol that is wider than the column of symbols begins before it, and ends before the slider.
+void TestPanels::wideSymbolsAreWhole() {
+  std::vector<RowModel> models = rowModels(list(), {});
+  models.front().declaration.symbol = "Q_ambient";
+  const double wide = symbolWidth(QStringLiteral("Q_ambient"));
+  QVERIFY(wide > kSymbolWidth);
+  ParameterRow row(models.front());
+  row.resize(460, kRowHeight);
+  row.setLabelWidth(160);
+  QVERIFY(row.sliderRect().left() - row.labelRect().right() - 1 >= wide);
 }
 
 /// A note that comes or goes above the row under the pointer leaves that where it is.

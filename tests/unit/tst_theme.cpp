@@ -153,6 +153,7 @@ class TestTheme : public QObject {
   void whatIsShownCanBeTyped();
   void pivotSitsOnTheMeltingPoint();
   void legendShowsItsMarks();
+  void legendMarksNearAnEndAreShown();
   void prefixesAreForUnitsThatTakeThem();
   void dialogsHaveMargins();
 };
@@ -702,7 +703,7 @@ void TestTheme::legendShowsItsMarks() {
   const ColourMap& map = colourMap(QStringLiteral("temperature"));
   const auto painted = [&map](const std::vector<LegendMark>& marks) {
     const LegendText text{QStringLiteral("Temperature"), QStringLiteral("°C")};
-    QImage image(legendSize(map, text.title).toSize(), QImage::Format_ARGB32_Premultiplied);
+    QImage image(legendSize(map, text).toSize(), QImage::Format_ARGB32_Premultiplied);
     image.fill(Qt::black);
     QPainter painter(&image);
     paintLegend(painter, QRectF(QPointF(0, 0), image.size()), map, {-14, 120}, text, marks, 0);
@@ -717,7 +718,36 @@ void TestTheme::legendShowsItsMarks() {
   // The bar is dark blue at the bottom and dark red at the top.
   const QColor bottom = without.pixelColor(16, without.height() - 14), top = without.pixelColor(16, 38);
   QVERIFY(bottom.blue() > bottom.red() && top.red() > top.blue());
-  QVERIFY(legendSize(map, QStringLiteral("A label of a plugin that is long")).width() > without.width());
+  QVERIFY(legendSize(map, {QStringLiteral("A label of a plugin that is long"), {}}).width() > without.width());
+  QVERIFY(legendSize(map, {QStringLiteral("Heat"), QStringLiteral("MJ/(kg·K·m²)")}).width() > without.width());
+}
+
+/// Beside the number at the end of the scale, never in its place, and none in the place of another.
+void TestTheme::legendMarksNearAnEndAreShown() {
+  const ColourMap& map = colourMap(QStringLiteral("temperature"));
+  const LegendText text{QStringLiteral("Temperature"), QStringLiteral("°C")};
+  const QSize size(160, 260);
+  const auto painted = [&](const std::vector<LegendMark>& marks) {
+    QImage image(size, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::black);
+    QPainter painter(&image);
+    paintLegend(painter, QRectF(QPointF(0, 0), size), map, {-10, 100}, text, marks, 0);
+    painter.end();
+    return image;
+  };
+  const QRectF bar = legendBar(QRectF(QPointF(0, 0), size), map);
+  const QRect high(static_cast<int>(bar.right()) + 13, static_cast<int>(bar.top()) - 7, 90, 13),
+      low(high.left(), static_cast<int>(bar.bottom()) - 6, 90, 13);
+  const QImage without = painted({});
+  for (const double value : {100.0, 99.97, 97.0, -10.0, -9.5}) {
+    const QImage with = painted({{value, QStringLiteral("boils")}});
+    QVERIFY2(with != without, qPrintable(QString::number(value)));
+    QVERIFY(with.copy(high) == without.copy(high));
+    QVERIFY(with.copy(low) == without.copy(low));
+  }
+  const QImage one = painted({{99, QStringLiteral("melts")}}),
+               both = painted({{98, QStringLiteral("melts")}, {99, QStringLiteral("boils")}});
+  QVERIFY(both != one && both.copy(high) == one.copy(high));
 }
 
 void TestTheme::prefixesAreForUnitsThatTakeThem() {

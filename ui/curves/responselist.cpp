@@ -33,7 +33,8 @@ namespace ps {
 namespace {
 
 constexpr int kRow = 40, kOther = 24;
-constexpr double kSparkWidth = 70, kSparkHeight = 24;
+constexpr double kSparkWidth = 70, kSparkHeight = 24, kLeastSpark = 24;  // narrower ones are not drawn
+const QString kConstant = QStringLiteral("constant");
 constexpr int kLeastWidth = 180;  // of a response's name beside its curve
 constexpr int kKey = Qt::UserRole, kValue = Qt::UserRole + 1, kInstalled = Qt::UserRole + 2;
 
@@ -77,18 +78,24 @@ class ResponseDelegate final : public QStyledItemDelegate {
       painter->fillRect(row, theme[Token::Selection]);
     else if (option.state & QStyle::State_MouseOver)
       painter->fillRect(row, theme[Token::Hover]);
-    const double text = row.width() - kSparkWidth - 24;
-    paintText(*painter, QRectF(row.left() + 10, row.top() + 4, text, 17), Qt::AlignLeft | Qt::AlignVCenter,
-              index.data().toString(), Theme::font(TextRole::Normal), theme[Token::Text]);
+    const QString name = index.data().toString(), key = index.data(kKey).toString();
+    const Response response = responseFor(m_target, key.toStdString());
+    const bool constant = response.kind == Response::Kind::Constant;
+    // The name is whole before anything else is: "constant" stands below it, a curve takes what is left.
+    const double full = row.width() - 18, left = full - textWidth(name, Theme::font(TextRole::Normal)) - 10;
+    const double spark =
+        constant ? textWidth(kConstant, Theme::font(TextRole::Small)) + 2 : std::min(kSparkWidth, left);
+    const double text = full - spark - 6;
+    const bool below = constant && spark > left;
+    paintText(*painter, QRectF(row.left() + 10, row.top() + 4, below || spark < kLeastSpark ? full : text, 17),
+              Qt::AlignLeft | Qt::AlignVCenter, name, Theme::font(TextRole::Normal), theme[Token::Text]);
     paintText(*painter, QRectF(row.left() + 10, row.top() + 20, text, 16), Qt::AlignLeft | Qt::AlignVCenter,
               index.data(kValue).toString(), Theme::font(TextRole::Small), theme[Token::Muted]);
-    const QRectF box(row.right() - kSparkWidth - 8, row.top() + (kRow - kSparkHeight) / 2, kSparkWidth, kSparkHeight);
-    const QString key = index.data(kKey).toString();
-    const Response response = responseFor(m_target, key.toStdString());
-    if (response.kind == Response::Kind::Constant)
-      paintText(*painter, box, Qt::AlignCenter, QStringLiteral("constant"), Theme::font(TextRole::Small),
-                theme[Token::Muted]);
-    else
+    const QRectF box(row.right() - spark - 8, row.top() + (kRow - kSparkHeight) / 2, spark, kSparkHeight);
+    if (constant)
+      paintText(*painter, below ? QRectF(box.left(), row.top() + 20, spark, 16) : box,
+                Qt::AlignRight | Qt::AlignVCenter, kConstant, Theme::font(TextRole::Small), theme[Token::Muted]);
+    else if (spark >= kLeastSpark)
       paintSpark(*painter, box, response, declarationOf(key).scale == api::Scale::Logarithmic);
     if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, row, 4);
   }

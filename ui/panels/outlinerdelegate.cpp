@@ -58,22 +58,25 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
     painter->setBrush(index.data(outline::kPlaceholder).toBool()
                           ? QBrush(theme[Token::Muted], Qt::BDiagPattern)
                           : QBrush(index.data(outline::kSwatch).value<QColor>()));
-    if (index.data(outline::kSwatch).isValid()) painter->drawEllipse(swatch);
-    right = swatch.left() - 6;
+    const bool hasSwatch = index.data(outline::kSwatch).isValid();
+    if (hasSwatch) painter->drawEllipse(swatch);
+    right = hasSwatch ? swatch.left() - 6 : eyeRect(row).left() - 4;
   }
   const QString detail = index.data(outline::kDetail).toString();
   const bool lockInstead = marks && (index.data(outline::kLocked).toBool() || hover);
   if (lockInstead) right = lockRect(row).left() - 2;
-  if (!detail.isEmpty() && !lockInstead) {
-    const QFont small = Theme::font(TextRole::Small);
-    const double w = textWidth(detail, small) + 2;
+  const QFont small = Theme::font(TextRole::Small);
+  const double w = textWidth(detail, small) + 2;
+  const QString name = index.data(Qt::DisplayRole).toString();
+  // A name goes before what is said of it.
+  const bool both = textWidth(name, Theme::font(TextRole::Normal)) <= right - w - 6 - text.left();
+  if (!detail.isEmpty() && !lockInstead && both) {
     paintText(*painter, QRectF(right - w, row.top(), w, row.height()), Qt::AlignRight | Qt::AlignVCenter, detail, small,
               theme[selected ? Token::Text2 : Token::Muted]);
     right -= w + 6;
   }
   paintText(*painter, QRectF(text.left(), row.top(), right - text.left(), row.height()),
-            Qt::AlignLeft | Qt::AlignVCenter, index.data(Qt::DisplayRole).toString(), Theme::font(TextRole::Normal),
-            visible ? theme[Token::Text] : ink);
+            Qt::AlignLeft | Qt::AlignVCenter, name, Theme::font(TextRole::Normal), visible ? theme[Token::Text] : ink);
   if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, row, 4);
   painter->restore();
 }

@@ -65,9 +65,14 @@ bool ParameterRow::Private::isNumeric() const {
 
 bool ParameterRow::Private::showsCurve() const { return isCurve(model.value); }
 
+/// A symbol that is wider than its column begins before it.
+int ParameterRow::Private::symbolRoom() const {
+  return std::max(kSymbolWidth, static_cast<int>(std::ceil(symbolWidth(QString::fromUtf8(declaration().symbol)))) + 4);
+}
+
 bool ParameterRow::Private::drawsSymbol() const {
   if (!showSymbol || !isNumeric() || !declaration().symbol || !*declaration().symbol) return false;
-  const int room = q->sliderRect().left() - kSymbolWidth - kRowLeft;
+  const int room = q->sliderRect().left() - symbolRoom() - kRowLeft;
   return q->wantedLabelWidth() <= room;
 }
 
@@ -390,7 +395,7 @@ QRect ParameterRow::sliderRect() const {
 }
 
 QRect ParameterRow::labelRect() const {
-  int right = sliderRect().left() - (d->drawsSymbol() ? kSymbolWidth : 0);
+  int right = sliderRect().left() - (d->drawsSymbol() ? d->symbolRoom() : 0);
   if (d->declaration().kind == api::ParameterKind::Toggle) right = d->switchRect().left() - kSliderGap;
   if (d->declaration().kind == api::ParameterKind::Choice) right = d->choiceRect().left() - kSliderGap;
   return {kRowLeft, 0, right - kRowLeft, kRowHeight};

@@ -64,6 +64,7 @@ struct ParameterRow::Private {
   bool showsCurve() const;
   bool hasEditor() const;                ///< of curves: somebody listens
   bool leadsTo(const QPoint& at) const;  ///< a click there asks for something that somebody listens to
+  int symbolRoom() const;                ///< left of the slider, pixels
   bool drawsSymbol() const;              ///< a label that needs the symbol's room takes it
   FieldText fieldText() const;           ///< what stands in the field
   bool needsPrefix() const;              ///< the value is too long for the field in its own unit

@@ -130,7 +130,7 @@ void ParameterRow::Private::paintLeft(QPainter& painter) const {
             Theme::font(TextRole::Normal), theme[token]);
   const double source = textWidth(model.derivedFrom, Theme::font(TextRole::Normal));
   if (drawsSymbol() && q->fieldRect().left() - 1 - source > q->sliderRect().left() - 6) {
-    paintSymbol(painter, QRectF(q->sliderRect().left() - kSymbolWidth, 0, kSymbolWidth, kRowHeight),
+    paintSymbol(painter, QRectF(q->sliderRect().left() - symbolRoom(), 0, symbolRoom(), kRowHeight),
                 QString::fromUtf8(declaration().symbol), theme[disabled ? Token::Disabled : Token::Muted]);
   }
 }

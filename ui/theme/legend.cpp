@@ -24,6 +24,7 @@ namespace {
 constexpr double kMargin = 10, kTitle = 24, kBarWidth = 12, kBarHeight = 192, kClassRow = 20;
 constexpr double kFoot = 16;                // room for a pivot that lies outside of the range
 constexpr double kMark = 12, kMarkGap = 5;  // right of the bar: the number, and what is said of it
+constexpr double kTick = 9;                 // right of the bar: the number of a tick
 
 ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArray& classes) {
   ColourMap map;
@@ -127,30 +128,72 @@ QString markNumber(double value, double step, double unit) {
   return formatShort(std::round(value / grain) * grain / unit, 3);
 }
 
+constexpr double kLabelStep = 14;  // from one label to the next
+
+/// A mark inside of the range, and where its text goes.
+struct PlacedMark {
+  const LegendMark* mark;
+  double y, text;
+};
+
+/// From the top to the bottom. Where one lies near an end its text keeps off that end's label, and off its neighbours';
+/// a short line leads there.
+std::vector<PlacedMark> placeMarks(const Scale& scale, const std::vector<LegendMark>& marks) {
+  std::vector<PlacedMark> placed;
+  for (const LegendMark& mark : marks) {
+    if (scale.inside(mark.value)) placed.push_back({&mark, scale.y(mark.value), scale.y(mark.value)});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
+  double free = scale.bar.top() + kLabelStep;
+  for (PlacedMark& each : placed) {
+    each.text = std::max(each.text, free);
+    free = each.text + kLabelStep;
+  }
+  free = scale.bar.bottom() - kLabelStep;
+  for (size_t i = placed.size(); i-- > 0;) {
+    placed[i].text = std::min(placed[i].text, free);
+    free = placed[i].text - kLabelStep;
+  }
+  return placed;
+}
+
+void paintMark(QPainter& painter, const QRectF& rect, const Scale& scale, const PlacedMark& at, const QString& number) {
+  const Theme& theme = Theme::current();
+  const QFont font = Theme::font(TextRole::Small);
+  const double left = scale.bar.right();
+  if (std::abs(at.text - at.y) < 1) {
+    paintHorizontalLine(painter, left, left + kMark - 5, at.y, theme[Token::Text]);
+  } else {
+    painter.setPen(QPen(theme[Token::Text], hairline(painter)));
+    painter.drawPolyline(QPolygonF{QPointF(left, at.y), QPointF(left + 3, at.y), QPointF(left + kMark - 4, at.text)});
+  }
+  paintText(painter, QRectF(left + kMark, at.text - 8, rect.right() - left - kMark, 16),
+            Qt::AlignLeft | Qt::AlignVCenter, number, font, theme[Token::Text]);
+  const double x = left + kMark + textWidth(number, font) + kMarkGap;
+  paintText(painter, QRectF(x, at.text - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter, at.mark->label,
+            font, theme[Token::Muted]);
+}
+
 void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const LegendText& words,
                 const std::vector<LegendMark>& marks) {
   const Theme& theme = Theme::current();
   const QFont font = Theme::font(TextRole::Small);
   Ladder ladder;
-  const auto label = [&](double value, const QString& text, double left, const QColor& colour) {
-    const double y = scale.y(value);
-    paintHorizontalLine(painter, scale.bar.right(), scale.bar.right() + left - 5, y, colour);
-    paintText(painter, QRectF(scale.bar.right() + left, y - 8, rect.right() - scale.bar.right() - left, 16),
-              Qt::AlignLeft | Qt::AlignVCenter, text, font, colour);
+  const auto label = [&](double value, const QString& text) {
+    const double y = scale.y(value), left = scale.bar.right() + kTick;
+    paintHorizontalLine(painter, scale.bar.right(), left - 5, y, theme[Token::Text2]);
+    paintText(painter, QRectF(left, y - 8, rect.right() - left, 16), Qt::AlignLeft | Qt::AlignVCenter, text, font,
+              theme[Token::Text2]);
   };
   const auto ends = {std::pair{scale.range.second, true}, std::pair{scale.range.first, false}};
   for (const auto& [value, top] : ends) {
     const QString text = top ? formatQuantity(value / words.scale, words.unit, 3) : formatShort(value / words.scale, 3);
-    if (ladder.reserve(scale.y(value))) label(value, text, 9, theme[Token::Text2]);
+    if (ladder.reserve(scale.y(value))) label(value, text);
   }
   const double step = tickStep(scale.range.second - scale.range.first, 6);
-  for (const LegendMark& mark : marks) {
-    if (!scale.inside(mark.value) || !ladder.reserve(scale.y(mark.value))) continue;
-    const QString number = markNumber(mark.value, step, words.scale);
-    label(mark.value, number, kMark, theme[Token::Text]);
-    const double x = scale.bar.right() + kMark + textWidth(number, font) + kMarkGap;
-    paintText(painter, QRectF(x, scale.y(mark.value) - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter,
-              mark.label, font, theme[Token::Muted]);
+  for (const PlacedMark& placed : placeMarks(scale, marks)) {
+    ladder.reserve(placed.text);
+    paintMark(painter, rect, scale, placed, markNumber(placed.mark->value, step, words.scale));
   }
   for (const LegendMark& mark : marks) {
     if (scale.map.pivot <= 0 || mark.value != scale.pivot || scale.inside(mark.value)) continue;
@@ -162,7 +205,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
   }
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
     if (ladder.reserve(scale.y(value)))
-      label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value / words.scale, 3), 9, theme[Token::Text2]);
+      label(value, formatShort(std::abs(value) < step / 1e6 ? 0 : value / words.scale, 3));
   }
 }
 
@@ -194,14 +237,17 @@ QRectF legendBar(const QRectF& rect, const ColourMap& map) {
   return {rect.left() + kMargin, rect.top() + kTitle + 10, kBarWidth, rect.height() - kTitle - 22 - foot};
 }
 
-QSizeF legendSize(const ColourMap& map, const QString& title, const std::vector<LegendMark>& marks) {
+QSizeF legendSize(const ColourMap& map, const LegendText& text, const std::vector<LegendMark>& marks) {
   constexpr double kLeast = 92, kMost = 180;
   const QFont font = Theme::font(TextRole::Small);
-  double width = std::max(kLeast, std::ceil(textWidth(title, titleFont())) + 2 * kMargin);
+  double width = std::max(kLeast, std::ceil(textWidth(text.title, titleFont())) + 2 * kMargin);
   for (const auto& [letter, name] : map.classes)
     width = std::max(width, std::ceil(textWidth(name, Theme::font(TextRole::Normal))) + 36 + kMargin);
   // For the widest number that marks have, so that the legend stays as wide as it is while they move.
   const double number = textWidth(QStringLiteral("−000.0"), font);
+  if (map.classes.empty() && !text.unit.isEmpty())
+    width = std::max(width,
+                     std::ceil(kMargin + kBarWidth + kTick + number + textWidth(QChar(0x202F) + text.unit, font) + 6));
   for (const LegendMark& mark : marks) {
     width =
         std::max(width, std::ceil(kMargin + kBarWidth + kMark + number + kMarkGap + textWidth(mark.label, font) + 6));

@@ -40,12 +40,13 @@ struct LegendMark {
 /// The gradient inside a legend's rectangle, from the range's upper end at its top to the lower one at its bottom.
 QRectF legendBar(const QRectF& rect, const ColourMap& map);
 /// Size that paintLegend wants, in logical pixels.
-QSizeF legendSize(const ColourMap& map, const QString& title, const std::vector<LegendMark>& marks = {});
+QSizeF legendSize(const ColourMap& map, const LegendText& text, const std::vector<LegendMark>& marks = {});
 
 /// Draws a legend on its translucent ground over the viewport: title, gradient with ticks, phase marks; a map of
 /// classes as swatches with letters. `range`: values at the ends; without a length there is nothing to show. `pivot`:
 /// value at the map's pivot, where it has one: both sides are linear by themselves, up to their own ends. Where the
-/// pivot lies outside of the range the bar shows one side alone, and says below where the pivot is.
+/// pivot lies outside of the range the bar shows one side alone, and says below where the pivot is. Marks near an end
+/// have their text beside that of the end, never in its place.
 void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, std::pair<double, double> range,
                  const LegendText& text, const std::vector<LegendMark>& marks, double pivot = 0);
 /// Position 0..1 on the map of a value, with the pivot rule of paintLegend.

@@ -87,6 +87,15 @@ void paintText(QPainter& painter, const QRectF& rect, int alignment, const QStri
 
 double textWidth(const QString& text, const QFont& font) { return QFontMetricsF(font).horizontalAdvance(text); }
 
+double symbolWidth(const QString& symbol) {
+  const QFont font = Theme::font(TextRole::Symbol);
+  QFont small = font;
+  small.setPixelSize(font.pixelSize() - 3);
+  const qsizetype underscore = symbol.indexOf(QLatin1Char('_'));
+  if (underscore < 0) return textWidth(symbol, font);
+  return textWidth(symbol.left(underscore), font) + 0.5 + textWidth(symbol.mid(underscore + 1), small);
+}
+
 void paintSymbol(QPainter& painter, const QRectF& rect, const QString& symbol, const QColor& colour) {
   const QFont font = Theme::font(TextRole::Symbol);
   const qsizetype underscore = symbol.indexOf(QLatin1Char('_'));

@@ -29,6 +29,7 @@ void paintText(QPainter& painter, const QRectF& rect, int alignment, const QStri
 double textWidth(const QString& text, const QFont& font);
 /// A formula symbol like "k_s": italic, what follows "_" lowered and smaller.
 void paintSymbol(QPainter& painter, const QRectF& rect, const QString& symbol, const QColor& colour);
+double symbolWidth(const QString& symbol);  ///< logical pixels of it
 /// The switch of a toggle.
 void paintSwitch(QPainter& painter, const QRectF& rect, bool on, bool enabled);
 /// A key over time; `half` its width, logical pixels.

@@ -96,7 +96,7 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
     if (std::isfinite(state.boilingPoint))
       marks.push_back({shownTemperature(state.boilingPoint), QStringLiteral("boils")});
   }
-  const QSizeF size = legendSize(map, text.title, marks);
+  const QSizeF size = legendSize(map, text, marks);
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
                     size.width(), size.height());
   if (rect.top() < 100) return;  // too little room

@@ -86,14 +86,18 @@ Dock* WindowLayout::dock(const QString& name) const {
   return found == m_docks.end() ? nullptr : *found;
 }
 
+Dock* WindowLayout::dockOf(const QString& page) const {
+  const auto found = std::find_if(m_docks.begin(), m_docks.end(), [&](Dock* d) { return d->hasPage(page); });
+  return found == m_docks.end() ? nullptr : *found;
+}
+
 void WindowLayout::showPage(const QString& title) {
-  for (size_t i = 0; i < m_docks.size(); ++i) {
-    if (!m_docks[i]->hasPage(title)) continue;
-    if (shows(i))
-      m_docks[i]->showPage(title);
-    else
-      m_docks[i]->choosePage(title);  // to show and hide it would leave the window as wide as both together
-  }
+  Dock* holder = dockOf(title);
+  if (!holder) return;
+  if (shows(static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), holder) - m_docks.begin())))
+    holder->showPage(title);
+  else
+    holder->choosePage(title);  // to show and hide it would leave the window as wide as both together
 }
 
 void WindowLayout::setPageTitle(const QString& title, const QString& shown) {

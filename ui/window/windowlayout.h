@@ -30,7 +30,9 @@ class WindowLayout : public QObject {
   /// Makes the docks and panels of the tables.
   void makeDocks(const PanelContext& context);
   Dock* dock(const QString& name) const;  ///< DockRow::name; nullptr for another
-  void showPage(const QString& title);    ///< of whichever dock has it, in sight where the workspace shows that dock
+  const std::vector<Dock*>& docks() const { return m_docks; }
+  Dock* dockOf(const QString& page) const;  ///< by its title; nullptr: there is none
+  void showPage(const QString& title);      ///< of whichever dock has it, in sight where the workspace shows that dock
   Workspace workspace() const { return m_workspace; }
   /// Shows its docks as they were left, or as they are by default.
   void setWorkspace(Workspace workspace);
