@@ -283,6 +283,7 @@ std::vector<OverlayHint> Viewport::hints() const {
     list.push_back({QStringLiteral("Space"), m_session.playing() ? QStringLiteral("pause") : QStringLiteral("play")});
     list.push_back({QStringLiteral("F"), QStringLiteral("frame")});
     list.push_back({QString::fromLatin1(toolRow(kBrushTool)->key), QStringLiteral("sketch")});
+    list.push_back({QStringLiteral("F6"), QStringLiteral("panels")});
     return list;
   }
   add(tool.gestures(), true);

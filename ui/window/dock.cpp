@@ -98,6 +98,21 @@ void Dock::showPage(const QString& title) {
 
 QString Dock::currentPage() const { return m_tabs->tabData(m_tabs->currentIndex()).toString(); }
 
+QWidget* Dock::firstStop() const {
+  QWidget* page = m_pages->currentWidget();
+  const auto takes = [page](const QWidget* widget) {
+    return widget && page->isAncestorOf(widget) && widget->isVisible() && widget->isEnabled() &&
+           (widget->focusPolicy() & Qt::TabFocus);
+  };
+  if (!page) return nullptr;
+  if (takes(page->focusWidget())) return page->focusWidget();
+  // Once around the chain that Tab goes along.
+  for (QWidget* next = page->nextInFocusChain(); next != page; next = next->nextInFocusChain()) {
+    if (takes(next)) return next;
+  }
+  return m_tabs->isVisible() ? m_tabs : nullptr;
+}
+
 void Dock::setPageTitle(int index, const QString& title) { m_tabs->setTabText(index, title); }
 
 void Dock::showEvent(QShowEvent* event) {

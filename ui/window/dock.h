@@ -22,6 +22,9 @@ class Dock : public QDockWidget {
   void choosePage(const QString& title);    ///< shown or not
   void showPage(const QString& title);
   QString currentPage() const;
+  /// What F6 goes to: of the page that is shown what had the focus last, or its first widget that takes keys, else the
+  /// tabs; nullptr where there is neither.
+  QWidget* firstStop() const;
   void setPageTitle(int index, const QString& title);
   QToolButton* addAction(const QString& icon, const QString& tip);
 

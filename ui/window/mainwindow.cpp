@@ -30,6 +30,7 @@
 #include "ui/window/editactions.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
+#include "ui/window/focuskeeper.h"
 #include "ui/window/handleactions.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
@@ -247,6 +248,11 @@ void MainWindow::makeMenus() {
                   QTabBar* tabs = m_top->workspaces();
                   tabs->setCurrentIndex((tabs->currentIndex() + 1) % tabs->count());
                 });
+  auto* focus = new FocusKeeper(*this, viewport(), [this] { return m_layout->docks(); });
+  m_actions.add(nullptr, QStringLiteral("view.nextPart"), QStringLiteral("Keys to the next panel"),
+                {QKeySequence(QStringLiteral("F6"))}, [focus] { focus->step(true); });
+  m_actions.add(nullptr, QStringLiteral("view.previousPart"), QStringLiteral("Keys to the panel before"),
+                {QKeySequence(QStringLiteral("Shift+F6"))}, [focus] { focus->step(false); });
 }
 
 void MainWindow::makeSimulationMenu(QMenu* menu) {
@@ -472,7 +478,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
 }
 
 /// Single keys belong to the widget that can use them (letters to text fields: Qt does that). Tab in the viewport goes
-/// between Scene and Sketch; Shift+Tab leaves it.
+/// between Scene and Sketch; Shift+Tab and F6 leave it.
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress) {
     const auto* key = static_cast<QKeyEvent*>(event);
