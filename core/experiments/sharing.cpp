@@ -144,8 +144,9 @@ std::string differences(const RunEnd& noted, const RunEnd& found) {
   compare("mean temperature", noted.temperature, found.temperature, " K");
   compare("thermal energy", noted.thermalEnergy, found.thermalEnergy, " J");
   compare("kinetic energy", noted.kineticEnergy, found.kineticEnergy, " J");
-  if (text.size() == before) add("the state differs in its last digits");
-  return text + "; state hash " + found.hash + " instead of " + noted.hash;
+  if (text.size() == before)
+    add("particles, heat and motion are the same to six digits, and the state differs in digits beyond");
+  return text + " (state hash " + found.hash + " instead of " + noted.hash + ")";
 }
 
 }  // namespace ps

@@ -89,9 +89,9 @@ std::string actsWhenText(const ParameterDeclaration& declaration, const Declarat
 }
 
 std::string actsAtText(api::ActsAt when) {
-  if (when == api::ActsAt::NextReset) return "Acts at the next reset.";
+  if (when == api::ActsAt::NextReset) return "Acts once back at the start.";
   if (when == api::ActsAt::NextFrameIfFixed)
-    return "Acts at the next frame on a body that is held in place, at the next reset on any other.";
+    return "Acts at the next frame on a body that is held in place, on any other once back at the start.";
   if (when == api::ActsAt::WithItsMatter) return "Carries the body's matter along at the next frame.";
   return {};
 }

@@ -10,7 +10,7 @@ std::string shownText(const api::ParameterDeclaration& declaration, double store
 /// "Acts when “Heat” is fixed temperature or convective."; "" for what always acts. A key without a declaration stands
 /// for itself.
 std::string actsWhenText(const api::ParameterDeclaration& declaration, const DeclarationOfKey& find);
-/// "Acts at the next reset."; "" for what acts at the next frame.
+/// "Acts once back at the start."; "" for what acts at the next frame.
 std::string actsAtText(api::ActsAt when);
 /// "next frame", "next reset", as the schema says it.
 const char* actsAtName(api::ActsAt when);

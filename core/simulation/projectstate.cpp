@@ -5,6 +5,7 @@
 #include "core/base/hash.h"
 #include "core/base/statestream.h"
 #include "core/scene/pose.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/scenestate.h"
 
 #include <algorithm>
@@ -55,8 +56,8 @@ std::string whyOfOtherBodies(const ProjectState& state, const std::vector<Body>&
   for (const Body& body : bodies) {
     const auto known = std::find_if(state.bodies.begin(), state.bodies.end(),
                                     [&](const ProjectState::Shape& shape) { return shape.id == body.id; });
-    if (known == state.bodies.end()) return "the body '" + body.id + "' came later";
-    if (known->stamp != stampOf(body)) return "the body '" + body.id + "' has another shape by now";
+    if (known == state.bodies.end()) return "the body '" + shownName(body) + "' came later";
+    if (known->stamp != stampOf(body)) return "the body '" + shownName(body) + "' has another shape by now";
   }
   for (const ProjectState::Shape& shape : state.bodies) {
     if (std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == shape.id; }))

@@ -306,7 +306,7 @@ class TestContentWindow : public SampleWindowTest {
   void whatWaitsForTheResetSaysSo() {
     m_window->inspector().setBody("ice");
     ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/ice/temperature"));
-    QVERIFY(row && row->model().rules.contains(QStringLiteral("Acts at the next reset.")));
+    QVERIFY(row && row->model().rules.contains(QStringLiteral("Acts once back at the start.")));
     const auto waits = [&] { return row->has(RowState::Limited); };
     leaveTheStart();
     QVERIFY(!waits());
@@ -336,8 +336,8 @@ class TestContentWindow : public SampleWindowTest {
     leaveTheStart();
     QCOMPARE(note(), QString());
     QCOMPARE(document().setParameter(kSpacing, before / 2), QString());
-    QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset: ")), qPrintable(note()));
-    for (const char* part : {" particles, about ", " MB, 8.0× today’s. ", "Reset now"})
+    QVERIFY2(note().startsWith(QStringLiteral("Acts once back at the start: ")), qPrintable(note()));
+    for (const char* part : {" particles, about ", " MB, 8.0× today’s. ", "Back to the start"})
       QVERIFY2(note().contains(QString::fromUtf8(part)), qPrintable(note()));
     document().undoStack().undo();
     QCOMPARE(note(), QString());

@@ -222,7 +222,7 @@ class TestGraphsWindow : public SampleWindowTest {
     QCOMPARE(set("in_box", true), QString());
     QCOMPARE(note(), QString());
     QCOMPARE(set("box_when", std::string(Probe::kAtStart)), QString());
-    QVERIFY2(note().startsWith(QStringLiteral("Acts at the next reset. ")), qPrintable(note()));
+    QVERIFY2(note().startsWith(QStringLiteral("Acts once back at the start. ")), qPrintable(note()));
     toTheStart();
     QTRY_COMPARE_WITH_TIMEOUT(note(), QString(), kLong);
   }

@@ -379,7 +379,7 @@ class TestLibrary : public SampleWindowTest {
     pictureOf("material_changed_on_disk");
     const uint64_t revision = session().newest()->revision;
     for (QPushButton* each : bar->findChildren<QPushButton*>())
-      if (each->text() == QStringLiteral("Take the new ones and reset")) each->click();
+      if (each->text() == QStringLiteral("Take the new ones, back to the start")) each->click();
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->revision != revision, kLong);
     QCOMPARE(inEngine("density_solid"), 1070.0);
     QCOMPARE(inEngine("youngs_modulus"), 3e6);

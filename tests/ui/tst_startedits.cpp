@@ -63,7 +63,8 @@ class TestStartEdits : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame == 1, kLong);
     const uint64_t revision = session().newest()->revision;
     QCOMPARE(document().setParameter(kSpacing, 1.5 * std::get<double>(document().value(kSpacing))), QString());
-    QTRY_VERIFY2_WITH_TIMEOUT(note().startsWith(QStringLiteral("Acts at the next reset")), qPrintable(note()), kLong);
+    QTRY_VERIFY2_WITH_TIMEOUT(note().startsWith(QStringLiteral("Acts once back at the start")), qPrintable(note()),
+                              kLong);
     QVERIFY(!session().appliesAtOnce());
     session().link()->applyWaiting();
     QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
@@ -93,7 +94,7 @@ class TestStartEdits : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame == 1, kLong);
     m_window->selection().selectBody("ice");
     QCOMPARE(document().setParameter(kStructure, std::string(kNoStructure)), QString());
-    QTRY_VERIFY2_WITH_TIMEOUT(structureNote().startsWith(QStringLiteral("Acts at the next reset")),
+    QTRY_VERIFY2_WITH_TIMEOUT(structureNote().startsWith(QStringLiteral("Acts once back at the start")),
                               qPrintable(structureNote()), kLong);
     document().undoStack().undo();
     QTRY_COMPARE_WITH_TIMEOUT(structureNote(), QString(), kLong);

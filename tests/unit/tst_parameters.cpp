@@ -150,7 +150,7 @@ class TestParameters : public QObject {
         "“Low end” and “High end” together should be below 4, when “Melting point” is at least −23.15 °C.",
         "Acts when “Mode” is fixed flux or convective and “Melting point” is not none and “Switch” is not off and "
         "“there/key” is on.",
-        "Acts at the next reset."};
+        "Acts once back at the start."};
     QCOMPARE(ruleTexts(d, find), expected);
   }
 

@@ -95,13 +95,15 @@ void TestSharing::whatDiffersIsSaid() {
                                   "mean temperature "),
            qPrintable(told(other)));
   QVERIFY(told(other).contains(" K instead of ") &&
-          told(other).endsWith(" instead of " + QString::fromStdString(noted.hash)));
+          told(other).endsWith(" instead of " + QString::fromStdString(noted.hash) + ")"));
   RunEnd close = noted;
   close.hash = "0123456789abcdef";
-  QVERIFY2(told(close).startsWith("the state differs in its last digits; state hash 0123"), qPrintable(told(close)));
+  QVERIFY2(told(close).startsWith("particles, heat and motion are the same to six digits, and the state differs in "
+                                  "digits beyond (state hash 0123"),
+           qPrintable(told(close)));
   RunEnd fewer = close;
   fewer.particles = 63;
-  QVERIFY2(told(fewer).startsWith("particles: 63 instead of 64; "), qPrintable(told(fewer)));
+  QVERIFY2(told(fewer).startsWith("particles: 63 instead of 64 (state hash "), qPrintable(told(fewer)));
   RunEnd later = noted;
   later.frame = kFrames + 1;
   QVERIFY(told(later).startsWith("it begins after the frame of its end, 20"));

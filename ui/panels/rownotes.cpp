@@ -20,7 +20,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// `cost`: of the reset.
 QString waitingText(const QString& cost = {}) {
-  return QStringLiteral("Acts at the next reset%1. [Reset now](%2)").arg(cost, QLatin1String(RowNotes::kReset));
+  return QStringLiteral("Acts once back at the start%1. [Back to the start](%2)").arg(cost, QLatin1String(RowNotes::kReset));
 }
 
 /// Behind what the row is told already.

@@ -93,7 +93,7 @@ FailureText failureText(const EngineEvent& event) {
   if (event.kind == EngineEvent::Kind::Remark) return {QStringLiteral("Opened, with one remark."), sentence(message)};
   if (event.kind == EngineEvent::Kind::Stopped) {
     return {QStringLiteral("Paused: the simulation could not go on."),
-            detail + QStringLiteral("Undo the last change, or reset, then play.")};
+            detail + QStringLiteral("Undo the last change, or go back to the start, then play.")};
   }
   return {QStringLiteral("That change could not be made."), message};
 }

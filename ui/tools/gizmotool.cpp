@@ -37,7 +37,7 @@ constexpr std::array<KindRow, 3> kKinds{
      {"Rotate what is selected", "turning %1", "Drag a ring", "Turn what is selected about it, its matter too",
       amountIn("Angle", "°")},
      {"Scale what is selected", "scaling %1", "Drag an arm or the middle",
-      "Stretch what is selected; bodies from the next reset on", amountIn("Factor", "")}}};
+      "Stretch what is selected; bodies once back at the start", amountIn("Factor", "")}}};
 const KindRow& rowOf(Kind kind) { return kKinds[static_cast<size_t>(kind)]; }
 
 /// Radians inside, degrees as people see them.
@@ -273,8 +273,9 @@ ToolPicture GizmoTool::picture() const {
     if (!shown.note.isEmpty()) shown.note.prepend(QStringLiteral(". "));
     shown.note.prepend(what);
   };
-  if (any(OutlineKind::Pin)) wait(QStringLiteral("Pins act at the next reset"));
-  if (m_kind == Kind::Scale && any(OutlineKind::Body)) wait(QStringLiteral("Sizes of bodies act at the next reset"));
+  if (any(OutlineKind::Pin)) wait(QStringLiteral("Pins act once back at the start"));
+  if (m_kind == Kind::Scale && any(OutlineKind::Body))
+    wait(QStringLiteral("Sizes of bodies act once back at the start"));
   shown.gizmo = gizmo(things);
   shown.hovered = m_hovered;
   if (m_grip) {

@@ -146,7 +146,8 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
   if (now.spacing > 0 && now.spacing != m_box.spacing()) {
-    return QStringLiteral("The particle spacing of %1 acts at the next reset. Press Home first, or undo the change.")
+    return QStringLiteral(
+               "The particle spacing of %1 acts once back at the start. Press Home first, or undo the change.")
         .arg(lengthText(m_box.spacing()));
   }
   if (m_box.stampsShape() && !m_box.shape())

@@ -57,7 +57,7 @@ void LibraryActions::offerWaiting(NoticeBar& bar) {
            labels.size() == 1 ? QStringLiteral("“%1” has changed on disk.").arg(labels.front())
                               : QStringLiteral("%1 materials have changed on disk.").arg(labels.size()),
            QStringLiteral("The scene goes on with the values that it began with, values of its own stay in any case."),
-           {{QStringLiteral("Take the new ones and reset"), [this] { m_library.takeWaiting(); }}});
+           {{QStringLiteral("Take the new ones, back to the start"), [this] { m_library.takeWaiting(); }}});
 }
 
 void LibraryActions::chooseImport() {

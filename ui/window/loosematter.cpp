@@ -68,7 +68,7 @@ void LooseMatter::tell(const Body& body) {
   m_notices.bar().show(topicOf(body.id), MessageLevel::Info,
                        QStringLiteral("“%1” begins as loose grains.").arg(QString::fromStdString(shownName(body))),
                        QStringLiteral("It is solid at its start, and nothing holds it together: it falls apart like "
-                                      "sand at the next reset."),
+                                      "sand once back at the start."),
                        {{QStringLiteral("Hold it together"),
                          [this, id = body.id, structure] { m_session.document().setStructure(id, structure); }}});
 }

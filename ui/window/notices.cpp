@@ -53,7 +53,7 @@ void Notices::showMaking(const QString& stage, double done, double left) {
 
 void Notices::showCancelled() {
   const QString text = m_session.isBroken()
-                           ? QStringLiteral("It stands still until you play it, reset it or change it.")
+                           ? QStringLiteral("It stands still until you play it, go back to the start or change it.")
                            : QStringLiteral("It goes on as it was.");
   m_bar.show(kStep, MessageLevel::Info, QStringLiteral("Making the scene was cancelled."), text,
              {{QStringLiteral("Try again"), [this] { m_session.reset(); }}});
@@ -93,7 +93,7 @@ void Notices::showFailure(const EngineEvent& event) {
   } else if (!takenBack && m_session.document().undoStack().canUndo()) {
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
   }
-  if (!takenBack) buttons.push_back({QStringLiteral("Reset"), [this] { m_session.reset(); }});
+  if (!takenBack) buttons.push_back({QStringLiteral("Back to the start"), [this] { m_session.reset(); }});
   m_bar.show(kStep, level, failure.title, more, std::move(buttons));
 }
 

@@ -54,7 +54,9 @@ RunWork::Result write(SharedCopy copy, PluginRegistry& plugins, const QString& p
   copy.project.end = runToEnd(written, plugins, lastFrameOf(written), kProgram);
   saveProject(copy.project, path.toStdString());
   const RunEnd& end = *copy.project.end;
-  QString text = QStringLiteral("Written to %1. Its run ends after %2 frames with the state %3.")
+  QString text = QStringLiteral(
+                     "Written to %1. It says what its run comes to after %2 frames (%3): whoever opens it is "
+                     "told whether their machine comes to the same.")
                      .arg(QDir::toNativeSeparators(path), QString::number(end.frame), QString::fromStdString(end.hash));
   if (!copy.written.empty())
     text += QStringLiteral(" These materials are written out in it: %1.").arg(listText(copy.written));

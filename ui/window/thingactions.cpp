@@ -141,7 +141,7 @@ void ThingActions::makeMenu(QMenu* menu) {
                 [this] { isolate(); });
   QAction* pin =
       m_actions.add(menu, QStringLiteral("edit.pin"), QStringLiteral("Add pin"), {}, [this] { m_pins.add(); });
-  pin->setToolTip(QStringLiteral("A box that holds what stands in it from the next reset on."));
+  pin->setToolTip(QStringLiteral("A box that holds what stands in it at the start, once back there."));
 }
 
 void ThingActions::makeArrangeMenu(QMenu* menu) {
