@@ -41,6 +41,7 @@ class Inspector : public QObject {
   void setMaterials(const std::vector<std::string>& ids);  ///< rows are of the last one, edits reach all
   void setMaterial(const std::string& id) { setMaterials(id.empty() ? std::vector<std::string>{} : std::vector{id}); }
   std::string material() const { return m_materials.empty() ? std::string() : m_materials.back().id; }
+  bool has(const Address& address) const;  ///< whether a row may be shown for it
   /// The panel that shows an address, after selecting its owner alone; nullptr when there is none.
   ParameterPanel* panelFor(const Address& address);
 

@@ -253,6 +253,8 @@ bool Inspector::selectAlone(OutlineKind kind, const std::string& id) {
   return true;
 }
 
+bool Inspector::has(const Address& address) const { return hasRow(m_document, address); }
+
 ParameterPanel* Inspector::panelFor(const Address& address) {
   if (address.owner == Owner::Material) {
     m_selection.setMaterial(address.id);

@@ -93,6 +93,7 @@ std::vector<RowModel> rowModels(api::ParameterList list, const ParameterSet& set
 struct ParameterPanel::Private {
   ParameterPanel* q;
   PanelHeader* header;
+  QLabel* note;
   QLineEdit* filter;
   QPushButton* changed;
   QScrollArea* scroll;
@@ -107,6 +108,7 @@ struct ParameterPanel::Private {
   void connectRow(ParameterRow* row);
   void mirror(const ParameterRow* from);  ///< rows of the same key follow
   void measure();
+  void settle();
   void show();  ///< by filter and folding
   void showCount();
   template <class F>
@@ -123,6 +125,13 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   d->q = this;
   d->header = new PanelHeader(this);
   d->header->hide();
+  d->note = new QLabel(this);
+  d->note->setObjectName(QStringLiteral("psLimit"));
+  d->note->setWordWrap(true);
+  d->note->setTextFormat(Qt::RichText);
+  d->note->setFont(Theme::font(TextRole::Small));
+  d->note->setTextInteractionFlags(Qt::TextBrowserInteraction);
+  d->note->hide();
   d->filter = new FilterField(this);
   d->changed = new QPushButton(this);
   d->changed->setObjectName(QStringLiteral("psChanged"));
@@ -147,13 +156,18 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  auto* noted = new QHBoxLayout;
+  noted->setContentsMargins(12, 0, 12, 0);
+  noted->addWidget(d->note);
   layout->addWidget(d->header);
+  layout->addLayout(noted);
   layout->addLayout(tools);
   layout->addWidget(d->scroll, 1);
   layout->addWidget(d->empty, 1);
   connect(d->filter, &QLineEdit::textChanged, this, [this] { d->show(); });
   connect(d->changed, &QPushButton::toggled, this, [this] { d->show(); });
   connect(d->empty, &QLabel::linkActivated, d->filter, &QLineEdit::clear);
+  connect(d->note, &QLabel::linkActivated, this, [this](const QString& link) { Q_EMIT linkActivated({}, link); });
   d->scroll->viewport()->installEventFilter(this);
   setMinimumWidth(240);
   d->show();
@@ -166,6 +180,11 @@ void ParameterPanel::setHeader(const QString& name, const QString& subtitle, con
   d->header->setTexts(name, subtitle, detail);
   d->header->setSwatch(std::move(swatch));
   d->header->setVisible(!name.isEmpty());
+}
+
+void ParameterPanel::setHeaderNote(const QString& note) {
+  d->note->setText(noteAsRichText(note));
+  d->note->setVisible(!note.isEmpty());
 }
 
 void ParameterPanel::setHeaderDetail(const QString& detail) { d->header->setDetail(detail); }
@@ -308,6 +327,15 @@ void ParameterPanel::Private::measure() {
   }
 }
 
+/// A row's note may become higher by the width that the row is given, while the layout is at work: a page that came up
+/// with its rows made while it was hidden would go on with the heights from before.
+void ParameterPanel::Private::settle() {
+  for (int pass = 0; content && pass < 2; ++pass) {
+    content->layout()->invalidate();
+    content->layout()->activate();
+  }
+}
+
 void ParameterPanel::Private::show() {
   const QString text = filter->text().trimmed();
   const bool searching = !text.isEmpty() || changed->isChecked();
@@ -422,7 +450,7 @@ bool ParameterPanel::reveal(const QString& key, bool focus) {
     setFilter({});
     setChangedOnly(false);
   }
-  d->content->layout()->activate();
+  d->settle();
   QEvent request(QEvent::LayoutRequest);
   QCoreApplication::sendEvent(d->scroll, &request);  // the scroll bar knows the present height now
   d->scroll->verticalScrollBar()->setValue(heading->y());
@@ -437,6 +465,12 @@ void ParameterPanel::paintEvent(QPaintEvent*) {
 }
 
 void ParameterPanel::resizeEvent(QResizeEvent*) { d->measure(); }
+
+void ParameterPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  QMetaObject::invokeMethod(
+      this, [this] { d->settle(); }, Qt::QueuedConnection);
+}
 
 bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
   // The scroll bar came or went.

@@ -27,6 +27,8 @@ class ParameterPanel : public QWidget {
 
   /// Block at the top: name, line below it, small line below that. A nullptr swatch draws none.
   void setHeader(const QString& name, const QString& subtitle, const QString& detail = {}, SwatchPainter swatch = {});
+  /// Below the header, with links as ParameterRow::setLimit() has them, which come back as linkActivated() of key "".
+  void setHeaderNote(const QString& note);
   void setHeaderDetail(const QString& detail);
   void updateHeader();  ///< paints its swatch again
   /// Replaces all rows. Pinned ones stand in a group "Try these" on top, others by the declaration's group in the order
@@ -75,6 +77,7 @@ class ParameterPanel : public QWidget {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:

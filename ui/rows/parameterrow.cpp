@@ -19,18 +19,6 @@
 namespace ps {
 namespace {
 
-/// Lines with "[text](link)" as rich text with links in accent and not underlined.
-QString richText(const QString& markdown) {
-  QString html = markdown.toHtmlEscaped();
-  static const QRegularExpression escaped(QStringLiteral("\\\\([\\\\\\[])"));
-  static const QRegularExpression link(QStringLiteral("(?<!\\\\)\\[(.+?)\\]\\((.+?)\\)"));
-  html.replace(link, QStringLiteral("<a href=\"\\2\" style=\"color:%1;text-decoration:none\">\\1</a>")
-                         .arg(Theme::current()[Token::Accent].name()));
-  html.replace(escaped, QStringLiteral("\\1"));
-  html.replace(QLatin1Char('\n'), QLatin1String("<br>"));
-  return html;
-}
-
 QLabel* makeNote(ParameterRow* row, const char* name, Qt::TextFormat format) {
   auto* label = new QLabel(row);
   label->setObjectName(QLatin1String(name));
@@ -52,6 +40,17 @@ FieldText withoutBrackets(FieldText text) {
 }
 
 }  // namespace
+
+QString noteAsRichText(const QString& markdown) {
+  QString html = markdown.toHtmlEscaped();
+  static const QRegularExpression escaped(QStringLiteral("\\\\([\\\\\\[])"));
+  static const QRegularExpression link(QStringLiteral("(?<!\\\\)\\[(.+?)\\]\\((.+?)\\)"));
+  html.replace(link, QStringLiteral("<a href=\"\\2\" style=\"color:%1;text-decoration:none\">\\1</a>")
+                         .arg(Theme::current()[Token::Accent].name()));
+  html.replace(escaped, QStringLiteral("\\1"));
+  html.replace(QLatin1Char('\n'), QLatin1String("<br>"));
+  return html;
+}
 
 QString asNote(QString text) {
   static const QRegularExpression marks(QStringLiteral("([\\\\\\[])"));
@@ -184,7 +183,7 @@ void ParameterRow::Private::styleNotes() {
     label->setText(text);
     label->show();
   };
-  show(limit, "psLimit", richText(limitText), Qt::RichText);
+  show(limit, "psLimit", noteAsRichText(limitText), Qt::RichText);
   show(error, "psError", errorText, Qt::PlainText);
   layoutNotes();
   refresh();

@@ -63,6 +63,9 @@ enum class RowState : unsigned {
   Dragging = 2048
 };
 
+/// A note as rich text: lines with "[text](link)" as links in accent, not underlined.
+QString noteAsRichText(const QString& markdown);
+
 /// Any text as a part of a note under a row (ParameterRow::setLimit), without a link in it.
 QString asNote(QString text);
 

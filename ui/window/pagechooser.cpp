@@ -87,6 +87,8 @@ void PageChooser::onSelection() {
 }
 
 bool PageChooser::reveal(const Address& address, bool focus) {
+  // Of one that is gone the panel would show another in its place.
+  if (!m_inspector.has(address)) return false;
   ParameterPanel* panel = m_inspector.panelFor(address);
   if (!panel) return false;
   m_layout.showPage(panel == m_inspector.bodyPanel()       ? kBody

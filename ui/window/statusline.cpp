@@ -4,6 +4,7 @@
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/rowmodels.h"
 #include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/runwork.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -148,14 +150,24 @@ void StatusLine::addNote(State& state) {
   state.note = m_said;
   state.mild = !m_said.isEmpty() && m_saidLevel != MessageLevel::Warning && m_saidLevel != MessageLevel::Error;
   if (!m_said.isEmpty() || !state.snapshot || state.snapshot->limits.empty()) return;
-  const std::vector<Limit>& limits = state.snapshot->limits;
+  const Document& document = m_session.document();
   const auto addressOf = [&](const Limit& limit) { return limitAddress(limit, state.snapshot->bodyIds.get()); };
+  std::vector<Limit> limits = state.snapshot->limits;
+  std::erase_if(limits, [&](const Limit& limit) {  // a snapshot may know of what the document has lost since
+    const std::optional<Address> address = addressOf(limit);
+    return address && !hasRow(document, *address);
+  });
+  if (limits.empty()) return;
   const auto lonely = std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return !addressOf(limit); });
   const Limit& first = lonely == limits.end() ? limits.front() : *lonely;
   const std::optional<Address> address = addressOf(first);
   if (address) m_noteAddress = QString::fromStdString(address->text());
-  state.note = (limits.size() == 1 ? QStringLiteral("1 note: ") : QStringLiteral("%1 notes: ").arg(limits.size())) +
-               limitNote(first, address ? m_session.document().declaration(*address) : nullptr);
+  const bool one = limits.size() == 1;
+  QString count = one ? QStringLiteral("1 note") : QStringLiteral("%1 notes").arg(limits.size());
+  if (address)
+    count += (one ? QStringLiteral(" on %1") : QStringLiteral(", first on %1"))
+                 .arg(ownerLabel(document.project(), *address));
+  state.note = count + QStringLiteral(": ") + limitNote(first, address ? document.declaration(*address) : nullptr);
 }
 
 void StatusLine::setState(const State& state) {
@@ -291,6 +303,7 @@ void StatusLine::paintEvent(QPaintEvent*) {
     right -= 12;
   }
   m_noteRect = {};
+  m_shownAddress = m_noteAddress;
   if (!m_state.note.isEmpty()) {
     const double edge = right;
     const Token token = m_state.mild ? Token::Info : Token::Warning;
@@ -332,8 +345,14 @@ void StatusLine::paintEvent(QPaintEvent*) {
   }
 }
 
+/// The note may be another one when the button comes up: what was read is what is meant.
+void StatusLine::mousePressEvent(QMouseEvent* event) {
+  m_pressed = m_noteRect.contains(event->position()) ? std::optional(m_shownAddress) : std::nullopt;
+}
+
 void StatusLine::mouseReleaseEvent(QMouseEvent* event) {
-  if (m_noteRect.contains(event->position())) Q_EMIT noteClicked(m_noteAddress);
+  const std::optional<QString> pressed = std::exchange(m_pressed, std::nullopt);
+  if (pressed && m_noteRect.contains(event->position())) Q_EMIT noteClicked(*pressed);
 }
 
 }  // namespace ps

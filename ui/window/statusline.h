@@ -47,13 +47,15 @@ class StatusLine : public QWidget {
   void say(const QString& sentence, MessageLevel level = MessageLevel::Info);
   /// Energy drift as a share of what was exchanged since the start.
   double drift() const;
-  QStringList parts() const;  ///< as shown, left to right
+  QStringList parts() const;                      ///< as shown, left to right
+  QRectF noteRect() const { return m_noteRect; }  ///< as it was painted last; empty: there is none
 
  Q_SIGNALS:
   void noteClicked(const QString& parameter);  ///< its address; "" where the note has none
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
@@ -82,6 +84,8 @@ class StatusLine : public QWidget {
   ToolContact m_tool;  ///< that a hand has led last, smoothed; without a body: none
   std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
   QRectF m_noteRect;
+  QString m_shownAddress;            ///< of the note as it is painted
+  std::optional<QString> m_pressed;  ///< the address of the note that the button went down on
   QTimer m_watch;
   QElapsedTimer m_sinceValues;
   struct Width {
