@@ -271,6 +271,7 @@ class ProjectChecker : public FieldVisitor {
       if (info.id == id && !info.problem.empty()) reason = "cannot be used (" + info.problem + ")";
     }
     warn(pointer, "the plugin '" + id + "' " + reason + "; " + withoutIt);
+    m_warnings.back().plugin = id;
   }
 
   /// A slip is refused; what may be a field of a plugin that is not there is kept.

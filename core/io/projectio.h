@@ -12,8 +12,9 @@ namespace ps {
 class PluginRegistry;
 
 struct ProjectMessage {
-  bool error = false;  ///< warnings let the project open
-  std::string text;    ///< "file:/json/pointer: what is wrong"
+  bool error = false;    ///< warnings let the project open
+  std::string text;      ///< "file:/json/pointer: what is wrong"
+  std::string plugin{};  ///< id of the one that is missing, where that is what it says
 };
 
 struct LoadedProject {

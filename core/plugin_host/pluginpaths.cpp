@@ -73,8 +73,7 @@ std::vector<PluginDirectory> pluginDirectories(const PluginRegistry::Options& op
   Directories list;
   if (options.builtIn) addBuiltIn(list);
   if (options.userDirectory) {
-    const QString data = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation);
-    if (!data.isEmpty()) list.add(data + QStringLiteral("/phasesketch/plugins"), "the user's data directory", false);
+    list.add(QString::fromStdString(userPluginDirectory()), "the user's data directory", false);
   }
   for (const std::string& path : options.extraPaths) list.add(QString::fromStdString(path), "the given paths", true);
   if (options.environment) {
@@ -83,6 +82,11 @@ std::vector<PluginDirectory> pluginDirectories(const PluginRegistry::Options& op
       list.add(path, "PHASESKETCH_PLUGIN_PATH", true);
   }
   return list.result();
+}
+
+std::string userPluginDirectory() {
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation);
+  return data.isEmpty() ? std::string() : (data + QStringLiteral("/phasesketch/plugins")).toStdString();
 }
 
 std::string stateDirectory() {

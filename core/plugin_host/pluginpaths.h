@@ -18,6 +18,9 @@ struct PluginDirectory {
 /// In rising order of precedence; a directory that appears twice keeps its last place.
 std::vector<PluginDirectory> pluginDirectories(const PluginRegistry::Options& options);
 
+/// Where the user's own plugins lie: $XDG_DATA_HOME/phasesketch/plugins, or ~/.local/share/phasesketch/plugins.
+std::string userPluginDirectory();
+
 /// Where this program keeps what it notices about itself: $XDG_STATE_HOME/phasesketch, or ~/.local/state/phasesketch.
 std::string stateDirectory();
 

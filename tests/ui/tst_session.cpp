@@ -313,7 +313,7 @@ class TestSession : public QObject {
     QTRY_VERIFY(!m_window->isWindowModified());
     QCOMPARE(m_window->windowTitle(), QStringLiteral("mine [*][*].json[*] – Ice on a plate – PhaseSketch"));
     press(*m_window, Qt::Key_N, Qt::ControlModifier);
-    QCOMPARE(m_window->windowTitle(), QStringLiteral("Untitled[*] – New scene – PhaseSketch"));
+    QCOMPARE(m_window->windowTitle(), QStringLiteral("New scene[*] – PhaseSketch"));
   }
 
   /// Nothing runs, a sentence says how to begin, and graphs have no axes of nothing.

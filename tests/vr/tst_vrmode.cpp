@@ -112,6 +112,14 @@ void VrModeTest::noRuntimeIsSaid() {
   QVERIFY(!action()->isChecked());
   QVERIFY2(status().contains(QStringLiteral("No OpenXR runtime runs here")), qPrintable(status()));
   QVERIFY(m_window->notice()->text().contains(QStringLiteral("No OpenXR runtime")));
+  const std::vector<MessageLink>& links = session().log().messages().back().links;
+  QVERIFY(links.size() == 1 && links[0].target == QStringLiteral("action:simulation.tryVr"));
+  QPushButton* button = noticeButton(*m_window, QStringLiteral("Try VR without a headset"));
+  QVERIFY(button);
+  button->click();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().active(), kLong);
+  QVERIFY(m_window->action(QStringLiteral("simulation.tryVr"))->isChecked());
+  vr().leave();
 }
 
 void VrModeTest::everyEndingIsSaidAndVrComesBack_data() {

@@ -53,8 +53,11 @@ struct PortChanged {
 struct WallsChanged {
   bool moved = false;
 };
-/// The scene has one material more, or less, or one holds on to others than before.
-struct MaterialsChanged {};
+/// The scene has one material more, or less, or one holds on to others than before. `other`: one is of another
+/// installed one, as which its matter is made at the next reset.
+struct MaterialsChanged {
+  bool other = false;
+};
 /// A stroke was made (`live`: its particles are in the engine already), undone or redone.
 struct StrokeChanged {
   std::shared_ptr<StrokeRecord> stroke;

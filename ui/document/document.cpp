@@ -57,7 +57,7 @@ void Document::open(Project project, const QString& path, bool dirty, bool play,
 
 QString Document::title() const {
   if (!m_project.title.empty()) return QString::fromStdString(m_project.title);
-  return m_path.isEmpty() ? QStringLiteral("Untitled") : QFileInfo(m_path).completeBaseName();
+  return m_path.isEmpty() ? QStringLiteral("New scene") : QFileInfo(m_path).completeBaseName();
 }
 
 bool Document::isDirty() const { return m_neverClean || !m_undo.isClean(); }
@@ -348,9 +348,13 @@ void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, co
 }
 
 void Document::applyMaterials(const std::vector<SceneMaterial>& materials) {
+  const bool other = std::any_of(materials.begin(), materials.end(), [this](const SceneMaterial& after) {
+    return std::any_of(m_project.materials.begin(), m_project.materials.end(),
+                       [&](const SceneMaterial& before) { return before.id == after.id && before.base != after.base; });
+  });
   m_project.materials = materials;
   ++m_changes;
-  notify(MaterialsChanged{});
+  notify(MaterialsChanged{other});
 }
 
 void Document::applyStroke(const std::shared_ptr<StrokeRecord>& stroke, bool done, bool live) {

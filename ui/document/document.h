@@ -46,7 +46,7 @@ class Document : public QObject {
   /// what the file was when the project was read from it or came to differ from it.
   void open(Project project, const QString& path, bool dirty = false, bool play = true, const FileStamp& file = {});
   const QString& path() const { return m_path; }  ///< "" when it was never saved
-  QString title() const;                          ///< the project's title, else the file's name, else "Untitled"
+  QString title() const;                          ///< the project's title, else the file's name, else "New scene"
   bool isDirty() const;
   const FileStamp& file() const { return m_file; }  ///< as it was read or saved last, here
   /// The file at `path` now holds the project as it was at `changeCount` (see changeCount()). False, and nothing
@@ -154,6 +154,9 @@ class Document : public QObject {
   // Materials
   /// The scene's material of an installed one, added where there is none yet. Returns its id.
   std::string addMaterial(const std::string& base);
+  /// A material of the scene becomes another installed one, with that one's values and name; its bodies, taps and other
+  /// references stay. Acts at the next reset. One step, which brings back all that it said before.
+  void useOtherMaterial(const std::string& id, const std::string& base);
   /// "" or why a material cannot leave the scene: which body is of it.
   QString whyMaterialStays(const std::string& id) const;
   QString removeMaterial(const std::string& id);  ///< returns whyMaterialStays()

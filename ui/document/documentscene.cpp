@@ -155,6 +155,21 @@ std::string Document::addMaterial(const std::string& base) {
   return id;
 }
 
+void Document::useOtherMaterial(const std::string& id, const std::string& base) {
+  std::vector<SceneMaterial> after = m_project.materials;
+  const auto material = std::find_if(after.begin(), after.end(), [&](const SceneMaterial& m) { return m.id == id; });
+  const Material* installed = m_plugins ? m_plugins->material(base) : nullptr;
+  if (material == after.end() || !installed || material->base == base) return;
+  const QString title =
+      QStringLiteral("another material for %1").arg(text(material->label.empty() ? id : material->label));
+  SceneMaterial other;
+  other.id = id;
+  other.base = base;
+  other.label = installed->label.empty() ? base : installed->label;
+  *material = std::move(other);
+  m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
+}
+
 QString Document::whyMaterialStays(const std::string& id) const {
   for (const Body& body : m_project.bodies) {
     if (isOf(body, id)) return QStringLiteral("“%1” is of it").arg(nameOf(body));

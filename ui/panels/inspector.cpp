@@ -9,6 +9,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/rowmodels.h"
+#include "ui/panels/wayout.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/swatches.h"
@@ -103,6 +104,7 @@ void Inspector::onEdited(const QString& key, const Value& value, Edit edit, cons
 
 /// Links of notes say what they set: "solver/substeps=8"; or that the scene is to be reset.
 void Inspector::onLink(const QString&, const QString& link) {
+  if (wayout::isWayOut(link)) return Q_EMIT wayOutWanted(link);
   if (link == QLatin1String(RowNotes::kReset)) {
     m_session.reset();
     return;
@@ -331,6 +333,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     rebuildMaterial();  // one of its rows may be pinned
   } else if (std::holds_alternative<MaterialsChanged>(event)) {
     rebuildMaterial();
+    rebuildBody();  // what it is made of may be called something else
   } else if (std::holds_alternative<TracksChanged>(event)) {
     showTracks();
   } else if (std::holds_alternative<PinsChanged>(event)) {

@@ -58,6 +58,7 @@ class Inspector : public QObject {
 
  Q_SIGNALS:
   void curveWanted(const ps::Address& address);  ///< of a response: the small curve in its row was clicked
+  void wayOutWanted(const QString& link);        ///< see ui/panels/wayout.h
   void keyRefused(const QString& problem);
 
  private:

@@ -6,6 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/rowmodels.h"
+#include "ui/panels/wayout.h"
 #include "ui/session/session.h"
 #include "ui/session/swatches.h"
 #include "ui/session/wording.h"
@@ -44,6 +45,7 @@ void Inspector::rebuildMaterial() {
   std::vector<RowModel> rows;
   if (material == project.materials.end()) {
     m_material->setHeader({}, {});
+    m_material->setHeaderNote({});
     m_material->setModel({});
     return;
   }
@@ -77,6 +79,7 @@ void Inspector::rebuildMaterial() {
 
 void Inspector::showMaterialHeader() {
   const Project& project = m_document.project();
+  m_material->setHeaderNote({});
   if (m_materials.size() > 1) {
     QStringList names;
     for (const Address& one : m_materials) names << ownerLabel(project, one);
@@ -88,7 +91,6 @@ void Inspector::showMaterialHeader() {
                                      [&](const SceneMaterial& m) { return m.id == this->material(); });
   if (material == project.materials.end()) return;
   const PluginRegistry* plugins = m_document.plugins();
-  const bool missing = plugins && !plugins->material(material->base);
   QStringList bodies;
   for (const Body& body : project.bodies) {
     if (body.material == material->id) bodies << nameOf(body);
@@ -98,10 +100,12 @@ void Inspector::showMaterialHeader() {
   }
   m_grade = gradeText(plugins, material->base);
   m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
-                        missing
-                            ? QStringLiteral("Plugin “%1” is not installed").arg(QString::fromStdString(material->base))
-                            : bodies.join(QStringLiteral(", ")),
-                        materialDetail(), m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
+                        bodies.join(QStringLiteral(", ")), materialDetail(),
+                        m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
+  if (!plugins || plugins->material(material->base)) return;
+  for (const MissingPlugin& missing : missingPlugins(project, *plugins)) {
+    if (missing.material == material->id) m_material->setHeaderNote(wayout::note(missing, m_document));
+  }
 }
 
 QString Inspector::materialDetail() const {

@@ -16,8 +16,12 @@
 #include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
+
+constexpr int kTimeWidth = 96, kWhereWidth = 170, kLeastText = 160, kLinksEdge = 24;
 
 Token tokenOf(MessageLevel level) {
   switch (level) {
@@ -66,9 +70,35 @@ MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
   refresh();
 }
 
+void MessagesPage::addLinks(int row, const Message& message) {
+  QStringList links;
+  for (const MessageLink& link : message.links) {
+    links << QStringLiteral("<a href=\"%1\" style=\"color:%2;text-decoration:none\">%3</a>")
+                 .arg(link.target.toHtmlEscaped(), Theme::current()[Token::Accent].name(), link.text.toHtmlEscaped());
+  }
+  auto* label = new QLabel(links.join(QStringLiteral("&nbsp;&nbsp;·&nbsp;&nbsp;")));
+  label->setTextFormat(Qt::RichText);
+  label->setTextInteractionFlags(Qt::TextBrowserInteraction);
+  label->setContentsMargins(6, 0, 6, 0);
+  // What it leads to may say something itself, which makes all rows anew.
+  connect(label, &QLabel::linkActivated, this, &MessagesPage::linkActivated, Qt::QueuedConnection);
+  m_linksWidth = std::max(m_linksWidth, label->sizeHint().width() + kLinksEdge);
+  m_view->setIndexWidget(m_model->index(row, 3), label);
+}
+
+/// Links stand at the right edge, whatever there is to read.
+void MessagesPage::setWidths() {
+  const int rest = m_view->viewport()->width() - kTimeWidth - kWhereWidth - m_linksWidth;
+  m_view->setColumnWidth(0, kTimeWidth);
+  m_view->setColumnWidth(1, kWhereWidth);
+  m_view->setColumnWidth(2, std::max(kLeastText, rest));
+  m_view->setColumnHidden(3, m_linksWidth == 0);
+}
+
 void MessagesPage::refresh() {
   if (!isVisible() && m_model->rowCount() > 0) return;  // shown anew in showEvent
   m_model->clear();
+  m_linksWidth = 0;
   const auto& messages = m_log.messages();
   for (auto it = messages.rbegin(); it != messages.rend(); ++it) {
     auto* time = new QStandardItem(it->time.toString(QStringLiteral("HH:mm:ss")));
@@ -81,13 +111,19 @@ void MessagesPage::refresh() {
     if (it->count > 1) text += QStringLiteral("  (%1 times)").arg(it->count);
     auto* what = new QStandardItem(text);
     what->setToolTip(it->text);
-    m_model->appendRow({time, where, what});
+    m_model->appendRow({time, where, what, new QStandardItem});
+    if (!it->links.empty()) addLinks(m_model->rowCount() - 1, *it);
   }
-  m_view->setColumnWidth(0, 96);
-  m_view->setColumnWidth(1, 170);
+  setWidths();
   m_empty->setVisible(messages.empty());
   m_view->setVisible(!messages.empty());
   if (isVisible()) m_log.markSeen();
+}
+
+void MessagesPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  layout()->activate();
+  setWidths();
 }
 
 void MessagesPage::showEvent(QShowEvent* event) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/pluginpage.h"
 
+#include "core/plugin_host/pluginpaths.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
+#include "ui/document/document.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/session.h"
 #include "ui/session/worker.h"
@@ -23,6 +25,8 @@
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
 
 namespace ps {
 namespace {
@@ -62,7 +66,8 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
       m_summary(new QLabel),
       m_details(new QLabel),
       m_filter(new QLineEdit),
-      m_again(new QPushButton) {
+      m_again(new QPushButton),
+      m_folder(new QPushButton(QStringLiteral("Look in a folder…"))) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 12, 16, 12);
   column->setSpacing(10);
@@ -104,9 +109,15 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   foot->setSpacing(16);
   foot->addWidget(m_details, 1);
   foot->addWidget(m_again, 0, Qt::AlignTop);
+  foot->addWidget(m_folder, 0, Qt::AlignTop);
   column->addLayout(foot);
   m_again->setToolTip(QStringLiteral("Loads it in a process of its own, which it may take down, and allows it again"));
   m_again->hide();
+  m_folder->setToolTip(QStringLiteral("Installs it from a folder that it was downloaded to or built in"));
+  m_folder->hide();
+  connect(m_folder, &QPushButton::clicked, this, [this] {
+    if (const MissingPlugin* missing = missingAt(m_view->currentIndex())) Q_EMIT folderWanted(missing->id);
+  });
   connect(m_again, &QPushButton::clicked, this, &PluginPage::tryAgain);
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
   connect(&session, &Session::ready, this, [this, &session] {
@@ -164,24 +175,86 @@ void PluginPage::refresh() {
       m_model->insertRow(0, row);
     }
   }
+  addMissing();
   const int widths[] = {200, 100, 70, 50, 100, 100};
   for (int c = 0; c < 6; ++c) m_view->setColumnWidth(c, widths[c]);
   filter(m_filter->text());
   if (m_model->rowCount() > 0) m_view->setCurrentIndex(m_model->index(0, 0));
 }
 
+/// On top of all: what the scene waits for.
+void PluginPage::addMissing() {
+  const Theme& theme = Theme::current();
+  const auto& plugins = m_registry->plugins();
+  const Project& project = m_session.document().project();
+  m_missing = missingPlugins(project, *m_registry);
+  std::erase_if(m_missing, [&](const MissingPlugin& missing) {  // of those that were not loaded there is a row already
+    return std::any_of(plugins.begin(), plugins.end(), [&](const PluginInfo& info) { return info.id == missing.id; });
+  });
+  for (size_t k = m_missing.size(); k-- > 0;) {
+    const MissingPlugin& missing = m_missing[k];
+    QList<QStandardItem*> row;
+    for (const QString& text : {QString::fromStdString(missing.id), kindText(missing.kind), QString(), QString(),
+                                QString(), QStringLiteral("Missing"), missingText(missing, project, *m_registry)}) {
+      row << new QStandardItem(text);
+      row.back()->setForeground(theme[Token::Warning]);
+    }
+    row[0]->setForeground(theme[Token::Text]);
+    row[0]->setData(-1 - static_cast<int>(k), kId);
+    row[0]->setIcon(QIcon(iconPixmap(QStringLiteral("plugin"), theme[Token::Warning], 16, devicePixelRatioF())));
+    row[6]->setToolTip(row[6]->text());
+    m_model->insertRow(0, row);
+  }
+}
+
+const MissingPlugin* PluginPage::missingAt(const QModelIndex& index) const {
+  const QStandardItem* item = index.isValid() ? m_model->item(index.row()) : nullptr;
+  const int place = item ? item->data(kId).toInt() : 0;
+  const auto k = static_cast<size_t>(-1 - place);
+  return place < 0 && k < m_missing.size() ? &m_missing[k] : nullptr;
+}
+
+std::string PluginPage::idAt(int row) const {
+  const QModelIndex index = m_model->index(row, 0);
+  if (const MissingPlugin* missing = missingAt(index)) return missing->id;
+  const PluginInfo* info = pluginAt(index);
+  return info ? info->id : std::string();
+}
+
 void PluginPage::select(const std::string& id) {
   for (int row = 0; m_registry && row < m_model->rowCount(); ++row) {
-    const auto i = static_cast<size_t>(m_model->item(row)->data(kId).toInt());
-    if (m_registry->plugins()[i].id == id) m_view->setCurrentIndex(m_model->index(row, 0));
+    if (idAt(row) == id) m_view->setCurrentIndex(m_model->index(row, 0));
   }
+}
+
+void PluginPage::find(const std::string& id) {
+  m_filter->clear();
+  refresh();
+  select(id);
+  m_view->scrollTo(m_view->currentIndex());
+  m_view->setFocus(Qt::OtherFocusReason);
+}
+
+void PluginPage::showNews(const QString& text) { m_details->setText(text.toHtmlEscaped()); }
+
+void PluginPage::showMissing(const MissingPlugin& missing) {
+  const QString text = missingText(missing, m_session.document().project(), *m_registry);
+  m_details->setText(
+      QStringLiteral(
+          "<b>%1</b><br>%2<br><span style='color:%3'>It is looked for in the folder of the user's plugins, %4, "
+          "in the one that Preferences name, and in those of PHASESKETCH_PLUGIN_PATH.</span>")
+          .arg(QString::fromStdString(missing.id).toHtmlEscaped(), text.toHtmlEscaped(),
+               Theme::current()[Token::Muted].name(), QString::fromStdString(userPluginDirectory()).toHtmlEscaped()));
 }
 
 void PluginPage::showDetails() {
   const PluginInfo* shown = pluginAt(m_view->currentIndex());
   m_again->setVisible(shown && shown->state == PluginInfo::State::Quarantined);
   m_again->setEnabled(!m_trying);
+  const MissingPlugin* missing = missingAt(m_view->currentIndex());
+  m_folder->setVisible(missing != nullptr);
   m_again->setText(m_trying ? QStringLiteral("Trying…") : QStringLiteral("Try again"));
+  if (missing) return showMissing(*missing);
   if (!shown) {
     m_details->clear();
     return;
@@ -205,8 +278,9 @@ void PluginPage::showDetails() {
 
 const PluginInfo* PluginPage::pluginAt(const QModelIndex& index) const {
   const QStandardItem* item = index.isValid() ? m_model->item(index.row()) : nullptr;
-  const auto i = item ? static_cast<size_t>(item->data(kId).toInt()) : 0;
-  return item && m_registry && i < m_registry->plugins().size() ? &m_registry->plugins()[i] : nullptr;
+  const int place = item ? item->data(kId).toInt() : -1;
+  const auto i = static_cast<size_t>(place);
+  return place >= 0 && m_registry && i < m_registry->plugins().size() ? &m_registry->plugins()[i] : nullptr;
 }
 
 /// It may take as long as a plugin may; the window goes on meanwhile, or may be gone.
@@ -234,8 +308,8 @@ void PluginPage::tryAgain() {
 
 void PluginPage::filter(const QString& wanted) {
   for (int row = 0; row < m_model->rowCount(); ++row) {
-    const auto i = static_cast<size_t>(m_model->item(row)->data(kId).toInt());
-    QString all = QString::fromStdString(m_registry->plugins()[i].author + " " + m_registry->plugins()[i].id);
+    const PluginInfo* info = pluginAt(m_model->index(row, 0));
+    QString all = QString::fromStdString((info ? info->author + " " : std::string()) + idAt(row));
     for (int c = 0; c < m_model->columnCount(); ++c) all += QLatin1Char(' ') + m_model->item(row, c)->text();
     m_view->setRowHidden(row, {}, !all.contains(wanted, Qt::CaseInsensitive));
   }
@@ -249,6 +323,14 @@ QStringList PluginPage::lines() const {
     list << cells.join(QStringLiteral("\t"));
   }
   return list;
+}
+
+/// Scenes come and go while the page is out of sight.
+void PluginPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  const std::string id = idAt(m_view->currentIndex().row());
+  refresh();
+  select(id);
 }
 
 void PluginPage::paintEvent(QPaintEvent*) {

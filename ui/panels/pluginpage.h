@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/document/missingplugins.h"
+
 #include <QtWidgets/QWidget>
 
 #include <string>
@@ -25,19 +27,29 @@ class PluginPage : public QWidget {
   explicit PluginPage(Session& session, QWidget* parent = nullptr);
   void refresh();
   void select(const std::string& id);
+  /// Below the list, until another row is chosen: the bar over the view is out of sight here.
+  void showNews(const QString& text);
+  /// Shows one that the scene misses, whatever is filtered.
+  void find(const std::string& id);
   QString summary() const;
   /// As shown, one line per plugin: for tests and "Copy list".
   QStringList lines() const;
 
  Q_SIGNALS:
   void closeRequested();
+  void folderWanted(const std::string& id);  ///< where a missing one is to be looked for
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
+  void addMissing();
   void showDetails();
+  void showMissing(const MissingPlugin& missing);
+  const MissingPlugin* missingAt(const QModelIndex& index) const;
+  std::string idAt(int row) const;
   /// What the list has in this row; nullptr: nothing there.
   const PluginInfo* pluginAt(const QModelIndex& index) const;
   void tryAgain();
@@ -48,8 +60,9 @@ class PluginPage : public QWidget {
   QTreeView* m_view;
   QLabel *m_summary, *m_details;
   QLineEdit* m_filter;
-  QPushButton* m_again;
-  bool m_trying = false;  ///< in a process of its own
+  QPushButton *m_again, *m_folder;
+  std::vector<MissingPlugin> m_missing;  ///< that the list has no other row for
+  bool m_trying = false;                 ///< in a process of its own
 };
 
 }  // namespace ps

@@ -5,6 +5,8 @@
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "ui/document/document.h"
+#include "ui/document/missingplugins.h"
+#include "ui/panels/wayout.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/wording.h"
@@ -20,7 +22,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// `cost`: of the reset.
 QString waitingText(const QString& cost = {}) {
-  return QStringLiteral("Acts once back at the start%1. [Back to the start](%2)").arg(cost, QLatin1String(RowNotes::kReset));
+  return QStringLiteral("Acts once back at the start%1. [Back to the start](%2)")
+      .arg(cost, QLatin1String(RowNotes::kReset));
 }
 
 /// Behind what the row is told already.
@@ -69,6 +72,14 @@ void RowNotes::noteWaiting(const ParameterChanged& change) {
   if (!m_document.actsAtReset(address)) return;
   const auto [made, first] = m_made.try_emplace(address.text(), change.before);
   if (!first && made->second == m_document.value(address)) m_made.erase(made);
+}
+
+void RowNotes::addMissing(std::map<QString, Note>& notes) const {
+  if (!m_document.plugins()) return;
+  for (const MissingPlugin& missing : missingPlugins(m_document.project(), *m_document.plugins())) {
+    const QString note = wayout::note(missing, m_document);
+    for (const Address& row : missing.rows) add(notes, QString::fromStdString(row.text()), {note, kNone});
+  }
 }
 
 void RowNotes::addAdvice(std::map<QString, Note>& notes) const {
@@ -157,6 +168,7 @@ void RowNotes::addStarts(std::map<QString, Note>& notes) const {
 
 void RowNotes::show() {
   std::map<QString, Note> notes;
+  addMissing(notes);
   addAdvice(notes);
   addLimits(notes);
   addWaiting(notes);

@@ -15,8 +15,8 @@ class Document;
 class ParameterPanel;
 struct EngineEvent;
 
-/// The notes under rows: what a value should be and is not, what the solver cannot reach, what waits for the next
-/// reset.
+/// The notes under rows: what is chosen and not installed, what a value should be and is not, what the solver cannot
+/// reach, what waits for the next reset.
 class RowNotes {
  public:
   RowNotes(const Document& document, std::vector<ParameterPanel*> panels);
@@ -41,6 +41,7 @@ class RowNotes {
     QString text;
     double delivered;
   };
+  void addMissing(std::map<QString, Note>& notes) const;
   void addAdvice(std::map<QString, Note>& notes) const;
   void addLimits(std::map<QString, Note>& notes) const;
   void addWaiting(std::map<QString, Note>& notes) const;

@@ -126,7 +126,7 @@ ParameterPanel::ParameterPanel(QWidget* parent) : QWidget(parent), d(new Private
   d->header = new PanelHeader(this);
   d->header->hide();
   d->note = new QLabel(this);
-  d->note->setObjectName(QStringLiteral("psLimit"));
+  d->note->setObjectName(QStringLiteral("psHeaderNote"));
   d->note->setWordWrap(true);
   d->note->setTextFormat(Qt::RichText);
   d->note->setFont(Theme::font(TextRole::Small));

@@ -7,8 +7,10 @@
 #include "core/io/textfile.h"
 #include "core/plugin_host/registry.h"
 #include "ui/document/document.h"
+#include "ui/document/missingplugins.h"
 #include "ui/document/wallside.h"
 #include "ui/session/autosave.h"
+#include "ui/session/fileproblem.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/savejob.h"
 #include "ui/session/worker.h"
@@ -21,6 +23,7 @@
 #include <QtCore/QJsonObject>
 #include <QtCore/QSettings>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -28,13 +31,12 @@ namespace ps {
 namespace {
 
 constexpr int kRecentFiles = 10;
-constexpr const char* kRequiredPointer = ":/pluginsRequired/";  // where loadProject() says that one is missing
+constexpr const char* kRequiredPointer = "/pluginsRequired/";  // where loadProject() says that one is missing
 constexpr const char* kRecentKey = "files/recent";
 
 /// An empty tray to begin with, and what the plugins offer as standard.
 Project emptyProject(const PluginRegistry* plugins) {
   Project project;
-  project.title = "New scene";
   if (plugins) {
     project.solver.thermalModel = plugins->standard(PluginKind::Thermal);
     SceneMaterial material;
@@ -138,16 +140,21 @@ void DocumentFiles::load(const Source& source) {
     QElapsedTimer clock;
     clock.start();
     auto read = std::make_shared<Read>();
+    std::string bytes;
     try {
       const std::string path = source.path.toStdString();
       if (locks) removeLeftParts(source.documentPath.toStdString());
       read->file = stampAt(path);  // before the bytes: what is written meanwhile is noticed
-      const std::string bytes = readFile(path, kMaximumProjectBytes);
+      bytes = readFile(path, kMaximumProjectBytes);
       read->file.hash = hashOf(bytes);
       read->loaded = parse(bytes, source.path, *plugins, source.anyway);
+      for (auto* messages : {&read->loaded.problems, &read->loaded.warnings}) {
+        for (ProjectMessage& message : *messages)
+          message.text = fileProblem(message.text, source.path, bytes).toStdString();
+      }
       if (locks) read->lock = own->lockOf(source.documentPath, mine);
     } catch (const std::exception& error) {
-      read->problem = QString::fromUtf8(error.what());
+      read->problem = fileProblem(error.what(), source.path, bytes);
     }
     read->seconds = static_cast<double>(clock.elapsed()) / 1000;
     QMetaObject::invokeMethod(this, [this, request, source, read] {
@@ -166,10 +173,17 @@ void DocumentFiles::adopt(const Source& source, Read& read) {
   const bool own = source.path == source.documentPath;
   Project& project = read.loaded.project;
   if (source.session && !source.dirty) project.view = asSeen(project.view, source.session->view);
+  // What the scene says of them by itself, with ways out, is not said twice.
+  const std::vector<MissingPlugin> missing = missingPlugins(project, *m_document.plugins());
+  const auto saidAlready = [&](const ProjectMessage& message) {
+    return std::any_of(missing.begin(), missing.end(), [&](const auto& one) { return one.id == message.plugin; });
+  };
   QStringList warnings;
   // It opens though no scene can be made of it, to be mended.
   for (const auto* messages : {&read.loaded.problems, &read.loaded.warnings}) {
-    for (const ProjectMessage& message : *messages) warnings << QString::fromStdString(message.text);
+    for (const ProjectMessage& message : *messages) {
+      if (!saidAlready(message)) warnings << QString::fromStdString(message.text);
+    }
   }
   m_lock = read.lock;
   // A run that was recorded stands at its end, one that was left where it was left.

@@ -5,6 +5,8 @@
 
 #include <QtCore/QStringList>
 
+#include <utility>
+
 namespace ps {
 namespace {
 
@@ -46,13 +48,13 @@ void MessageLog::takeLog() {
   });
 }
 
-void MessageLog::add(MessageLevel level, const QString& where, const QString& text) {
+void MessageLog::add(MessageLevel level, const QString& where, const QString& text, std::vector<MessageLink> links) {
   if (!m_messages.empty() && m_messages.back().text == text && m_messages.back().where == where) {
     ++m_messages.back().count;
     m_messages.back().time = QDateTime::currentDateTime();
   } else {
     if (m_messages.size() >= kMost) m_messages.erase(m_messages.begin());
-    m_messages.push_back({level, QDateTime::currentDateTime(), where, text, 1});
+    m_messages.push_back({level, QDateTime::currentDateTime(), where, text, 1, std::move(links)});
     if (level == MessageLevel::Warning || level == MessageLevel::Error) ++m_unseen;
   }
   Q_EMIT changed();

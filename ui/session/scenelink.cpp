@@ -121,6 +121,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     onPort(*port);
   } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
              std::holds_alternative<OrderChanged>(event)) {
+    const auto* materials = std::get_if<MaterialsChanged>(&event);
+    if (materials && materials->other) resetSoon();
     if (isBroken()) {
       rebuild(m_play);
     } else {

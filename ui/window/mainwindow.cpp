@@ -9,6 +9,7 @@
 #include "ui/graphs/graphspanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
+#include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/session/documentfiles.h"
@@ -54,6 +55,7 @@
 #include "ui/window/viewactions.h"
 #include "ui/window/viewportpane.h"
 #include "ui/window/vrmode.h"
+#include "ui/window/waysout.h"
 #include "ui/window/welcome.h"
 
 #include <QtCore/QFileInfo>
@@ -104,6 +106,8 @@ MainWindow::MainWindow(const Options& options)
                   options.samples, this);
   m_palette = new CommandPalette(this);
   m_tour = new Tour(*this);
+  m_waysOut = new WaysOut(
+      {*m_session, *m_notices, m_actions, *m_inspector, *m_centre, *m_plugins, findChild<MessagesPage*>()}, this);
   connectParts();
   m_vr = std::make_unique<VrMode>(
       VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status, *m_curves, m_actions});
@@ -398,13 +402,13 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
 
 void MainWindow::updateTitle() {
   const Document& document = m_session->document();
-  const QString file = document.path().isEmpty() ? QStringLiteral("Untitled") : QFileInfo(document.path()).fileName();
+  const QString file = document.path().isEmpty() ? document.title() : QFileInfo(document.path()).fileName();
   const auto literal = [](QString text) {  // Qt's mark for unsaved changes must not come from a name
     return text.replace(QStringLiteral("[*]"), QStringLiteral("[*][*]"));
   };
   QString title = literal(file) + QStringLiteral("[*]");
   const QString own = QString::fromStdString(document.project().title);
-  if (!own.isEmpty()) title += QStringLiteral(" – ") + literal(own);
+  if (!own.isEmpty() && own != file) title += QStringLiteral(" – ") + literal(own);
   setWindowTitle(title + QStringLiteral(" – PhaseSketch"));
   setWindowModified(document.isDirty());
 }

@@ -39,6 +39,7 @@ class TopBar;
 class Tour;
 class Transport;
 class ViewActions;
+class WaysOut;
 class Viewport;
 class ViewportPane;
 class VrMode;
@@ -89,6 +90,7 @@ class MainWindow : public QMainWindow {
   FavouriteBrushes& favourites() const { return *m_favourites; }
   Help& help() const { return *m_help; }
   Tour& tour() const { return *m_tour; }
+  WaysOut& waysOut() const { return *m_waysOut; }
   VrMode& vr() const { return *m_vr; }
   void startTour();  ///< of five steps over the scene
   bool isDark() const { return m_layout->isDark(); }
@@ -151,6 +153,7 @@ class MainWindow : public QMainWindow {
   FavouriteBrushes* m_favourites = nullptr;
   Help* m_help = nullptr;
   Tour* m_tour = nullptr;
+  WaysOut* m_waysOut = nullptr;
   std::unique_ptr<EditActions> m_edit;
   std::unique_ptr<ThingActions> m_things;
   BodyActions* m_bodies = nullptr;

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "ui/document/document.h"
+#include "ui/panels/wayout.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/selection.h"
@@ -212,6 +213,7 @@ void VrMode::showHands() {
 
 /// The thread is done by then, or as good as.
 void VrMode::end(const vr::Ending& ending) {
+  const bool trial = m_window != nullptr;
   m_timer.stop();
   m_mirror.reset();
   m_headset.reset();
@@ -231,9 +233,21 @@ void VrMode::end(const vr::Ending& ending) {
   const MessageLevel level = ending.failed ? MessageLevel::Warning : MessageLevel::Info;
   showState();
   m_parts.status.say(said, level);
-  if (!said.isEmpty()) m_parts.notices.message(level, kTopic, said);
+  if (ending.failed && !trial) {
+    offerTrial(said);
+  } else if (!said.isEmpty()) {
+    m_parts.notices.message(level, kTopic, said);
+  }
   Q_EMIT ended(said);
   if (std::exchange(m_triesNext, false)) enterWithout();
+}
+
+/// What no headset shows, a window can.
+void VrMode::offerTrial(const QString& why) {
+  m_parts.session.log().add(MessageLevel::Warning, kTopic, why,
+                            {{m_without.text(), wayout::action("simulation.tryVr")}});
+  m_parts.notices.bar().show(kTopic, MessageLevel::Warning, kTopic, why,
+                             {{m_without.text(), [this] { m_without.trigger(); }}});
 }
 
 void VrMode::showMirror() {

@@ -72,6 +72,7 @@ class VrMode : public QObject {
   void showHands();  ///< they alone have changed
   void end(const vr::Ending& ending);
   void showState();
+  void offerTrial(const QString& why);
   void showMirror();
 
   const Parts m_parts;

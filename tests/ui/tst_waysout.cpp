@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+// What messages name, and the ways out that they offer: plugins that are missing, notes of the step, files' names.
+#include "core/io/projectio.h"
+#include "core/plugin_host/pluginscan.h"
+#include "core/plugin_host/registry.h"
+#include "tests/shared/scenes.h"
+#include "tests/ui/samplewindow.h"
+#include "ui/document/missingplugins.h"
+#include "ui/panels/inspector.h"
+#include "ui/panels/messagespage.h"
+#include "ui/panels/pluginpage.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/session/documentfiles.h"
+#include "ui/session/fileproblem.h"
+#include "ui/session/messagelog.h"
+#include "ui/session/selection.h"
+#include "ui/session/session.h"
+#include "ui/window/statusline.h"
+#include "ui/window/waysout.h"
+
+#include <QtCore/QFile>
+#include <QtCore/QRegularExpression>
+#include <QtCore/QTemporaryDir>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <clocale>
+
+using namespace ps;
+
+namespace {
+
+constexpr const char* kGone = "org.example.bingham";
+
+/// Water, a block of a material that is not installed, and one that is held together by what is not.
+Project sceneOfMissing() {
+  Project project = scenes::iceOnPlate(4, 280);
+  SceneMaterial paste;
+  paste.id = "paste";
+  paste.base = kGone;
+  paste.label = "Bingham paste";
+  paste.properties.values["density_solid"] = 1234.0;
+  paste.parameters.values["yield"] = 5.0;
+  project.materials.push_back(paste);
+  Body block = project.bodies.front();
+  block.id = "block";
+  block.name = "Block";
+  block.material = "paste";
+  block.constraints.clear();
+  std::get<BoxShape>(block.shape).center[1] += 0.2;
+  Body net = block;
+  net.id = "net";
+  net.name = "Net";
+  net.material = project.bodies.front().material;
+  net.constraints.push_back(BodyConstraint{"org.example.net", {}, {}});
+  std::get<BoxShape>(net.shape).center[1] += 0.2;
+  project.bodies.push_back(block);
+  project.bodies.push_back(net);
+  return project;
+}
+
+/// Wood that bonds hold beside water, which comes first.
+Project woodBesideWater() {
+  Project project = scenes::iceOnPlate(4, 280);
+  SceneMaterial wood;
+  wood.id = wood.base = "wood";
+  wood.label = "Wood";
+  project.materials.push_back(wood);
+  Body block = project.bodies.front();
+  block.id = "block";
+  block.name = "Block";
+  block.material = "wood";
+  block.constraints = {BodyConstraint{"bonds", {}, {}}};
+  std::get<BoxShape>(block.shape).center[1] += 0.2;
+  project.bodies.push_back(block);
+  return project;
+}
+
+constexpr const char* kBroken =
+    "{\n"
+    "  \"materials\": [\n"
+    "    {\"id\": \"w\", \"base\": \"water\"},\n"
+    "    {\"id\": \"wood\", \"label\": \"Wood\", \"tags\": [\"a, ]}\", \"\\\"{\"],\n"
+    "     \"properties\": {\n"
+    "       \"density_solid\": -5\n"
+    "     }}],\n"
+    "  \"bodies\": [],\n"
+    "  \"environment\": {\"walls\": [{\"id\": \"p\", \"name\": \"Hot plate\", \"temperature\": 5}]},\n"
+    "  \"solver\": {\"substeps\": 0}\n"
+    "}";
+
+QString joined(const MessageLog& log) { return log.allText(); }
+
+}  // namespace
+
+class TestWaysOut : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void whatIsMissingIsSaidWithItsNames() {
+    const std::vector<MissingPlugin> all = missingPlugins(sceneOfMissing(), *session().plugins());
+    QCOMPARE(all.size(), size_t{2});
+    QCOMPARE(all[0].material, std::string("paste"));
+    QCOMPARE(all[0].rows, (std::vector<Address>{{Owner::Body, "block", "material"}}));
+    QCOMPARE(all[1].rows, (std::vector<Address>{{Owner::Body, "net", "structure"}}));
+    QCOMPARE(missingText(all[0], sceneOfMissing(), *session().plugins()),
+             QStringLiteral("The material “Bingham paste” needs the plugin “org.example.bingham”, which is not "
+                            "installed. “Block” stands still meanwhile. All values are kept."));
+    QCOMPARE(missingText(all[1], sceneOfMissing(), *session().plugins()),
+             QStringLiteral("What holds “Net” together needs the plugin “org.example.net”, which is not installed. "
+                            "“Net” stands still meanwhile. All values are kept."));
+  }
+
+  /// Over the view, in the messages, in the material's header and under the rows that chose it.
+  void aMissingPluginOffersWaysOut() {
+    openProject(sceneOfMissing());
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("Bingham paste")));
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Find plugin…")));
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Use another material…")));
+    const std::vector<Message>& log = session().log().messages();
+    const auto said = std::find_if(log.begin(), log.end(), [](const Message& m) {
+      return m.text.contains(QStringLiteral("Bingham paste")) && m.links.size() == 2;
+    });
+    QVERIFY(said != log.end());
+    QVERIFY2(!joined(session().log()).contains(QStringLiteral(":/materials/")), "the same, said by its path");
+    Inspector& inspector = m_window->inspector();
+    m_window->selection().selectBody("block");
+    ParameterRow* row = inspector.bodyPanel()->row(QStringLiteral("body/block/material"));
+    QVERIFY(row);
+    QVERIFY(labelOf(*row).contains(QStringLiteral("plugin:org.example.bingham")));
+    QVERIFY(labelOf(*inspector.materialPanel()).contains(QStringLiteral("material:paste")));
+    m_window->selection().selectBody("net");
+    row = inspector.bodyPanel()->row(QStringLiteral("body/net/structure"));
+    QVERIFY(row && labelOf(*row).contains(QStringLiteral("plugin:org.example.net")));
+    inspector.setMaterial("water");
+    QVERIFY(!labelOf(*inspector.materialPanel()).contains(QStringLiteral("material:paste")));
+  }
+
+  void theLinkOfAMessageLeadsToThePlugin() {
+    openProject(sceneOfMissing());
+    m_window->action(QStringLiteral("help.messages"))->trigger();
+    auto* page = m_window->findChild<MessagesPage*>();
+    QLabel* found = nullptr;
+    for (QLabel* label : page->findChildren<QLabel*>()) {
+      if (label->text().contains(QStringLiteral("plugin:org.example.bingham"))) found = label;
+    }
+    QVERIFY(found);
+    Q_EMIT found->linkActivated(QStringLiteral("plugin:org.example.bingham"));
+    QTRY_VERIFY(m_window->showsPlugins());
+    const QStringList lines = m_window->pluginPage()->lines();
+    QVERIFY(lines.front().startsWith(QStringLiteral("org.example.bingham\tMaterial\t")));
+    QVERIFY(lines.front().contains(QStringLiteral("Missing")));
+    QTest::keyClick(m_window.get(), Qt::Key_Escape);
+  }
+
+  /// One step; undo brings back what the file said, to the byte.
+  void anotherMaterialIsOneStep() {
+    openProject(sceneOfMissing());
+    const std::string before = writeProject(document().project());
+    QMenu* menu = m_window->waysOut().materialsFor("paste");
+    QVERIFY(menu);
+    const QList<QAction*> choices = menu->actions();
+    const auto honey = std::find_if(choices.begin(), choices.end(),
+                                    [](const QAction* a) { return a->text() == QStringLiteral("Honey"); });
+    QVERIFY(honey != choices.end());
+    const int64_t steps = document().undoStack().count();
+    (*honey)->trigger();
+    delete menu;
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    const SceneMaterial& other = document().project().materials.back();
+    QCOMPARE(other.id, std::string("paste"));
+    QCOMPARE(other.base, std::string("honey"));
+    QVERIFY(other.properties.values.empty() && other.parameters.values.empty());
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("“Bingham paste” is “Honey” now")));
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/block/material"));
+    QVERIFY(!row || !labelOf(*row).contains(QStringLiteral("plugin:")));
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  /// Paused at its start the scene is made anew by itself, and the block falls.
+  void anotherMaterialIsMadeAtTheStart() {
+    openProject(sceneOfMissing());
+    session().pause();
+    session().reset();
+    QTRY_VERIFY_WITH_TIMEOUT(session().appliesAtOnce(), kLong);
+    QCOMPARE(motionOf("block"), api::Motion::Static);
+    m_window->waysOut().useOther("paste", "honey");
+    QTRY_VERIFY_WITH_TIMEOUT(motionOf("block") != api::Motion::Static, kLong);
+  }
+
+  void aMissingPluginIsInstalledFromAFolder() {
+    const QTemporaryDir home, folder;
+    const QByteArray data = qgetenv("XDG_DATA_HOME");
+    qputenv("XDG_DATA_HOME", home.path().toUtf8());
+    QFile source(QStringLiteral(PS_SOURCE_DIR "/plugins/materials/honey.json"));
+    QVERIFY(source.open(QIODevice::ReadOnly));
+    QByteArray text = source.readAll();
+    text.replace("\"id\": \"honey\"", "\"id\": \"org.example.bingham\"");
+    QFile plugin(folder.filePath(QStringLiteral("bingham.json")));
+    QVERIFY(plugin.open(QIODevice::WriteOnly) && plugin.write(text) == text.size());
+    plugin.close();
+    openProject(sceneOfMissing());
+    m_window->waysOut().installFrom(folder.path(), "org.example.other");
+    QTRY_VERIFY(
+        m_window->notice()->text().contains(QStringLiteral("has no plugin “org.example.other”, only "
+                                                           "org.example.bingham")));
+    m_window->waysOut().installFrom(folder.path(), kGone);
+    QTRY_VERIFY(m_window->notice()->text().contains(QStringLiteral("is installed")));
+    const PluginRegistry later;
+    qputenv("XDG_DATA_HOME", data);
+    if (data.isEmpty()) qunsetenv("XDG_DATA_HOME");
+    QVERIFY(later.material(kGone));
+    QVERIFY(missingPlugins(document().project(), later).size() == 1);
+  }
+
+  /// By kind and name first, then by its place in the file.
+  void whatIsWrongInAFileNamesTheThing() {
+    const QString path = QStringLiteral("/data/pond.json");
+    const auto said = [&](const char* pointer) {
+      return fileProblem(path.toStdString() + ":" + pointer + ": must be more", path, kBroken);
+    };
+    QCOMPARE(said("/materials/1/properties/density_solid"),
+             QStringLiteral("The material “Wood”, Density, solid: must be more (pond.json, line 6: "
+                            "/materials/1/properties/density_solid)"));
+    QCOMPARE(said("/environment/walls/0/temperature"),
+             QStringLiteral("The wall “Hot plate”, Temperature: must be more (pond.json, line 9: "
+                            "/environment/walls/0/temperature)"));
+    QCOMPARE(said("/bodies/3"), QStringLiteral("The body number 4: must be more (pond.json, line 8: /bodies/3)"));
+    QCOMPARE(said("/solver/substeps"),
+             QStringLiteral("The solver, Substeps: must be more (pond.json, line 10: /solver/substeps)"));
+    QCOMPARE(fileProblem("nowhere.json: no such file", path, ""), QStringLiteral("nowhere.json: no such file"));
+    QCOMPARE(fileProblem("/data/pond.json:/: line 3, column 5: a comma is missing", path, "{,"),
+             QStringLiteral("pond.json: line 3, column 5: a comma is missing"));
+  }
+
+  /// Names whose it is, and leads there from wherever one is.
+  void theStatusLinesNoteLeadsToWhatItNames() {
+    openProject(woodBesideWater());
+    StatusLine* line = m_window->statusLine();
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(
+        line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("note on Wood: Young's modulus")), kLong);
+    session().pause();
+    for (const auto tab : {MainWindow::kSceneTab, MainWindow::kTuneTab, MainWindow::kSketchTab}) {
+      m_window->showWorkspace(tab);
+      m_window->selection().setMaterial("water");
+      QTRY_VERIFY(line->noteRect().isValid());
+      QTest::mouseClick(line, Qt::LeftButton, {}, line->noteRect().center().toPoint());
+      QCOMPARE(m_window->selection().material(), std::string("wood"));
+      ParameterPanel* panel = m_window->inspector().materialPanel();
+      ParameterRow* row = panel->row(QStringLiteral("material/wood/youngs_modulus"));
+      QVERIFY(row && row->isVisible());
+      QTest::qWait(50);
+      for (const ParameterRow* other : panel->rows()) {  // the note under the row has its place
+        if (other != row && other->isVisible()) QVERIFY(!other->geometry().intersects(row->geometry()));
+      }
+      QVERIFY(row->height() > 40);
+    }
+  }
+
+  /// What the document has lost since the snapshot leads to the messages, not to another one's row.
+  void aNoteOnWhatIsGoneChangesNothing() {
+    openProject(woodBesideWater());
+    m_window->selection().setMaterial("wood");
+    QVERIFY(!m_window->revealParameter({Owner::Material, "gone", "youngs_modulus"}));
+    QCOMPARE(m_window->selection().material(), std::string("wood"));
+  }
+
+  /// A scene without a title of its own is called as its file is.
+  void aSavedSceneIsCalledAsItsFile() {
+    const QTemporaryDir folder;
+    m_window->action(QStringLiteral("file.new"))->trigger();
+    QCOMPARE(m_window->windowTitle(), QStringLiteral("New scene[*] – PhaseSketch"));
+    const QString path = folder.filePath(QStringLiteral("pond.json"));
+    m_window->saveTo(path);
+    QTRY_COMPARE(m_window->windowTitle(), QStringLiteral("pond.json[*] – PhaseSketch"));
+    QCOMPARE(document().title(), QStringLiteral("pond"));
+    QCOMPARE(document().project().title, std::string());
+    QFile written(path);
+    QVERIFY(written.open(QIODevice::ReadOnly) && !written.readAll().contains("\"title\""));
+  }
+
+ private:
+  /// All that notes of a widget say, with their links.
+  static QString labelOf(const QWidget& widget) {
+    QString text;
+    const QRegularExpression notes(QStringLiteral("^ps(Limit|HeaderNote)$"));
+    for (const QLabel* label : widget.findChildren<QLabel*>(notes)) {
+      if (qobject_cast<const ParameterRow*>(label->parentWidget()) && !qobject_cast<const ParameterRow*>(&widget))
+        continue;
+      text += label->text();
+    }
+    return text;
+  }
+
+  void openProject(const Project& project) {
+    const QString path = m_folder.filePath(QStringLiteral("scene.json"));
+    saveProject(project, path.toStdString());
+    QSignalSpy opened(&session().files(), &DocumentFiles::opened), shown(m_window.get(), &MainWindow::projectShown);
+    m_window->openFile(path);
+    QVERIFY(opened.wait(kLong));
+  }
+
+  api::Motion motionOf(const std::string& body) {
+    return onEngine<api::Motion>(session(), [body](Engine& engine) {
+      const ParticleStore& store = engine.solver().particles();
+      for (size_t i = 0; i < store.size(); ++i) {
+        if (engine.bodyIds()[store.body()[i]] == body) return store.motion()[i];
+      }
+      return api::Motion::Static;
+    });
+  }
+
+  QTemporaryDir m_folder;
+};
+
+int main(int argc, char** argv) {
+  servePluginScans(argc, argv);
+  requestViewFormat();
+  QApplication application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  TestWaysOut test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_waysout.moc"
