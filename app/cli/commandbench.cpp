@@ -41,11 +41,12 @@ constexpr OptionSpec kOptions[] = {
 constexpr long kGrowth[] = {5000, 10'000, 20'000, 50'000, 100'000, 200'000, 500'000};
 constexpr size_t kMostBytes = size_t{64} << 20;  // of an earlier file
 
-/// Where projects are: beside the sources, or installed.
+/// Where projects are: installed beside the program, or, of one that was built in its tree, beside the sources. Never
+/// the other way round: a folder that happens to be called as the sources were is somebody else's.
 std::vector<std::filesystem::path> projectFolders() {
   std::error_code problem;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", problem).parent_path();
-  return {PS_SOURCE_PROJECTS, program / "../share/phasesketch/projects"};
+  return {program / "../share/phasesketch/projects", PS_SOURCE_PROJECTS};
 }
 
 /// "'tank', 'dambreak-20k', ...": those that are made, and those that are files.
