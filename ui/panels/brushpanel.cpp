@@ -21,6 +21,17 @@ const QString kOwn = QStringLiteral("brush/");  // before the keys of the chosen
 
 /// What the choices of a row are called.
 QStringList labelsOf(const QString& key) {
+  if (key == QLatin1String("becomes"))
+    return {QStringLiteral("As the material is"),
+            QStringLiteral("Rigid"),
+            QStringLiteral("Bonded"),
+            QStringLiteral("Soft"),
+            QStringLiteral("Cloth"),
+            QStringLiteral("Rope"),
+            QStringLiteral("Loose grains"),
+            QStringLiteral("Liquid"),
+            QStringLiteral("Gas"),
+            QStringLiteral("Fixed ground")};
   if (key == QLatin1String("draw_on"))
     return {QStringLiteral("Surfaces"), QStringLiteral("A level plane"), QStringLiteral("An upright plane across x"),
             QStringLiteral("An upright plane across z"), QStringLiteral("A plane that faces the view")};
@@ -120,7 +131,7 @@ void BrushPanel::refresh() {
   show(rowModels(brushParameters(), valuesOf(brush)));
   show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
-    for (const char* key : {"temperature", "held", "draw_on", "plane_at", "steady"})
+    for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }
   showMaterial();

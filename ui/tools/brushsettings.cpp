@@ -32,6 +32,12 @@ constexpr api::ParameterDeclaration kBrush[] = {
             "Temperature of what is drawn; below its melting point it is drawn as a solid that holds together.",
             "ice from a freezer −18 °C, room 20 °C, hot oil 180 °C", ""},
            kCelsius),
+    choice(
+        {"becomes", "Becomes", "", ""}, kBecomings, 0,
+        {"New matter",
+         "What bodies that are begun become. As the material is: stiff solids that are far from melting stand as rigid "
+         "bodies, other solids are bonded, and the rest flows. The body's row Held together by changes it later.",
+         "rigid for a wooden cup, soft for a cushion, fixed for the ground", ""}),
     toggle({"held", "Held until let go", "", ""}, false,
            {"New matter",
             "Bodies that are begun stand still as they are drawn, in the air too, until Sketch > Make it real (Enter) "
@@ -65,6 +71,7 @@ ParameterSet valuesOf(const BrushSettings& brush) {
   ParameterSet set;
   set.values = {{"radius", brush.radius},
                 {"temperature", brush.temperature},
+                {"becomes", brush.becomes},
                 {"held", brush.held},
                 {"draw_on", std::string(kDrawOnNames.at(static_cast<size_t>(brush.drawOn)))},
                 {"plane_at", brush.planeAt},
@@ -81,6 +88,8 @@ void setValueOf(BrushSettings& brush, const std::string& key, const Value& value
   if (key == "draw_on") {
     const auto found = std::find(kDrawOnNames.begin(), kDrawOnNames.end(), std::get<std::string>(value));
     if (found != kDrawOnNames.end()) brush.drawOn = static_cast<DrawOn>(found - kDrawOnNames.begin());
+  } else if (key == "becomes") {
+    brush.becomes = std::get<std::string>(value);
   } else if (key == "held") {
     brush.held = std::get<bool>(value);
   } else if (key == "mirror") {

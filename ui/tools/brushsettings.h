@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "ui/tools/becoming.h"
 
 #include <QtCore/QString>
 
@@ -22,11 +23,12 @@ inline constexpr std::array kDrawOnNames{"surface", "level", "across_x", "across
 
 /// How the brush draws; shared by all views and the brush panel.
 struct BrushSettings {
-  std::string shape;            ///< id of the brush plugin; "" until plugins are there
-  double radius = 0.05;         ///< m
-  std::string material;         ///< SceneMaterial::id; "" takes the scene's first
-  double temperature = 293.15;  ///< K
-  bool held = false;            ///< what is drawn stands still until it is let go
+  std::string shape;                       ///< id of the brush plugin; "" until plugins are there
+  double radius = 0.05;                    ///< m
+  std::string material;                    ///< SceneMaterial::id; "" takes the scene's first
+  double temperature = 293.15;             ///< K
+  std::string becomes = kBecomesOfItself;  ///< what bodies that are begun become, of kBecomings
+  bool held = false;                       ///< what is drawn stands still until it is let go
   DrawOn drawOn = DrawOn::Surface;
   double planeAt = 0;  ///< m, height of the level plane, or place of an upright one along its normal
   double steady = 0;   ///< m, by which the brush trails behind the pointer, so that the hand's tremor does not show

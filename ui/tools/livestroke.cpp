@@ -31,14 +31,15 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
   return project.materials.empty() ? nullptr : &project.materials.front();
 }
 
-/// The palette entry of which a body takes more: it is sketched and free, held or not as the brush draws, and has
-/// matter of that material at that temperature. One that is turned takes none of what is mirrored along the scene.
-std::optional<int> takesMore(const Body& body, const std::string& material, const BrushSettings& brush,
-                             const StrokeSetup& setup) {
+/// The palette entry of which a body takes more: it is sketched and free, held or not and become as the brush asks, and
+/// has matter of that material at that temperature. One that is turned takes none of what is mirrored along the scene.
+std::optional<int> takesMore(const Document& document, const Body& body, const std::string& material,
+                             const BrushSettings& brush, const StrokeSetup& setup) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
   if (!voxels || body.locked || !body.visible || voxels->origin != setup.grid.origin ||
       voxels->spacing != setup.grid.spacing || (setup.symmetry && !poseOf(*voxels).isNothing()) ||
-      toggleOf(body.parameters, bodyParameters(), "held") != brush.held)
+      toggleOf(body.parameters, bodyParameters(), "held") != brush.held ||
+      !hasBecome(body, brush.becomes, document.project(), *document.plugins(), brush.temperature))
     return std::nullopt;
   for (size_t k = 0; k < voxels->palette.size(); ++k) {
     if (voxels->palette[k].material == material && voxels->palette[k].temperature == brush.temperature &&
@@ -74,7 +75,7 @@ const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const 
     const auto found =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
     if (found == bodies.end()) continue;
-    const std::optional<int> entry = takesMore(*found, material, m_brush, m_setup);
+    const std::optional<int> entry = takesMore(m_box.document(), *found, material, m_brush, m_setup);
     if (entry) takers[b] = &*found, entries[b] = *entry;
   }
   std::map<const Body*, CellSet> cellsOf;  // of those that have some near
@@ -115,11 +116,7 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& pal
   voxels.spacing = m_setup.grid.spacing;
   voxels.palette.push_back({material->id, brush.temperature, {}});
   body.shape = voxels;
-  const Value melts = valueAt(project, document.plugins(), {Owner::Material, material->id, "melting_temperature"});
-  const auto* melting = std::get_if<double>(&melts);
-  const bool solid = melting && brush.temperature < *melting;
-  const std::string structure = solid ? frozenStructure(*document.plugins()) : std::string();
-  if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
+  become(body, brush.becomes, project, *document.plugins(), brush.temperature);
   return body;
 }
 
@@ -145,6 +142,9 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
   if (!erase && m_box.document().project().materials.empty()) {
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
+  if (const QString problem = erase || m_box.reworks() ? QString() : whyNotBecome(*plugins, brush.becomes);
+      !problem.isEmpty())
+    return problem;
   if (now.spacing > 0 && now.spacing != m_box.spacing()) {
     return QStringLiteral(
                "The particle spacing of %1 acts once back at the start. Press Home first, or undo the change.")

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/tools/becoming.h"
+
+#include "core/plugin_host/registry.h"
+#include "core/simulation/declared.h"
+
+#include <phasesketch/thin.h>
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+namespace ps {
+namespace {
+
+/// A property at `temperature` K; nullopt of what has none.
+std::optional<double> propertyOf(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                                 const char* key, double temperature) {
+  const Value value = valueAt(project, &plugins, {Owner::Material, material, key});
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* response = std::get_if<Response>(&value)) return response->at(temperature);
+  return std::nullopt;
+}
+
+bool isSolid(const Project& project, const PluginRegistry& plugins, const std::string& material, double temperature) {
+  const auto melting = propertyOf(project, plugins, material, "melting_temperature", temperature);
+  return melting && temperature < *melting;
+}
+
+/// Whether a plugin holds bodies as this wants them.
+bool makes(const PluginRegistry& plugins, const std::string& id, const std::string& becoming) {
+  const api::ConstraintPlugin* plugin = plugins.constraint(id);
+  if (!plugin) return false;
+  if (becoming == "bonded") return plugin->extension(api::kHoldsFrozen) != nullptr;
+  if (becoming == "cloth") return plugin->extension(api::kHoldsSheets) != nullptr;
+  if (becoming == "rope") return plugin->extension(api::kHoldsLines) != nullptr;
+  const auto form = plugins.constraintForm(id);
+  const auto* group = form ? std::get_if<const api::GroupPlugin*>(&*form) : nullptr;
+  api::GroupTraits traits;
+  if (!group || !(*group)->traits(&traits) || traits.thin != 0) return false;
+  return becoming == (traits.rigid != 0 ? "rigid" : "soft");
+}
+
+bool needsStructure(const std::string& becoming) {
+  return becoming == "rigid" || becoming == "bonded" || becoming == "soft" || becoming == "cloth" || becoming == "rope";
+}
+
+/// The first by id; "" where none is installed.
+std::string structureFor(const PluginRegistry& plugins, const std::string& becoming) {
+  if (becoming == "bonded") return frozenStructure(plugins);
+  const std::vector<std::string> ids = plugins.ids(PluginKind::Constraint);
+  const auto found =
+      std::find_if(ids.begin(), ids.end(), [&](const std::string& id) { return makes(plugins, id, becoming); });
+  return found == ids.end() ? std::string() : *found;
+}
+
+/// Whether sheets or ropes are made of it.
+bool isForThin(const Project& project, const PluginRegistry& plugins, const std::string& material) {
+  const auto own = std::find_if(project.materials.begin(), project.materials.end(),
+                                [&](const SceneMaterial& one) { return one.id == material; });
+  if (own == project.materials.end()) return false;
+  for (const std::string& id : plugins.ids(PluginKind::Constraint)) {
+    const api::ConstraintPlugin* plugin = plugins.constraint(id);
+    for (const char* capability : {api::kHoldsSheets, api::kHoldsLines}) {
+      const auto* thin = static_cast<const api::ThinMatter*>(plugin ? plugin->extension(capability) : nullptr);
+      if (thin && thin->material && own->base == thin->material) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string ownBecoming(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                        double temperature) {
+  if (!isSolid(project, plugins, material, temperature)) return "loose";
+  const double stiffness = propertyOf(project, plugins, material, "youngs_modulus", temperature).value_or(0);
+  const bool staysSolid = isSolid(project, plugins, material, temperature + kStandsBelowMelting);
+  const bool stands = stiffness >= kStandsFrom && staysSolid && !isForThin(project, plugins, material);
+  return stands && !structureFor(plugins, "rigid").empty() ? "rigid" : "bonded";
+}
+
+QString whyNotBecome(const PluginRegistry& plugins, const std::string& becoming) {
+  if (!needsStructure(becoming) || !structureFor(plugins, becoming).empty()) return {};
+  return QStringLiteral("No plugin is installed that makes what is drawn %1. Choose another row under “Becomes”.")
+      .arg(becoming == "cloth"  ? QStringLiteral("cloth")
+           : becoming == "rope" ? QStringLiteral("a rope")
+                                : QString::fromStdString(becoming));
+}
+
+void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
+            double temperature) {
+  const std::string wanted =
+      becoming == kBecomesOfItself ? ownBecoming(project, plugins, body.material, temperature) : becoming;
+  if (wanted == "fixed") {
+    body.parameters.values["fixed"] = true;
+  } else if (wanted == "liquid" || wanted == "gas") {
+    body.parameters.values["phase"] = wanted;
+  } else if (needsStructure(wanted)) {
+    const std::string structure = structureFor(plugins, wanted);
+    if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
+  }
+}
+
+bool hasBecome(const Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
+               double temperature) {
+  if (becoming == kBecomesOfItself) return true;
+  const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
+  if (fixed || becoming == "fixed") return fixed && becoming == "fixed";
+  if (needsStructure(becoming)) return makes(plugins, structureOf(body, &plugins), becoming);
+  if (structureOf(body, &plugins) != kNoStructure) return false;
+  const std::string phase = choiceOf(body.parameters, bodyParameters(), "phase");
+  if (becoming != "loose" && phase == becoming) return true;
+  if (phase != "automatic") return false;
+  return becoming == "loose" || (becoming == "liquid" && !isSolid(project, plugins, body.material, temperature));
+}
+
+}  // namespace ps
