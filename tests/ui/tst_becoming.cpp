@@ -5,7 +5,9 @@
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
+#include "ui/document/declared.h"
 #include "ui/tools/favouritebrush.h"
+#include "ui/tools/heldplaces.h"
 
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
@@ -134,6 +136,41 @@ class TestBecoming : public ToolTest {
     QVERIFY(whyNotBecome(less, "cloth").contains(QStringLiteral("Choose another row under “Becomes”")));
     QCOMPARE(whyNotBecome(less, "liquid"), QString());
     QCOMPARE(whyNotBecome(*m_plugins, "cloth"), QString());
+  }
+
+  /// Those of a sheet's edge, where a mark shows them, while it is selected alone; its row says which edge that is.
+  void whatIsHeldIsShown() {
+    Body sheet;
+    sheet.id = "flag", sheet.material = "cotton";
+    SolidShape shape;
+    shape.parameters.values = {{"kind", std::string("sheet")},
+                               {"size_x", 0.3},
+                               {"size_z", 0.3},
+                               {"position_y", 0.6},
+                               {"held", std::string("start")}};
+    sheet.shape = shape;
+    sheet.constraints.push_back({"cloth", {}, {}});
+    m_document->addBody(sheet);
+    tests::onEngine<int>(*m_engine, [](Engine&) { return 0; });
+    const auto marks = [this] {
+      const SnapshotPtr now = tests::onEngine<SnapshotPtr>(*m_engine, [](Engine& engine) { return engine.snapshot(); });
+      return heldPlaces(m_document->project(), *m_selection, *now);
+    };
+    m_selection->clear();
+    QVERIFY(marks().empty());
+    m_selection->selectBody("flag");
+    const std::vector<Vector3> held = marks();
+    QVERIFY(held.size() >= 8 && held.size() <= 14);  // one row, or two where the lattice has one at its very end
+    for (const Vector3& place : held) QVERIFY2(place.z() < -0.1, qPrintable(QString::number(place.z())));
+    const Address row{Owner::Shape, "flag", "held"};
+    const auto label = [&] {
+      return choiceLabels(m_document->project(), m_plugins.get(), row, *m_document->declaration(row)).at(1);
+    };
+    QCOMPARE(label(), QStringLiteral("Edge at −z"));
+    QCOMPARE(m_document->setParameter({Owner::Shape, "flag", "rotation_x"}, 90.0), QString());
+    QCOMPARE(label(), QStringLiteral("Top edge, +y"));
+    QCOMPARE(m_document->setParameter({Owner::Body, "flag", "fixed"}, true), QString());
+    QVERIFY(marks().empty());  // all of it is held
   }
 
   void favouritesKeepIt() {

@@ -2,6 +2,7 @@
 #include "ui/document/declared.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/solidform.h"
 #include "core/simulation/probeparameters.h"
 
 #include <algorithm>
@@ -64,6 +65,14 @@ QString pluginLabel(const PluginRegistry* plugins, const std::string& id) {
   return QString::fromStdString(id);
 }
 
+std::vector<std::string> idsByLabel(const PluginRegistry& plugins, PluginKind kind) {
+  std::vector<std::string> ids = plugins.ids(kind);
+  std::stable_sort(ids.begin(), ids.end(), [&](const std::string& a, const std::string& b) {
+    return pluginLabel(&plugins, a).compare(pluginLabel(&plugins, b), Qt::CaseInsensitive) < 0;
+  });
+  return ids;
+}
+
 namespace {
 
 QStringList probeChoiceLabels(const Project& project, const PluginRegistry* plugins, const std::string& key,
@@ -90,11 +99,34 @@ QStringList probeChoiceLabels(const Project& project, const PluginRegistry* plug
   return labels;
 }
 
+/// Which edges of a sheet, or ends of a rope, are held: as it stands in the scene, with the axis.
+QStringList heldLabels(const SolidShape& solid) {
+  const SolidForm form(solid);
+  if (form.kind() != SolidForm::Kind::Sheet)
+    return {QStringLiteral("Nowhere"), QStringLiteral("Its first point"), QStringLiteral("Both ends")};
+  const Vector3 way = -form.axes().col(2);  // to the edge that is held first
+  Eigen::Index axis = 0;
+  way.cwiseAbs().maxCoeff(&axis);
+  const QString name = QString(QLatin1Char("xyz"[axis]));
+  const QString side = (way[axis] < 0 ? QString(QChar(0x2212)) : QStringLiteral("+")) + name;
+  if (axis != 1)
+    return {QStringLiteral("Nowhere"), QStringLiteral("Edge at %1").arg(side),
+            QStringLiteral("Both edges across %1").arg(name)};
+  return {QStringLiteral("Nowhere"),
+          (way[axis] > 0 ? QStringLiteral("Top edge, %1") : QStringLiteral("Bottom edge, %1")).arg(side),
+          QStringLiteral("Top and bottom edges")};
+}
+
 }  // namespace
 
 QStringList choiceLabels(const Project& project, const PluginRegistry* plugins, const Address& address,
                          const api::ParameterDeclaration& declaration) {
   if (address.owner == Owner::Probe) return probeChoiceLabels(project, plugins, address.key, declaration);
+  if (address.owner == Owner::Shape && address.key == "held") {
+    const auto body = itemById(project.bodies, address.id);
+    const auto* solid = body == project.bodies.end() ? nullptr : std::get_if<SolidShape>(&body->shape);
+    return solid ? heldLabels(*solid) : QStringList();
+  }
   const bool ofPlugins = (address.owner == Owner::Scene && address.key == "thermal_model") ||
                          (address.owner == Owner::Body && address.key == kStructureKey);
   const bool ofMaterials = address.owner == Owner::Body && address.key == kBodyMaterialKey;

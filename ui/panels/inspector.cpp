@@ -294,6 +294,7 @@ void Inspector::onChanged(const ChangeEvent& event) {
     if (address.owner == Owner::Scene && address.key == "thermal_model") rebuildSolver();
     refreshMixed(address);
     if (address.owner == Owner::Shape && address.key == "kind") rebuildBody();
+    if (address.owner == Owner::Shape && address.key.starts_with("rotation_")) showEdges(address.id);
     refreshIdle(address);
     if (address.owner == Owner::Shape || address.owner == Owner::Solver) countSoon();
     note(*parameter);

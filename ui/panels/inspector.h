@@ -108,6 +108,7 @@ class Inspector : public QObject {
   QString setOne(const Address& address, const Value& value);
   QString whyKeyed(const std::vector<Address>& all) const;
   QString titleOfAll(const Address& address, size_t count) const;
+  void showEdges(const std::string& id);  ///< which ones are held, as the body is turned by now
   void showPlace(const std::string& id);
   void refreshProperties(const std::string& material);
   void rebuildScene();

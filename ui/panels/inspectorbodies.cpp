@@ -242,6 +242,14 @@ void Inspector::showPlace(const std::string& id) {
       panel->setValue(QString::fromStdString(address.text()), m_document.value(address));
     refreshMixed(address);
   }
+  showEdges(id);
+}
+
+void Inspector::showEdges(const std::string& id) {
+  const Address held{Owner::Shape, id, "held"};
+  if (const api::ParameterDeclaration* declaration = m_document.declaration(held))
+    m_body->setChoiceLabels(QString::fromStdString(held.text()),
+                            choiceLabels(m_document.project(), m_document.plugins(), held, *declaration));
 }
 
 /// What rows edit is what is selected: of several bodies nobody would see which one it is. False: it is already.

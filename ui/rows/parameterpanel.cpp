@@ -385,6 +385,9 @@ void ParameterPanel::setDefaultValue(const QString& key, const Value& value) {
 void ParameterPanel::setDisabledReason(const QString& key, const QString& reason) {
   d->each(key, [&](ParameterRow* row) { row->setDisabledReason(reason); });
 }
+void ParameterPanel::setChoiceLabels(const QString& key, const QStringList& labels) {
+  d->each(key, [&](ParameterRow* row) { row->setChoiceLabels(labels); });
+}
 void ParameterPanel::setMixed(const QString& key, bool mixed) {
   d->each(key, [&](ParameterRow* row) { row->setMixed(mixed); });
 }

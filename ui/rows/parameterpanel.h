@@ -47,6 +47,7 @@ class ParameterPanel : public QWidget {
   /// Note under the row; see ParameterRow::setLimit. "" removes it.
   void setLimit(const QString& key, const QString& text, double delivered = std::numeric_limits<double>::quiet_NaN());
   void setDisabledReason(const QString& key, const QString& reason);  ///< "" enables it
+  void setChoiceLabels(const QString& key, const QStringList& labels);
   void setError(const QString& key, const QString& text);
 
   ParameterRow* row(const QString& key) const;  ///< first with that key, or nullptr

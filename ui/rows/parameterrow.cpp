@@ -142,6 +142,11 @@ void ParameterRow::setDisabledReason(const QString& reason) {
   d->refresh();
 }
 
+void ParameterRow::setChoiceLabels(const QStringList& labels) {
+  d->model.choiceLabels = labels;
+  d->refresh();
+}
+
 void ParameterRow::setDerivedFrom(const QString& derivedFrom) {
   d->model.derivedFrom = derivedFrom;
   if (!derivedFrom.isEmpty()) d->takeBack();

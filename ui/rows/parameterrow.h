@@ -86,6 +86,7 @@ class ParameterRow : public QWidget {
   void setMixed(bool mixed);
   void setIsPinned(bool isPinned);
   void setDisabledReason(const QString& reason);
+  void setChoiceLabels(const QStringList& labels);  ///< as RowModel::choiceLabels
   void setDerivedFrom(const QString& derivedFrom);
   void setTemperature(double kelvin);  ///< operating point of a response
   void setKeyMark(KeyMark mark, ToNext way);

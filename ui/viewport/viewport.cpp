@@ -16,6 +16,7 @@
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
+#include "ui/tools/heldplaces.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/gizmopainter.h"
@@ -212,6 +213,9 @@ void Viewport::paintGL() {
       ToolPicture picture = m_tools.tool().picture();
       if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
       paintWires(painter, picture.wires, m_navigator.camera(), size());
+      if (m_now)
+        paintPins(painter, heldPlaces(m_session.document().project(), m_selection, *m_now), m_navigator.camera(),
+                  size());
       if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
       if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
       if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size());

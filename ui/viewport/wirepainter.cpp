@@ -47,4 +47,16 @@ void paintWires(QPainter& painter, const std::vector<Wire>& wires, const Camera&
   }
 }
 
+void paintPins(QPainter& painter, const std::vector<Vector3>& places, const Camera& camera, const QSizeF& size) {
+  constexpr double kMark = 2.5;  // px, radius
+  const Theme& theme = Theme::current();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(theme[Token::Shadow], 1.5));
+  painter.setBrush(theme[Token::Accent]);
+  for (const Vector3& place : places) {
+    const auto pixel = project(camera, static_cast<int>(size.width()), static_cast<int>(size.height()), place);
+    if (pixel) painter.drawEllipse(QPointF((*pixel)[0], (*pixel)[1]), kMark, kMark);
+  }
+}
+
 }  // namespace ps
