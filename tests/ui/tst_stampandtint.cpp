@@ -108,6 +108,37 @@ class TestStampAndTint : public ToolTest {
     QVERIFY2((half - Vector3(0.06, 0.03, 0.15)).norm() < 1e-9, qPrintable(QString::number(half.z())));
   }
 
+  /// B is the brush that draws; an eraser keeps the stamp, to take copies away.
+  void theBrushPutsTheStampAside() {
+    take("cube");
+    m_tools->takeBrush("stamp");
+    QVERIFY(m_tools->stampsShape());
+    m_tools->activate(kEraseTool);
+    QVERIFY(m_tools->stampsShape());
+    m_tools->activate(kBrushTool);
+    QCOMPARE(m_tools->brush().shape, std::string("cube"));
+  }
+
+  /// What makes the brush larger makes the copies so; where these go by the brush's radius, that.
+  void theStampIsMadeLarger() {
+    take("stamp");
+    m_selection->selectBody("ice");
+    const double half = m_tools->stamp().first.x(), radius = m_tools->brush().radius;
+    m_tools->stepBrush(1);
+    QVERIFY(std::abs(m_tools->stamp().first.x() / half - kBrushStep) < 1e-9);
+    QCOMPARE(m_tools->brush().radius, radius);
+    QVERIFY(m_tools->brushSizeText().startsWith(QStringLiteral("112")));
+    QVERIFY(m_tools->tool().words().contains(QStringLiteral("scale 112")));
+    m_tools->stepBrush(-1);
+    QVERIFY(std::abs(m_tools->stamp().first.x() / half - 1) < 1e-9);
+    BrushSettings brush = m_tools->brush();
+    brush.parameters["stamp"].values["fits"] = true;
+    m_tools->setBrush(brush);
+    m_tools->stepBrush(1);
+    QVERIFY(std::abs(m_tools->brush().radius / radius - kBrushStep) < 1e-9);
+    QCOMPARE(m_tools->brushSizeName(), QStringLiteral("Radius"));
+  }
+
   /// A hand in VR that is turned puts it so, by the same code; the stroke keeps how it was held.
   void aTurnedHandStampsTurned() {
     take("stamp");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/plugin_host/registry.h"
 #include "core/scene/shownname.h"
 #include "core/simulation/declared.h"
 
@@ -23,6 +24,8 @@ QStringList choiceLabels(const Project& project, const PluginRegistry* plugins, 
                          const api::ParameterDeclaration& declaration);
 /// The label of a plugin, installed or found at least; its id otherwise.
 QString pluginLabel(const PluginRegistry* plugins, const std::string& id);
+/// Ids of the installed plugins of a kind, in the order of what they are called.
+std::vector<std::string> idsByLabel(const PluginRegistry& plugins, PluginKind kind);
 /// How matter of a scene material is shown at 20 °C; grey where nothing says so.
 QColor colourOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 

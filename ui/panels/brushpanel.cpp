@@ -62,7 +62,7 @@ api::ParameterList BrushPanel::ownParameters() const {
 RowModel BrushPanel::shapeRow() const {
   const PluginRegistry* plugins = m_tools.document().plugins();
   QStringList ids, labels;
-  for (const std::string& id : plugins ? plugins->ids(PluginKind::Brush) : std::vector<std::string>{}) {
+  for (const std::string& id : plugins ? idsByLabel(*plugins, PluginKind::Brush) : std::vector<std::string>{}) {
     ids << QString::fromStdString(id);
     labels << pluginLabel(plugins, id);
   }
@@ -130,6 +130,8 @@ void BrushPanel::refresh() {
   };
   show(rowModels(brushParameters(), valuesOf(brush)));
   show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
+  if (m_tools.scaleParameter())
+    setDisabledReason(QStringLiteral("radius"), QStringLiteral("The scale says how large the copies are"));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
     for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));

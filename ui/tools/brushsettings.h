@@ -47,9 +47,8 @@ ParameterSet valuesOf(const BrushSettings& brush);
 void setValueOf(BrushSettings& brush, const std::string& key, const Value& value);
 
 inline constexpr double kBrushMinimum = 0.005, kBrushMaximum = 0.5;  ///< m
-/// One step of [ and ]: about 12 %.
-double largerBrush(double radius);
-double smallerBrush(double radius);
+/// One step of [ and ]: twenty of them are a factor of ten.
+inline constexpr double kBrushStep = 1.122018454301963;
 /// "50 mm": lengths as the viewport writes them.
 QString lengthText(double metres);
 

@@ -238,7 +238,7 @@ QString DrawTool::words() const {
   const BrushSettings& brush = box().brush();
   const Document& document = box().document();
   QStringList parts{m_erases ? QStringLiteral("Eraser") : QStringLiteral("Brush"), brushLabel().toLower(),
-                    QStringLiteral("radius ") + lengthText(brush.radius)};
+                    box().brushSizeName().toLower() + QLatin1Char(' ') + box().brushSizeText()};
   for (const SceneMaterial& material : document.project().materials) {
     if (!m_erases && !touches() && !box().smooths() && !box().colours() && material.id == brush.material)
       parts << QString::fromStdString(material.label);

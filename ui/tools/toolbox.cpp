@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/toolbox.h"
 
+#include "core/parameters/condition.h"
 #include "core/plugin_host/registry.h"
 #include "core/sketch/stroke.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/stampof.h"
 #include "ui/session/selection.h"
+#include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/livestroke.h"
 #include "ui/tools/tooltable.h"
@@ -13,6 +16,10 @@
 #include <algorithm>
 
 namespace ps {
+namespace {
+/// Key by which a brush that stamps declares how large its copies are; plugins/examples/README.md says so.
+constexpr const char* kScale = "scale";
+}  // namespace
 
 Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
     : QObject(parent), m_document(document), m_selection(selection), m_active(kSelectTool) {
@@ -107,7 +114,8 @@ void Toolbox::putAside(const std::string& brush, const std::string& problem) {
 
 void Toolbox::activate(const std::string& id) {
   if (!toolRow(id)) return;
-  if (tool(id).usesBrush() && !draws(m_brush.shape) && !m_drawing.empty()) {
+  const bool stamp = id == kBrushTool && stampsShape();  // an eraser may well take copies away
+  if (tool(id).usesBrush() && (stamp || !draws(m_brush.shape)) && !m_drawing.empty()) {
     BrushSettings brush = m_brush;
     brush.shape = m_drawing;
     setBrush(brush);
@@ -142,14 +150,47 @@ void Toolbox::takeBrush(const std::string& id) {
 void Toolbox::setBrush(const BrushSettings& brush) {
   if (brush == m_brush) return;
   m_brush = brush;
-  if (draws(m_brush.shape)) m_drawing = m_brush.shape;
+  if (draws(m_brush.shape) && !stampsShape()) m_drawing = m_brush.shape;
   Q_EMIT brushChanged();
 }
 
-void Toolbox::stepBrush(int direction) {
+void Toolbox::stepBrush(int direction) { setBrushSize(brushSize() * (direction > 0 ? kBrushStep : 1 / kBrushStep)); }
+
+/// A brush that stamps may be as large as its radius instead; its scale then says that it does not act.
+const api::ParameterDeclaration* Toolbox::scaleParameter() const {
+  if (!stampsShape()) return nullptr;
+  const api::ParameterList own = m_document.plugins()->parameters(m_brush.shape);
+  const api::ParameterDeclaration* scale = findDeclaration(own, kScale);
+  if (!scale || scale->kind != api::ParameterKind::Number) return nullptr;
+  const ParameterSet set = m_brush.shapeParameters();
+  const ValueOfKey values = [&](std::string_view key) -> std::optional<Value> {
+    const api::ParameterDeclaration* one = findDeclaration(own, key);
+    return one ? std::optional(valueOf(set, *one)) : std::nullopt;
+  };
+  return holds(parseCondition(scale->enabledWhen), values) ? scale : nullptr;
+}
+
+double Toolbox::brushSize() const {
+  const api::ParameterDeclaration* scale = scaleParameter();
+  return scale ? std::get<double>(valueOf(m_brush.shapeParameters(), *scale)) : m_brush.radius;
+}
+
+void Toolbox::setBrushSize(double size) {
   BrushSettings brush = m_brush;
-  brush.radius = direction > 0 ? largerBrush(brush.radius) : smallerBrush(brush.radius);
+  if (const api::ParameterDeclaration* scale = scaleParameter())
+    brush.parameters[brush.shape].values[scale->key] = std::clamp(size, scale->hardMinimum, scale->hardMaximum);
+  else
+    brush.radius = std::clamp(size, kBrushMinimum, kBrushMaximum);
   setBrush(brush);
+}
+
+QString Toolbox::brushSizeName() const {
+  const api::ParameterDeclaration* scale = scaleParameter();
+  return scale ? QString::fromUtf8(scale->label) : QStringLiteral("Radius");
+}
+
+QString Toolbox::brushSizeText() const {
+  return scaleParameter() ? formatQuantity(100 * brushSize(), QStringLiteral("%"), 3) : lengthText(m_brush.radius);
 }
 
 const std::string* further(const std::vector<std::string>& ring, const std::string& now, int by) {
@@ -162,7 +203,7 @@ const std::string* further(const std::vector<std::string>& ring, const std::stri
 
 void Toolbox::stepShape(int by) {
   if (!m_document.plugins()) return;
-  const std::vector<std::string> shapes = m_document.plugins()->ids(PluginKind::Brush);
+  const std::vector<std::string> shapes = idsByLabel(*m_document.plugins(), PluginKind::Brush);
   if (const std::string* shape = further(shapes, m_brush.shape, by)) takeBrush(*shape);
 }
 

@@ -38,7 +38,8 @@ class Toolbox : public QObject {
   void attach(SceneLink* link);
 
   const std::string& active() const { return m_active; }  ///< ToolRow::id
-  /// An unknown one is ignored. One that draws or erases takes the last brush that draws.
+  /// An unknown one is ignored. One that draws or erases takes the last brush that draws; the brush itself puts aside
+  /// one that stamps too.
   void activate(const std::string& id);
   Tool& tool() const { return *m_tools.at(m_active); }
   Tool& tool(const std::string& id) const { return *m_tools.at(id); }
@@ -52,8 +53,15 @@ class Toolbox : public QObject {
   const BrushSettings& brush() const { return m_brush; }
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
-  void stepShape(int by);         ///< so many brushes on, or back, among those installed by id
-  void stepMaterial(int by);      ///< likewise of what is drawn with, among the scene's materials
+  /// How large the brush is: its radius in m or, of one that stamps and goes by it, the scale of its copies.
+  double brushSize() const;
+  void setBrushSize(double size);  ///< within what it may be
+  QString brushSizeName() const;   ///< "Radius", "Scale"
+  QString brushSizeText() const;   ///< "50 mm", "80 %"
+  /// Its own parameter that stands for its size; nullptr where that is the radius.
+  const api::ParameterDeclaration* scaleParameter() const;
+  void stepShape(int by);     ///< so many brushes on, or back, in the order of their names
+  void stepMaterial(int by);  ///< likewise of what is drawn with, among the scene's materials
   /// Takes a brush in hand; one that does not draw puts the eraser aside.
   void takeBrush(const std::string& id);
   /// Whether the brush in hand works on the matter that is there, instead of drawing.

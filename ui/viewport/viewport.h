@@ -188,7 +188,7 @@ class Viewport : public QOpenGLWidget {
 
   Drag m_drag = Drag::None;
   QPointF m_pressed;
-  double m_radiusBefore = 0;  ///< m, of the brush before its size is dragged
+  double m_sizeBefore = 0;  ///< of the brush before its size is dragged, see Toolbox::brushSize()
   /// What the pen said last; the mouse's event that Qt makes of that follows at once.
   struct Pen {
     double pressure = 1;

@@ -107,15 +107,13 @@ bool Viewport::beginSize(const QMouseEvent& event) {
   const SizeDrag drag = sizeDrag(m_tools.mouse());
   if (!m_tools.tool().usesBrush() || event.button() != drag.button || event.modifiers() != drag.keys) return false;
   m_drag = Drag::Size;
-  m_radiusBefore = m_tools.brush().radius;
+  m_sizeBefore = m_tools.brushSize();
   hover(m_pressed, {});
   return true;
 }
 
 void Viewport::dragSize(double way) {
-  BrushSettings brush = m_tools.brush();
-  brush.radius = std::clamp(m_radiusBefore * std::exp2(way / kOctave), kBrushMinimum, kBrushMaximum);
-  m_tools.setBrush(brush);
+  m_tools.setBrushSize(m_sizeBefore * std::exp2(way / kOctave));
   hover(m_pressed, {});
 }
 

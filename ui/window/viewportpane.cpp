@@ -73,13 +73,13 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_rareTools(new QWidget),
       m_shapeMenu(new QToolButton),
       m_radius(new QLabel),
+      m_sizeLabel(new QLabel),
       m_colourLabel(new QLabel(QStringLiteral("Colour"))),
       m_colour(new QComboBox) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(m_bar = makeBar());
-  column->addWidget(m_notice);
   if (canHaveContext()) {
     m_viewport = new Viewport(session, selection, tools);
     column->addWidget(m_viewport, 1);
@@ -94,6 +94,9 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
     none->setMargin(40);
     column->addWidget(none, 1);
   }
+  m_notice->setParent(this);
+  m_notice->hide();
+  m_notice->installEventFilter(this);
   connect(&tools, &Toolbox::toolChanged, this, &ViewportPane::showTool);
   connect(&tools, &Toolbox::brushChanged, this, &ViewportPane::showBrush);
   connect(&session, &Session::ready, this, &ViewportPane::addShapes);
@@ -164,6 +167,19 @@ QWidget* ViewportPane::makeBar() {
 void ViewportPane::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   share();
+  placeNotice();
+}
+
+/// Over the view's upper edge, so that the picture of the scene stays where it is.
+void ViewportPane::placeNotice() {
+  const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(width()) : m_notice->sizeHint().height();
+  m_notice->setGeometry(0, m_bar->height(), width(), tall);
+  m_notice->raise();
+}
+
+bool ViewportPane::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == m_notice && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show)) placeNotice();
+  return QWidget::eventFilter(watched, event);
 }
 
 /// What there is not always room for comes as far as it does: tools that keys and menus have too, brushes side by side
@@ -205,10 +221,9 @@ void ViewportPane::makeBrushBar() {
           [this](const QAbstractButton* button) { chooseShape(button->property(kShape).toString()); });
   connect(m_shapeActions, &QActionGroup::triggered, this,
           [this](const QAction* action) { chooseShape(action->data().toString()); });
-  auto* label = new QLabel(QStringLiteral("Radius"));
-  label->setProperty("role", "muted");
+  m_sizeLabel->setProperty("role", "muted");
   brush->addSpacing(8);
-  brush->addWidget(label);
+  brush->addWidget(m_sizeLabel);
   for (const int direction : {-1, 1}) {
     auto* step = new QToolButton;
     step->setIcon(icon(direction < 0 ? QStringLiteral("minus") : QStringLiteral("plus")));
@@ -263,7 +278,7 @@ void ViewportPane::showHandles(const HandleActions& handles) {
 /// A brush has the icon of its id where the program carries one, and the brush's otherwise, with its name beside it.
 void ViewportPane::addShapes() {
   const PluginRegistry* plugins = m_session.plugins();
-  for (const std::string& id : plugins->ids(PluginKind::Brush)) {
+  for (const std::string& id : idsByLabel(*plugins, PluginKind::Brush)) {
     const QString name = QString::fromStdString(id), label = pluginLabel(plugins, id);
     const bool own = iconNames().contains(name);
     QToolButton* button = checkable(own ? name : QStringLiteral("brush"), label);
@@ -328,7 +343,8 @@ void ViewportPane::showBrush() {
     m_shapeMenu->setToolTip(QStringLiteral("Brush: %1").arg(action->text()));
     m_shapeMenu->setAccessibleName(m_shapeMenu->toolTip());
   }
-  m_radius->setText(lengthText(m_tools.brush().radius));
+  m_sizeLabel->setText(m_tools.brushSizeName());
+  m_radius->setText(m_tools.brushSizeText());
 }
 
 void ViewportPane::paintEvent(QPaintEvent*) {

@@ -32,6 +32,7 @@ class ViewportPane : public QWidget {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   QWidget* makeBar();
@@ -42,6 +43,7 @@ class ViewportPane : public QWidget {
   void showTool();
   void showBrush();
   void share();
+  void placeNotice();
   void chooseShape(const QString& shape);
 
   Session& m_session;
@@ -56,6 +58,7 @@ class ViewportPane : public QWidget {
   QToolButton* m_shapeMenu;  ///< in its place where there is no room
   QActionGroup* m_shapeActions = nullptr;
   QLabel* m_radius;
+  QLabel* m_sizeLabel;  ///< what it says: the radius, or a scale
   QLabel* m_colourLabel;
   QComboBox* m_colour;
 };

@@ -62,7 +62,7 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
       *grid, QStringLiteral("Brush"), [this] { return pluginLabel(m_session.plugins(), m_tools.brush().shape); },
       [this](int by) { m_tools.stepShape(by); });
   addChoice(
-      *grid, QStringLiteral("Size"), [this] { return lengthText(m_tools.brush().radius); },
+      *grid, QStringLiteral("Size"), [this] { return m_tools.brushSizeText(); },
       [this](int by) { m_tools.stepBrush(by); });
   addChoice(
       *grid, QStringLiteral("Temperature"), [this] { return temperatureText(m_tools.brush().temperature, 0); },
