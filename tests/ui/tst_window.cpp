@@ -17,6 +17,7 @@
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/actions.h"
 #include "ui/window/dock.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/screenshot.h"
@@ -26,6 +27,7 @@
 #include <QtGui/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
 
 #include <algorithm>
 #include <clocale>
@@ -394,9 +396,66 @@ class TestWindow : public QObject {
       const std::vector<size_t> found = paletteMatches(entries, QString::fromLatin1(query));
       return found.empty() ? QString() : entries[found.front()].title;
     };
-    QCOMPARE(first("torus"), QStringLiteral("Add body: ring"));
+    QCOMPARE(first("torus"), QStringLiteral("Add body: torus"));
     QCOMPARE(first("tint"), QStringLiteral("Brush shape: Paint colour"));
-    QCOMPARE(first("ring"), QStringLiteral("Add body: ring"));  // and not "sharing"
+    QCOMPARE(first("ring"), QStringLiteral("Add body: torus"));  // and not "sharing"
+    QCOMPARE(first("doughnut"), QStringLiteral("Add body: torus"));
+  }
+
+  /// What a menu adds has the name that its row of the panel says, and brushes stand in the order of their names.
+  void everythingHasOneName() {
+    const api::ParameterDeclaration* kinds = findDeclaration(solidParameters(), "kind");
+    int solids = 0;
+    for (const QString& kind : QString::fromUtf8(kinds->choices).split(QLatin1Char('|'))) {
+      const QAction* action = m_window->action(QStringLiteral("add.") + kind);
+      if (!action || kind == QLatin1String("mesh")) continue;
+      QCOMPARE(cleanText(*action), QStringLiteral("Add body: ") + kind);
+      ++solids;
+    }
+    QCOMPARE(solids, 10);
+    QStringList brushes;
+    for (QMenu* menu : m_window->findChildren<QMenu*>()) {
+      if (menu->title() != QStringLiteral("Brush shape")) continue;
+      for (const QAction* action : menu->actions()) brushes << cleanText(*action);
+    }
+    QVERIFY(brushes.size() > 10);
+    QStringList sorted = brushes;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const QString& a, const QString& b) { return a.compare(b, Qt::CaseInsensitive) < 0; });
+    QCOMPARE(brushes, sorted);
+  }
+
+  /// Beside the bodies: what a scene is made of comes from one menu.
+  void wallsAreUnderAdd() {
+    for (QMenu* menu : m_window->findChildren<QMenu*>()) {
+      if (menu->title() == QStringLiteral("Add")) {
+        QStringList names;
+        for (const QAction* action : menu->actions()) names << action->text();
+        QVERIFY2(names.contains(QStringLiteral("Wall")), qPrintable(names.join(QLatin1Char(','))));
+      } else if (menu->title() == QStringLiteral("Sketch")) {
+        for (const QAction* action : menu->actions()) QVERIFY(!action->text().contains(QStringLiteral("wall")));
+      }
+    }
+    const auto entries = m_window->paletteEntries();
+    const auto found = paletteMatches(entries, QStringLiteral("add wall"));
+    QVERIFY(!found.empty() && entries[found.front()].title.startsWith(QStringLiteral("Add wall")));
+  }
+
+  /// A notice lies over the view: the picture of the scene stays where it is.
+  void aNoticeMovesNothing() {
+    QWidget* view = m_window->viewport();
+    if (!view) QSKIP("no OpenGL");
+    NoticeBar* notice = m_window->notice();
+    const QRect before(view->mapTo(m_window.get(), QPoint(0, 0)), view->size());
+    notice->show(QStringLiteral("test"), MessageLevel::Info, QStringLiteral("Something was said."),
+                 QStringLiteral("And what to do."), {{QStringLiteral("Do it"), [] {}}});
+    QCoreApplication::processEvents();
+    QVERIFY(notice->isVisible());
+    QCOMPARE(QRect(view->mapTo(m_window.get(), QPoint(0, 0)), view->size()), before);
+    QCOMPARE(notice->mapTo(m_window.get(), QPoint(0, 0)), before.topLeft());
+    QCOMPARE(notice->width(), before.width());
+    QVERIFY(notice->height() >= notice->sizeHint().height() / 2 && notice->height() < before.height() / 2);
+    notice->close(QStringLiteral("test"));
   }
 
   /// It is found, behind what can be done.

@@ -40,11 +40,18 @@ namespace {
 using Kind = SolidForm::Kind;
 struct SolidRow {
   Kind kind;
-  const char* name;
+  const char* name;        ///< as the body's row Shape says it
+  const char* words = "";  ///< by which it is found too
 };
-constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ball"}, {Kind::Block, "Block"},     {Kind::Cylinder, "Cylinder"},
-                                {Kind::Cone, "Cone"},      {Kind::Capsule, "Capsule"}, {Kind::Torus, "Ring"},
-                                {Kind::Tube, "Tube"},      {Kind::Bowl, "Bowl"},       {Kind::Sheet, "Sheet"},
+constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ellipsoid", "ball sphere"},
+                                {Kind::Block, "Block", "box cube"},
+                                {Kind::Cylinder, "Cylinder"},
+                                {Kind::Cone, "Cone"},
+                                {Kind::Capsule, "Capsule"},
+                                {Kind::Torus, "Torus", "ring doughnut"},
+                                {Kind::Tube, "Tube", "pipe"},
+                                {Kind::Bowl, "Bowl", "cup"},
+                                {Kind::Sheet, "Sheet", "cloth"},
                                 {Kind::Rope, "Rope"}};
 
 /// As the parameter of solids calls it.
@@ -167,16 +174,18 @@ BodyActions::BodyActions(Session& session, Selection& selection, const Actions& 
 
 BodyActions::~BodyActions() { stopReading(); }
 
-void BodyActions::makeMenu(QMenu* menu) {
+void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
   for (const SolidRow& row : kSolids) {
     const QString name = QString::fromLatin1(row.name);
     QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(nameOf(row.kind)),
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
                                     [this, kind = row.kind, name] { addSolid(kind, name); });
-    action->setProperty(kWords, QString::fromStdString(nameOf(row.kind)));
+    action->setProperty(kWords, QString::fromLatin1(row.words));
     m_adding.push_back(action);
   }
   connect(menu, &QMenu::aboutToShow, this, &BodyActions::showCounts);
+  menu->addSeparator();
+  menu->addMenu(walls);
   makeToolMenu(menu->addMenu(QStringLiteral("Tool")));
   menu->addSeparator();
   m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),

@@ -32,7 +32,7 @@ class BodyActions : public QObject {
   BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
               QObject* parent = nullptr);
   ~BodyActions() override;
-  void makeMenu(QMenu* menu);
+  void makeMenu(QMenu* menu, QMenu* walls);  ///< `walls`: stands beside the bodies
   /// What a mesh comes in as: matter that fills it, or a wall of its shape, which is a fixed body of its surface alone
   /// that lets no heat through.
   enum class MeshUse : uint8_t { Matter, Wall };

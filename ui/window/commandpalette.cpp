@@ -65,13 +65,15 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
     };
     const bool is = entry.title.compare(joined, Qt::CaseInsensitive) == 0;
     const bool begins = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive);
-    const int rank = !entry.whyNot.isEmpty()        ? 6
+    const bool another = entry.words.split(QLatin1Char(' ')).contains(joined, Qt::CaseInsensitive);
+    const int rank = !entry.whyNot.isEmpty()        ? 7
                      : is                           ? 0
                      : begins                       ? 1
-                     : entry.replaces               ? 5
+                     : entry.replaces               ? 6
                      : inTitle(QStringLiteral(" ")) ? 2
-                     : inTitle({})                  ? 3
-                                                    : 4;
+                     : another                      ? 3
+                     : inTitle({})                  ? 4
+                                                    : 5;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -231,7 +231,10 @@ void MainWindow::makeMenus() {
   m_actions.add(edit, QStringLiteral("edit.preferences"), QStringLiteral("Preferences…"),
                 {QKeySequence(QStringLiteral("Ctrl+,"))}, [this] { openPreferences(*this); });
   QMenu* adding = bar->addMenu(QStringLiteral("Add"));
-  m_bodies->makeMenu(adding);
+  auto* walls = new QMenu(QStringLiteral("Wall"), adding);
+  m_edit->makeWallMenu(walls);
+  m_bodies->makeMenu(adding, walls);
+  m_bodies->addToWallMenu(walls);
   m_library =
       new LibraryActions(*m_session, *m_selection, m_actions, *m_notices, *m_centre, *m_pane, m_options.presets, this);
   m_library->addTo(adding);
@@ -243,9 +246,6 @@ void MainWindow::makeMenus() {
   m_favourites->addTo(sketch);
   m_pane->showFavourites(m_favourites->menu());
   if (viewport()) new MakeRealButton(*m_sketch->makeReal(), *viewport());
-  QMenu* walls = sketch->addMenu(QStringLiteral("Add wall"));
-  m_edit->makeWallMenu(walls);
-  m_bodies->addToWallMenu(walls);
   makeHelpMenu(bar->addMenu(QStringLiteral("Help")));
   m_actions.add(nullptr, QStringLiteral("view.workspace"), QStringLiteral("Next workspace"),
                 {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {

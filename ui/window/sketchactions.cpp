@@ -125,7 +125,7 @@ QList<QKeySequence> SketchActions::keysOf(const std::string& brush) const {
 
 void SketchActions::addBrushes() {
   const PluginRegistry* plugins = m_session.plugins();
-  for (const std::string& id : plugins->ids(PluginKind::Brush)) {
+  for (const std::string& id : idsByLabel(*plugins, PluginKind::Brush)) {
     QAction* action =
         m_actions.add(m_shapes, QStringLiteral("sketch.shape.") + QString::fromStdString(id),
                       QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), keysOf(id), [this, id] {
