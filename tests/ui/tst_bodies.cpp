@@ -9,6 +9,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/rows/panelheader.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
@@ -32,6 +33,21 @@ class TestBodies : public SampleWindowTest {
   void initTestCase() { open(); }
   void init() { backToTheStart(); }
   void cleanupTestCase() { m_window.reset(); }
+
+  /// The row of a sheet names the edge that is held by where it is, also when it is turned meanwhile.
+  void theRowSaysWhichEdgeIsHeld() {
+    m_window->action(QStringLiteral("add.sheet"))->trigger();
+    const std::string id = document().project().bodies.back().id;
+    const Address held{Owner::Shape, id, "held"};
+    QVERIFY(m_window->revealParameter(held, false));
+    QCOMPARE(document().setParameter(held, std::string("start")), QString());
+    const auto text = [&] {
+      return m_window->inspector().panelFor(held)->row(QString::fromStdString(held.text()))->valueText();
+    };
+    QCOMPARE(text(), QStringLiteral("Edge at −z"));
+    QCOMPARE(document().setParameter({Owner::Shape, id, "rotation_x"}, 90.0), QString());
+    QCOMPARE(text(), QStringLiteral("Top edge, +y"));
+  }
 
   void everySolidJoinsTheScene_data() {
     QTest::addColumn<QString>("kind");

@@ -127,6 +127,7 @@ void Inspector::addRows(std::vector<RowModel>& rows, Address any, api::Parameter
   for (RowModel& row : rowModels(list, *set, defaults, QString::fromStdString(any.prefix()))) {
     if (!group.isEmpty()) row.declaration.group = keep(group);
     any.key = row.declaration.key;
+    row.choiceLabels = choiceLabels(m_document.project(), m_document.plugins(), any, row.declaration);
     addRules(row, m_document, any);
     rows.push_back(std::move(row));
   }
