@@ -5,6 +5,7 @@
 #include "ui/graphs/graphview.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/theme/theme.h"
+#include "ui/vr/handlabels.h"
 #include "ui/vr/panels.h"
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
@@ -41,6 +42,10 @@ class VrPanelsTest : public PanelsTest {
   void pagesAreTheWindowsOwn();
   void menusComeAlong();
   void gravityIsTakenAndGivenBack();
+  void labelsSayWhatControllersDo_data();
+  void labelsSayWhatControllersDo();
+  void labelsHangBesideTheHand();
+  void labelsGoAndComeBack();
 };
 
 namespace {
@@ -374,6 +379,91 @@ void VrPanelsTest::gravityIsTakenAndGivenBack() {
   click(vr::kPalette, *one);
   QCOMPARE(document().value(gravity), before);
   QVERIFY(!one->isChecked());
+}
+
+void VrPanelsTest::labelsSayWhatControllersDo_data() {
+  QTest::addColumn<QString>("profile");
+  QTest::addColumn<QString>("left");
+  QTest::addColumn<QString>("right");
+  QTest::newRow("Touch") << "/interaction_profiles/oculus/touch_controller"
+                         << "Trigger, Grip, Grip, Trigger, Stick, X, Y"
+                         << "Trigger, Grip, Grip, Trigger, Stick, Stick pressed, A, B";
+  QTest::newRow("Vive") << "/interaction_profiles/htc/vive_controller"
+                        << "Trigger, Grip, Grip, Trigger, Pad, Menu, Menu held"
+                        << "Trigger, Grip, Grip, Trigger, Pad, , Menu, Menu held";
+  QTest::newRow("simple") << "/interaction_profiles/khr/simple_controller"
+                          << "Select, Menu"
+                          << "Select, Menu";
+  QTest::newRow("bare hands") << "/interaction_profiles/ext/hand_interaction_ext"
+                              << "Pinch, Fist, Fist, Pinch"
+                              << "Pinch, Fist, Fist, Pinch";
+  QTest::newRow("none") << ""
+                        << ""
+                        << "";
+}
+
+void VrPanelsTest::labelsSayWhatControllersDo() {
+  QFETCH(QString, profile);
+  QFETCH(QString, left);
+  QFETCH(QString, right);
+  const auto parts = [&](size_t hand) {
+    QStringList names;
+    for (const vr::HandLabel& label : vr::labelsOf(profile.toStdString(), hand)) {
+      names << QString::fromStdString(label.part);
+      if (label.does.empty()) return QStringLiteral("says nothing");
+    }
+    return names.join(QStringLiteral(", "));
+  };
+  QCOMPARE(parts(vr::kLeft), left);
+  QCOMPARE(parts(vr::kRight), right);
+}
+
+/// Before the eyes, on its outer side, and nobody points at it.
+void VrPanelsTest::labelsHangBesideTheHand() {
+  vr::Panels panels;
+  vr::HeadsetView view;
+  view.labels[vr::kRight] = {std::make_shared<PanelImage>(), 0.16, 0.10, 0, 0, 0};
+  const vr::HandPose hand{{0.2, 1.2, -0.3}, Quaternion::Identity()};
+  panels.follow(frameOf({}, hand), view);
+  const auto& place = panels.labels(vr::kRight);
+  QVERIFY(place && !panels.labels(vr::kLeft));
+  const Vector3 toEyes = (scriptHead().position - hand.position).normalized();
+  QVERIFY((place->pose.orientation * Vector3::UnitZ()).dot(toEyes) > 1 - 1e-9);
+  QVERIFY(place->pose.position.x() - 0.08 > hand.position.x());
+  QVERIFY(std::abs(place->pose.position.y() - hand.position.y()) < 1e-9);
+  panels.follow(frameOf({}, pointing({0, 1.5, 0.1}, place->pose.position)), view);
+  QVERIFY(!panels.pointed(vr::kRight));
+  panels.follow(frameOf(hand, {}), view);
+  QVERIFY(!panels.labels(vr::kRight));
+}
+
+/// Of themselves at first, and then by the palette's button; in letters that can be read where a hand is held.
+void VrPanelsTest::labelsGoAndComeBack() {
+  const ScriptedRun run(vrScript());
+  enter();
+  const auto described = [&] {
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    return view.labels;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kLeft].image && described()[vr::kRight].image, kLong);
+  const auto labels = described()[vr::kRight];
+  const double pixel = labels.height * 2.5 / labels.image->height;  // m, painted at 2.5 to the logical one
+  QVERIFY(std::atan(Theme::font(TextRole::Normal).pixelSize() * pixel / 0.5) / kDegree > 0.85);
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty())
+    QImage(labels.image->pixels.data(), labels.image->width, labels.image->height, QImage::Format_RGBA8888)
+        .save(folder + "/vr-labels.png");
+  QToolButton* button = this->button(vr::kPalette, "Labels");
+  QVERIFY(button && button->isChecked());
+  click(vr::kPalette, *button);
+  QVERIFY(!button->isChecked() && !panels().showsLabels());
+  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  click(vr::kPalette, *button);
+  QVERIFY(button->isChecked());
+  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
+  leave();
 }
 
 QTEST_MAIN(VrPanelsTest)

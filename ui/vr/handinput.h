@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 namespace ps::vr {
 
@@ -32,6 +33,7 @@ struct HandInput {
   Vector3 velocity{0, 0, 0};         ///< of the grip, m/s; 0 where it is not known
   double draw = 0, hold = 0;         ///< how far trigger and grip are pressed, 0..1
   double steerX = 0, steerY = 0;     ///< stick or pad, -1..1, right and forward
+  std::string_view profile;          ///< of OpenXR, as suggestions() have it: what the hand holds; "": nothing of them
   bool pad = false;                  ///< a pad steers, which means something where it is pressed
   std::optional<HandJoints> joints;  ///< of a bare hand that is seen, in the floor's space
   bool steerPressed = false, first = false, second = false;

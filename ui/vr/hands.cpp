@@ -90,8 +90,7 @@ void Hands::suggest() {
     }
     auto info = structure<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     info.interactionProfile = m_runtime.path(std::string(suggestion.profile));
-    if (suggestion.steer == kPad) m_pads.insert(info.interactionProfile);
-    if (suggestion.bareHand) m_bareHands.insert(info.interactionProfile);
+    m_suggested[info.interactionProfile] = &suggestion;
     info.countSuggestedBindings = static_cast<uint32_t>(bindings.size());
     info.suggestedBindings = bindings.data();
     // A runtime may not know a controller; the others are suggested all the same.
@@ -144,10 +143,15 @@ XrPath Hands::profile(size_t hand) const {
   return state.interactionProfile;
 }
 
+const Suggestion* Hands::held(size_t hand) const {
+  const auto found = m_suggested.find(profile(hand));
+  return found == m_suggested.end() ? nullptr : found->second;
+}
+
 Hands::Holds Hands::holds(size_t hand) const {
-  const XrPath now = profile(hand);
-  if (now == XR_NULL_PATH) return Holds::Nothing;
-  return m_bareHands.count(now) > 0 ? Holds::BareHand : Holds::Controller;
+  if (profile(hand) == XR_NULL_PATH) return Holds::Nothing;
+  const Suggestion* what = held(hand);
+  return what && what->bareHand ? Holds::BareHand : Holds::Controller;
 }
 
 double Hands::number(XrAction action, size_t hand) const {
@@ -180,7 +184,10 @@ HandInput Hands::input(size_t hand, XrTime time) const {
   auto state = structure<XrActionStateVector2f>(XR_TYPE_ACTION_STATE_VECTOR2F);
   check(xrGetActionStateVector2f(m_session.handle(), &info, &state), "xrGetActionStateVector2f");
   if (state.isActive) input.steerX = double(state.currentState.x), input.steerY = double(state.currentState.y);
-  input.pad = m_pads.count(profile(hand)) > 0;
+  if (const Suggestion* what = held(hand)) {
+    input.profile = what->profile;
+    input.pad = what->steer == kPad;
+  }
   input.steerPressed = pressed(m_steerPress, hand);
   input.first = pressed(m_first, hand);
   input.second = pressed(m_second, hand);

@@ -4,10 +4,12 @@
 #include "ui/vr/session.h"
 
 #include <array>
+#include <map>
 #include <optional>
-#include <set>
 
 namespace ps::vr {
+
+struct Suggestion;
 
 HandPose poseOf(const XrPosef& pose);
 
@@ -34,6 +36,7 @@ class Hands {
   void attach();
   XrActionStateGetInfo stateInfo(XrAction action, size_t hand) const;
   bool pressed(XrAction action, size_t hand) const;
+  const Suggestion* held(size_t hand) const;  ///< nullptr: nothing that is suggested for
   XrPath profile(size_t hand) const;
   double number(XrAction action, size_t hand) const;
   std::optional<HandPose> locate(XrSpace space, XrTime time, Vector3* velocity) const;
@@ -41,8 +44,7 @@ class Hands {
   Runtime& m_runtime;
   Session& m_session;
   std::array<XrPath, 2> m_paths;
-  std::set<XrPath> m_pads;       ///< controllers that have one instead of a stick
-  std::set<XrPath> m_bareHands;  ///< profiles that are none of controllers
+  std::map<XrPath, const Suggestion*> m_suggested;
   XrActionSet m_set = XR_NULL_HANDLE;
   XrAction m_grip = XR_NULL_HANDLE, m_aim = XR_NULL_HANDLE, m_draw = XR_NULL_HANDLE, m_hold = XR_NULL_HANDLE;
   XrAction m_steer = XR_NULL_HANDLE, m_steerPress = XR_NULL_HANDLE, m_first = XR_NULL_HANDLE, m_second = XR_NULL_HANDLE;

@@ -71,9 +71,10 @@ struct HeadsetView {
   std::array<uint64_t, 2> ticks{};     ///< of strokes that they have begun, and of what they point at: each is felt
   std::array<Feeling, 2> felt{};       ///< of what they lead, and of matter that they heat or cool
   std::array<PanelView, kPanels> panels;
-  uint64_t brought = 0;           ///< with another one the board is set before its wearer anew
-  std::array<float, 3> accent{};  ///< sRGB, of beams
-  Box box;                        ///< m, around all that there is to see of the project when it came
+  std::array<PanelView, 2> labels;  ///< of what the hands hold, beside them
+  uint64_t brought = 0;             ///< with another one the board is set before its wearer anew
+  std::array<float, 3> accent{};    ///< sRGB, of beams
+  Box box;                          ///< m, around all that there is to see of the project when it came
 };
 
 /// Between the interface's thread and the headset's. What is handed over nobody changes any more; neither waits for

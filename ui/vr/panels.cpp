@@ -13,6 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOverHand = 0.12, kTilt = 35 * kDegree;  // of the palette: m from the palm, and from upright
 constexpr double kFacing = 0.55, kStillFacing = 0.4;      // cosine between the palm and the way to the eyes
 constexpr double kAway = 0.75, kBelow = 15 * kDegree;     // of the board: m from the eyes, and from their level
+constexpr double kBesideHand = 0.05;                      // m, of labels
 constexpr double kBeforePanel = 0.006;                    // m, of a popup
 constexpr double kEdge = 0.026;  // tangent of 1.5 degrees, by which a beam may leave what it is on
 constexpr double kAnywhere = 3;  // likewise, while it presses; of a tip, m
@@ -43,7 +44,10 @@ void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view) {
   placePalette(frame, view.panels[kPalette]);
   placeBoard(frame, view);
   placePopup(view);
-  for (const size_t hand : {kLeft, kRight}) point(hand, frame.hands[hand]);
+  for (const size_t hand : {kLeft, kRight}) {
+    point(hand, frame.hands[hand]);
+    placeLabels(hand, frame.hands[hand], view.labels[hand]);
+  }
 }
 
 void Panels::placePalette(const HeadsetFrame& frame, const PanelView& palette) {
@@ -84,6 +88,16 @@ void Panels::placePopup(const HeadsetView& view) {
   place.width = popup.width;
   place.height = popup.height;
   m_places[kPopup] = place;
+}
+
+/// Upright before the eyes, on the outer side of the hand, so that neither hides what the hand does.
+void Panels::placeLabels(size_t hand, const HandInput& input, const PanelView& labels) {
+  m_labels[hand].reset();
+  if (!input.grip || !labels.image) return;
+  const Vector3 at = input.grip->position, toEyes = m_head - at;
+  const Quaternion front = facing(at, m_head, std::atan2(toEyes.y(), std::hypot(toEyes.x(), toEyes.z())));
+  const double aside = (hand == kLeft ? -1 : 1) * (kBesideHand + labels.width / 2);
+  m_labels[hand] = Place{{at + front * Vector3(aside, 0, 0), front}, labels.width, labels.height};
 }
 
 void Panels::point(size_t hand, const HandInput& input) {
@@ -153,15 +167,19 @@ std::optional<Vector3> Panels::hit(size_t hand) const {
 /// The farthest first.
 void Panels::addTo(Props& props, const Stand& stand, const HeadsetView& view) const {
   std::vector<std::pair<double, Panel>> seen;
+  const auto add = [&](const Place& place, const Place& far, const PanelView& of) {
+    const auto corner = [&](double x, double y) { return stand.toScene(place.at(x, y)); };
+    seen.push_back(
+        {(far.pose.position - m_head).norm(), {{corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)}, of.image}});
+  };
   for (size_t panel = 0; panel < kPanels; ++panel) {
     if (!m_places[panel]) continue;
-    const Place& place = *m_places[panel];
-    const auto corner = [&](double x, double y) { return stand.toScene(place.at(x, y)); };
     // A popup lies over the one that it came from, wherever on it.
-    const Place& far = panel == kPopup && m_places[view.panels[panel].on] ? *m_places[view.panels[panel].on] : place;
-    seen.push_back({(far.pose.position - m_head).norm(),
-                    {{corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)}, view.panels[panel].image}});
+    const std::optional<Place>& under = m_places[view.panels[panel].on];
+    add(*m_places[panel], panel == kPopup && under ? *under : *m_places[panel], view.panels[panel]);
   }
+  for (const size_t hand : {kLeft, kRight})
+    if (m_labels[hand]) add(*m_labels[hand], *m_labels[hand], view.labels[hand]);
   std::stable_sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (auto& [away, panel] : seen) props.panels.push_back(std::move(panel));
 }

@@ -13,8 +13,8 @@ namespace ps::vr {
 
 /// Where the interface's panels are in the room, and what hands point at on them. The palette floats over the left hand
 /// while its palm faces the wearer; the board stands where it was asked for, turned to them; a popup lies on the one
-/// that it came from. A hand points by a beam, or, close by, with the tip of its wand, which presses what it goes
-/// through. What it began to press it keeps until it lets go.
+/// that it came from; labels hang beside the hands, and nobody points at them. A hand points by a beam, or, close by,
+/// with the tip of its wand, which presses what it goes through. What it began to press it keeps until it lets go.
 class Panels {
  public:
   /// In the room; +z is the side that one looks at.
@@ -29,6 +29,7 @@ class Panels {
   void follow(const HeadsetFrame& frame, const HeadsetView& view);
   /// Of a panel; nothing while it is not seen.
   const std::optional<Place>& place(size_t panel) const { return m_places.at(panel); }
+  const std::optional<Place>& labels(size_t hand) const { return m_labels.at(hand); }
   const std::optional<PanelPoint>& pointed(size_t hand) const { return m_pointed.at(hand); }
   /// Its trigger is none of the brush's business.
   bool takes(size_t hand) const { return m_pointed.at(hand) || m_presses.at(hand); }
@@ -40,12 +41,14 @@ class Panels {
   void placePalette(const HeadsetFrame& frame, const PanelView& palette);
   void placeBoard(const HeadsetFrame& frame, const HeadsetView& view);
   void placePopup(const HeadsetView& view);
+  void placeLabels(size_t hand, const HandInput& input, const PanelView& labels);
   void point(size_t hand, const HandInput& input);
   std::optional<PanelPoint> pointAnew(size_t hand, const HandPose& aim, const std::optional<PanelPoint>& before) const;
   std::optional<PanelPoint> tipOn(size_t panel, const HandPose& aim, double edge) const;
   std::optional<PanelPoint> beamOn(size_t panel, const HandPose& aim, double edge) const;
 
   std::array<std::optional<Place>, kPanels> m_places;
+  std::array<std::optional<Place>, 2> m_labels;
   std::array<std::optional<PanelPoint>, 2> m_pointed;
   std::array<bool, 2> m_draws{}, m_presses{};  ///< its trigger was pulled elsewhere, or on a panel
   Vector3 m_head{0, 0, 0};                     ///< m

@@ -126,26 +126,37 @@ void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<
   m_choices.push_back({value, std::move(text)});
 }
 
-/// In two rows, each of which is as wide as the others.
+/// In two rows, each of which is as wide as the others; the last button is of labels.
 void VrPalette::addPages(QGridLayout& grid, const std::vector<const char*>& pages) {
-  const auto upper = static_cast<int>(pages.size() + 1) / 2, lower = static_cast<int>(pages.size()) - upper;
+  const int count = static_cast<int>(pages.size()) + 1, upper = (count + 1) / 2, lower = count - upper;
   auto* rows = new QGridLayout;
   rows->setSpacing(kGap);
   for (int column = 0; column < upper * std::max(1, lower); ++column) rows->setColumnStretch(column, 1);
   for (int k = 0; k < upper + lower; ++k) {
-    const QString title = QString::fromLatin1(pages[static_cast<size_t>(k)]);
+    const bool labels = k + 1 == count;
+    const QString title = QString::fromLatin1(labels ? "Labels" : pages[static_cast<size_t>(k)]);
     auto* one = new QToolButton;
     one->setText(title);
     one->setAccessibleName(title);
     one->setMinimumHeight(kButton);
     one->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    connect(one, &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
+    if (labels) {
+      m_labelled = one;
+      one->setCheckable(true);
+      one->setChecked(true);
+      one->setToolTip(QStringLiteral("What the buttons of the controllers do, beside them"));
+      connect(one, &QToolButton::clicked, this, &VrPalette::labelsWanted);
+    } else {
+      connect(one, &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
+    }
     const bool above = k < upper;
     const int wide = above ? std::max(1, lower) : upper, place = above ? k : k - upper;
     rows->addWidget(one, above ? 0 : 1, place * wide, 1, wide);
   }
   grid.addLayout(rows, grid.rowCount(), 0, 1, kColumns);
 }
+
+void VrPalette::showLabelled(bool labelled) { m_labelled->setChecked(labelled); }
 
 void VrPalette::follow() {
   for (const Choice& choice : m_choices) {

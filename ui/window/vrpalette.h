@@ -23,9 +23,11 @@ class VrPalette : public QWidget {
   /// All must outlive it. `pages`: titles that can be asked for.
   VrPalette(Session& session, Toolbox& tools, const Actions& actions, const std::vector<const char*>& pages);
   void follow();  ///< shows what holds by now
+  void showLabelled(bool labelled);
 
  Q_SIGNALS:
   void pageWanted(const QString& title);
+  void labelsWanted(bool shown);  ///< of what the hands hold
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -49,6 +51,7 @@ class VrPalette : public QWidget {
   Toolbox& m_tools;
   const Actions& m_actions;
   std::vector<Choice> m_choices;
+  QToolButton* m_labelled = nullptr;
 };
 
 }  // namespace ps

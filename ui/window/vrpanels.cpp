@@ -8,6 +8,7 @@
 #include "ui/theme/theme.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/paneltable.h"
+#include "ui/window/vrlabels.h"
 #include "ui/window/vrpalette.h"
 
 #include <QtGui/QMouseEvent>
@@ -22,6 +23,7 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -43,6 +45,7 @@ constexpr double kTwiceReach = 8;                // px
 constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
 constexpr int kNotch = 120;
 constexpr int kHeader = 28;
+constexpr std::chrono::minutes kLabelled{2};
 
 /// Shown to nobody, so that it is laid out and follows what it shows.
 void showUnseen(QWidget& widget, const QSize& size) {
@@ -101,7 +104,22 @@ VrPanels::VrPanels(const Parts& parts)
   connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
   showUnseen(*m_palette, kPaletteSize);
   showUnseen(*m_board, kBoardSize);
+  for (std::unique_ptr<VrLabels>& labels : m_labels) {
+    labels = std::make_unique<VrLabels>();
+    showUnseen(*labels, {1, 1});
+  }
+  connect(m_palette.get(), &VrPalette::labelsWanted, this, &VrPanels::showLabels);
+  connect(&m_labelsEnd, &QTimer::timeout, this, [this] { showLabels(false); });
+  m_labelsEnd.setSingleShot(true);
+  m_labelsEnd.start(kLabelled);
   m_sincePaint.start();
+}
+
+void VrPanels::showLabels(bool shown) {
+  m_labelsEnd.stop();
+  m_labelsShown = shown;
+  m_palette->showLabelled(shown);
+  m_touched = true;
 }
 
 VrPanels::~VrPanels() { letGo(); }
@@ -165,7 +183,7 @@ bool VrPanels::paint() {
   m_touched = false;
   m_palette->follow();
   findPopup();
-  bool changed = ticked;
+  bool changed = paintLabels() || ticked;
   for (size_t panel = 0; panel < vr::kPanels; ++panel) {
     vr::PanelView& view = m_painted[panel];
     QWidget* shown = widget(panel);
@@ -185,8 +203,23 @@ bool VrPanels::paint() {
   return changed;
 }
 
+bool VrPanels::paintLabels() {
+  bool changed = false;
+  for (size_t hand = 0; hand < m_labels.size(); ++hand) {
+    VrLabels& labels = *m_labels[hand];
+    vr::PanelView& view = m_paintedLabels[hand];
+    const bool shown = m_labelsShown && labels.any();
+    const auto before = std::exchange(view.image, shown ? pictureOf(labels, view.image) : nullptr);
+    changed = changed || before != view.image;
+    view.width = kPalettePixel * labels.width();
+    view.height = kPalettePixel * labels.height();
+  }
+  return changed;
+}
+
 void VrPanels::describe(vr::HeadsetView& view) const {
   view.panels = m_painted;
+  view.labels = m_paintedLabels;
   view.brought = m_brought;
   const QColor accent = Theme::current()[Token::Accent];
   view.accent = {accent.redF(), accent.greenF(), accent.blueF()};
@@ -197,6 +230,7 @@ void VrPanels::act(const vr::HandsSeen& seen) {
   const uint64_t act = ++m_acts;
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
     const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
+    m_labels[hand]->setProfile(seen.hands[hand].input.profile, hand);
     follow(m_pointers[hand], point);
     if (act != m_acts) return;  // a menu was open meanwhile: these hands are old
     if (point && std::abs(seen.hands[hand].input.steerY) > kPushed)

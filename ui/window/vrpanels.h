@@ -6,6 +6,7 @@
 #include <QtCore/QObject>
 #include <QtCore/QPointF>
 #include <QtCore/QPointer>
+#include <QtCore/QTimer>
 
 #include <array>
 #include <map>
@@ -25,6 +26,7 @@ class Inspector;
 class Session;
 class Toolbox;
 class Viewport;
+class VrLabels;
 class VrPalette;
 struct PanelContext;
 
@@ -48,6 +50,9 @@ class VrPanels : public QObject {
   /// Sets the board before the wearer, or puts it away where it stands there.
   void toggleBoard();
   void showPage(const QString& title);
+  /// What the controllers' parts do: of themselves for the first two minutes, then where they are asked for.
+  void showLabels(bool shown);
+  bool showsLabels() const { return m_labelsShown; }
   /// Whether the wearer would see something else by now. Paints that.
   bool paint();
   void describe(vr::HeadsetView& view) const;
@@ -74,6 +79,7 @@ class VrPanels : public QObject {
   void deliver(QWidget& target, QEvent& event);
   QWidget* makePage(const QString& title);
   void findPopup();
+  bool paintLabels();
 
   const Parts m_parts;
   std::unique_ptr<Inspector> m_inspector;  ///< of the board alone, once a page is asked for
@@ -86,6 +92,10 @@ class VrPanels : public QObject {
   uint64_t m_brought = 0;
   std::array<Pointer, 2> m_pointers;
   std::array<vr::PanelView, vr::kPanels> m_painted;
+  std::array<std::unique_ptr<VrLabels>, 2> m_labels;
+  std::array<vr::PanelView, 2> m_paintedLabels;
+  bool m_labelsShown = true;
+  QTimer m_labelsEnd;  ///< of the first two minutes
   QElapsedTimer m_sincePaint;
   bool m_touched = true;      ///< something was pressed or pointed at since it was painted
   bool m_ticked = false;      ///< something is to be felt

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/vr/handlabels.h"
+
+#include "ui/vr/handinput.h"
+#include "ui/vr/suggestions.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ps::vr {
+namespace {
+
+/// "/input/trigger/value" is "Trigger".
+std::string nameOf(std::string_view part) {
+  constexpr std::pair<std::string_view, std::string_view> kNames[] = {{"trigger", "Trigger"},
+                                                                      {"squeeze", "Grip"},
+                                                                      {"thumbstick", "Stick"},
+                                                                      {"trackpad", "Pad"},
+                                                                      {"menu", "Menu"},
+                                                                      {"select", "Select"},
+                                                                      {"pinch_ext", "Pinch"},
+                                                                      {"grasp_ext", "Fist"},
+                                                                      {"a", "A"},
+                                                                      {"b", "B"},
+                                                                      {"x", "X"},
+                                                                      {"y", "Y"}};
+  const size_t from = std::string_view("/input/").size();
+  const std::string_view key = part.substr(from, part.find('/', from) - from);
+  const auto found =
+      std::find_if(std::begin(kNames), std::end(kNames), [&](const auto& one) { return one.first == key; });
+  return std::string(found == std::end(kNames) ? key : found->second);
+}
+
+/// As VrHands and Moving take it.
+void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, size_t hand) {
+  if (of.steer.empty()) return;
+  const std::string name = nameOf(of.steer);
+  if (of.steer != "/input/trackpad") {
+    labels.push_back({name, hand == kLeft ? "forward: go there" : "up, down: size; aside: turn"});
+    if (hand == kRight) labels.push_back({name + " pressed", "next material"});
+  } else if (hand == kLeft) {
+    labels.push_back({name, "forward: go there; aside: turn"});
+  } else {
+    labels.push_back({name, "middle: next material"});
+    labels.push_back({"", "up, down: size; aside: shape"});
+  }
+}
+
+}  // namespace
+
+std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand) {
+  std::vector<HandLabel> labels;
+  const std::vector<Suggestion>& all = suggestions();
+  const auto of = std::find_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.profile == profile; });
+  if (of == all.end()) return labels;
+  labels.push_back({of->bareHand ? "Pinch" : nameOf(of->draw), "draw, press"});
+  if (!of->hold.empty()) {
+    const std::string hold = of->bareHand ? "Fist" : nameOf(of->hold);
+    labels.push_back({hold, "hold; both hands: the scene"});
+    labels.push_back({hold + ", " + labels.front().part, "erase"});
+  }
+  addSteering(labels, *of, hand);
+  const std::string_view first = hand == kLeft ? of->leftFirst : of->rightFirst;
+  const std::string_view second = hand == kLeft ? of->leftSecond : of->rightSecond;
+  const char* const does[] = {hand == kLeft ? "play, pause" : "undo", hand == kLeft ? "make real" : "board"};
+  if (!first.empty()) labels.push_back({nameOf(first), does[0]});
+  // One button for both: for half a second it is the second.
+  if (!first.empty() && second.empty()) labels.push_back({nameOf(first) + " held", does[1]});
+  if (!second.empty()) labels.push_back({nameOf(second), does[1]});
+  return labels;
+}
+
+}  // namespace ps::vr

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ps::vr {
+
+/// A part of what a hand holds, by the name that its maker gives it, and what it does in the scene.
+struct HandLabel {
+  std::string part, does;
+};
+
+/// What the parts of a controller, or of a bare hand that is read as one, do; none of a profile that is not suggested.
+std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand);
+
+}  // namespace ps::vr
