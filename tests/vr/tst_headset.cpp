@@ -61,6 +61,7 @@ class HeadsetTest : public QObject {
   void lateFramesCostSharpness();
   void lateHeadsetsShowSmallerPictures();
   void theOtherHandTakesItsWearerThere();
+  void aBareHandPointsAndPinches();
 
  private:
   HeadlessContext m_context{nullptr};
@@ -469,6 +470,45 @@ void HeadsetTest::theOtherHandTakesItsWearerThere() {
   left.steerY = 0;
   for (int i = 0; i < 20; ++i) moving.follow(frame);
   QVERIFY(!moving.dims());
+  QCOMPARE(moving.stand().toRoom(Vector3::Zero()), stood);
+}
+
+/// It points, and then pinches; opened instead, or after a while, it stays. Its pinch draws nothing.
+void HeadsetTest::aBareHandPointsAndPinches() {
+  using ps::vr::kLeft;
+  ps::vr::Moving moving;
+  ps::vr::HeadsetFrame frame;
+  frame.period = 0.01;
+  frame.head.position = {0.2, 1.6, 0.1};
+  ps::vr::HandInput& left = frame.hands[kLeft];
+  left.aim = ps::vr::HandPose{{0, 1, 0}, ps::Quaternion(Eigen::AngleAxisd(-M_PI / 4, Vector3::UnitX()))};
+  const auto after = [&](double seconds, bool points, double pinch) {
+    frame.time += seconds;
+    left.points = points;
+    left.draw = pinch;
+    moving.follow(frame);
+  };
+  after(0.01, true, 0);
+  QVERIFY(moving.goal() && near(*moving.goal(), {0, 0, -1}, 1e-12) && moving.takes(kLeft));
+  left.aim->orientation = ps::Quaternion(Eigen::AngleAxisd(-M_PI / 3, Vector3::UnitX()));  // the index comes down
+  after(0.1, false, 0.3);
+  QVERIFY(moving.goal() && near(*moving.goal(), {0, 0, -1}, 1e-12));
+  const Vector3 there = moving.stand().toScene(*moving.goal());
+  after(0.1, false, 1);
+  QVERIFY(!moving.goal() && moving.dims() && moving.takes(kLeft));
+  QVERIFY(near(moving.stand().toRoom(there), {0.2, 0, 0.1}, 1e-12));
+  after(0.1, false, 1);
+  QVERIFY(moving.takes(kLeft));  // the same pinch
+  after(0.1, false, 0);
+  QVERIFY(!moving.takes(kLeft));
+  const Vector3 stood = moving.stand().toRoom(Vector3::Zero());
+  after(0.1, true, 0);
+  after(0.1, false, 0);
+  QVERIFY(moving.goal());
+  after(0.7, false, 0);
+  QVERIFY(!moving.goal() && !moving.takes(kLeft));
+  after(0.1, false, 1);
+  QVERIFY(!moving.takes(kLeft) && !moving.takes(ps::vr::kRight));
   QCOMPARE(moving.stand().toRoom(Vector3::Zero()), stood);
 }
 

@@ -6,6 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/tools/toolbox.h"
 #include "ui/vr/barehand.h"
+#include "ui/window/vrpanels.h"
 
 #include <QColor>
 #include <QImage>
@@ -89,6 +90,7 @@ void VrBareHandsTest::shapesAreTold() {
     vr::HandInput input;
     vr::useBareHand(input, hand, seen, false);
     QVERIFY2(std::abs(input.draw - pinch) < 1e-3, qPrintable(QString::number(input.draw)));
+    QCOMPARE(input.points, std::string(QTest::currentDataTag()) == "point");
     QVERIFY2(std::abs(input.hold - fist) < 1e-3, qPrintable(QString::number(input.hold)));
     // Palms down: out of the left one and into the right one leads x, to the thumb -z.
     const Matrix3 grip = input.grip->orientation.toRotationMatrix();
@@ -198,6 +200,7 @@ std::array<QImage, 2> VrBareHandsTest::before(const QString& more, const char* s
   const ScriptedRun run(text);
   [&] {
     enter();
+    vr().panels()->showLabels(false);
     QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 54, kLong);
     leave();
     QVERIFY(run.lines("violation").empty());

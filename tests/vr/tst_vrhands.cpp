@@ -10,6 +10,7 @@
 #include "ui/tools/toolbox.h"
 #include "ui/vr/simulatedroom.h"
 #include "ui/window/vrfeel.h"
+#include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
 #include <QtCore/QDir>
@@ -356,6 +357,7 @@ void VrHandsTest::handsAreSeen() {
   const ScriptedRun run(
       QString::fromStdString(text).replace(QString::number(kSide), QString::number(kWide)).toStdString());
   action()->trigger();
+  vr().panels()->showLabels(false);
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 42, kLong);
   leave();
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");

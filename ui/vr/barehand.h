@@ -17,6 +17,8 @@ struct SeenHand {
 double pinchOf(const SeenHand& hand);
 /// How far all fingers but the thumb are closed, the least of them, 0..1: a grip. A hand that points makes no fist.
 double fistOf(const SeenHand& hand);
+/// Whether its index is straight while the three fingers beside it are closed.
+bool pointsWith(const SeenHand& hand);
 
 /// Has a hand's input say what its bare hand does: the tip of the index is where things are drawn and pressed.
 /// `told`: who reads hands tells already where it aims and how far it pinches and holds; else that follows from joints.

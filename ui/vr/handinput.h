@@ -36,6 +36,7 @@ struct HandInput {
   std::string_view profile;          ///< of OpenXR, as suggestions() have it: what the hand holds; "": nothing of them
   bool pad = false;                  ///< a pad steers, which means something where it is pressed
   std::optional<HandJoints> joints;  ///< of a bare hand that is seen, in the floor's space
+  bool points = false;               ///< a bare hand, of which the index alone is straight
   bool steerPressed = false, first = false, second = false;
 };
 

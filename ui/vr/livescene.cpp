@@ -55,7 +55,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     told.input.joints.reset();  // they are for the eye alone
     told.holds = input.hold > kHeld && !m_moving.carries();
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
-    if (m_moving.carries() || m_panels.takes(hand)) told.input.draw = 0;
+    if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
     if (!input.aim) continue;
     told.tip = m_moving.stand().toScene(tipOf(*input.aim));
     const Quaternion turned = m_moving.stand().toScene(*input.aim).orientation;
@@ -86,7 +86,7 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
     if (const auto hit = m_panels.hit(hand))
       addBeam(m_props, m_moving.stand().toScene(*aim), 1 / m_moving.stand().scale, (*hit - aim->position).norm(),
               m_view->accent);
-    else if (!m_panels.takes(hand))
+    else if (!m_panels.takes(hand) && !m_moving.takes(hand))
       addVolume(m_props, m_moving.stand().toScene(tipOf(*aim)), brush);
   }
   m_panels.addTo(m_props, m_moving.stand(), *m_view);

@@ -15,6 +15,7 @@ constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger
 constexpr double kPushed = 0.7;             // of a stick's
 constexpr double kTurn = std::numbers::pi / 6;
 constexpr double kFarthest = 8, kSteep = 0.05;  // m, and how much a beam must fall on its way, of where one goes
+constexpr double kPinches = 0.6;                // s, within which a hand that pointed pinches
 constexpr double kGoalWidth = 0.2, kGoalHeight = 0.01;  // m
 constexpr double kDimmed = 0.15;                        // s, after a step
 constexpr double kBeforeEyes = 0.3, kReach = 0.6;       // m, of what dims
@@ -75,22 +76,52 @@ void Moving::turn(const HeadsetFrame& frame) {
   m_turns = asked;
 }
 
+namespace {
+
+/// On the floor, where a hand points; nothing where that is too far, or up in the air.
+std::optional<Vector3> floorAt(const HandPose& aim, const Vector3& head) {
+  const Vector3 beam = aim.orientation * Vector3(0, 0, -1);
+  if (beam.y() > -kSteep || aim.position.y() <= 0) return std::nullopt;
+  const Vector3 on = aim.position - aim.position.y() / beam.y() * beam;
+  return (on - head).norm() < kFarthest ? std::optional(on) : std::nullopt;
+}
+
+}  // namespace
+
 void Moving::go(const HeadsetFrame& frame, bool busy) {
   const HandInput& hand = frame.hands[kLeft];
   const bool forward = hand.steerY > kPushed && hand.steerY > std::abs(hand.steerX);
   const std::optional<Vector3> goal = std::exchange(m_goal, std::nullopt);
-  if (!hand.aim || m_carrying || busy) return;
-  if (!forward || (hand.pad && !hand.steerPressed)) {
-    if (!goal) return;
-    const Vector3 way = *goal - frame.head.position;
-    m_stand.roomPlace -= Vector3(way.x(), 0, way.z());
-    m_dimmed = kDimmed;
-    return;
+  m_goes = m_goes && hand.draw > kIdle;
+  if (!hand.aim || m_carrying || busy) return m_pointed.reset();
+  if (hand.points || m_pointed) return goBare(frame, goal);
+  if (forward && (!hand.pad || hand.steerPressed))
+    m_goal = floorAt(*hand.aim, frame.head.position);
+  else if (goal)
+    arriveAt(*goal, frame);
+}
+
+/// The index leaves where it points as it comes to the thumb: where it was then is meant.
+void Moving::goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal) {
+  const HandInput& hand = frame.hands[kLeft];
+  if (hand.points) {
+    m_goal = floorAt(*hand.aim, frame.head.position);
+    m_pointed = frame.time;
+  } else if (goal && hand.draw > kHeld) {
+    m_pointed.reset();
+    m_goes = true;
+    arriveAt(*goal, frame);
+  } else if (goal && frame.time - *m_pointed < kPinches) {
+    m_goal = goal;
+  } else {
+    m_pointed.reset();
   }
-  const Vector3 beam = hand.aim->orientation * Vector3(0, 0, -1);
-  if (beam.y() > -kSteep) return;
-  const Vector3 on = hand.aim->position - hand.aim->position.y() / beam.y() * beam;
-  if (hand.aim->position.y() > 0 && (on - frame.head.position).norm() < kFarthest) m_goal = on;
+}
+
+void Moving::arriveAt(const Vector3& goal, const HeadsetFrame& frame) {
+  const Vector3 way = goal - frame.head.position;
+  m_stand.roomPlace -= Vector3(way.x(), 0, way.z());
+  m_dimmed = kDimmed;
 }
 
 void Moving::addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const {

@@ -12,7 +12,8 @@ namespace ps::vr {
 
 /// How the scene stands in the room, and how its wearer changes that: both grips carry it, the main stick aside turns
 /// it about them by 30 degrees, which eyes bear better than a turn, and the other one forward takes them to where that
-/// hand points on the floor as soon as it is let go. While it moves the edge of what is seen is dimmed.
+/// hand points on the floor as soon as it is let go; a bare left hand points there with its index, and then pinches.
+/// While it moves the edge of what is seen is dimmed.
 class Moving {
  public:
   const Stand& stand() const { return m_stand; }
@@ -22,6 +23,8 @@ class Moving {
   bool carries() const { return m_carrying.has_value(); }
   /// m on the floor, where the wearer will be.
   const std::optional<Vector3>& goal() const { return m_goal; }
+  /// Its pinch is none of the brush's business: it says go.
+  bool takes(size_t hand) const { return hand == kLeft && (m_goes || (m_goal && m_pointed)); }
   bool dims() const { return m_dimmed > 0; }
   /// The way to the goal, and what dims. Comes last: that lies before all else.
   void addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const;
@@ -30,6 +33,8 @@ class Moving {
   void carry(const HeadsetFrame& frame);
   void turn(const HeadsetFrame& frame);
   void go(const HeadsetFrame& frame, bool busy);
+  void goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal);
+  void arriveAt(const Vector3& goal, const HeadsetFrame& frame);
 
   Stand m_stand;
   /// By both hands, from when they took hold of the scene.
@@ -40,7 +45,9 @@ class Moving {
   std::optional<Carrying> m_carrying;
   bool m_turns = false;  ///< asked for already
   std::optional<Vector3> m_goal;
-  double m_dimmed = 0;  ///< s, for which it stays so
+  std::optional<double> m_pointed;  ///< s, when a bare hand pointed at the goal last
+  bool m_goes = false;              ///< by a pinch that lasts
+  double m_dimmed = 0;              ///< s, for which it stays so
 };
 
 }  // namespace ps::vr
