@@ -10,6 +10,7 @@
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
 #include "ui/window/dock.h"
 #include "ui/window/exportform.h"
 #include "ui/window/filmform.h"
@@ -188,6 +189,10 @@ class TestExportWindow : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(field<QLineEdit>("To, in s")->text(), QStringLiteral("0.4"), kLong);
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(field<QLineEdit>("To, in s")->text() != QStringLiteral("0.4"), kLong);
+    // Times in the figures that people read everywhere, meant as they are.
+    QTRY_COMPARE_WITH_TIMEOUT(field<QLineEdit>("To, in s")->text(), QStringLiteral("0.4167"), kLong);
+    QCOMPARE(countText(2358, QStringLiteral("picture"), QStringLiteral("pictures")),
+             QStringLiteral("2\u202F358 pictures"));
     picture(QStringLiteral("tst_exportwindow_workspace.png"));
     field<QLineEdit>("To, in s")->selectAll();
     QTest::keyClicks(field<QLineEdit>("To, in s"), QStringLiteral("0.2"));

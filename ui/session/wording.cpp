@@ -26,7 +26,7 @@ QString runningText(double shown, const QString& unit) {
 QString sentence(const QString& text) { return text.endsWith(QLatin1Char('.')) ? text : text + QLatin1Char('.'); }
 
 QString countText(size_t count, const QString& one, const QString& many) {
-  return QString::number(count) + QLatin1Char(' ') + (count == 1 ? one : many);
+  return formatFixed(static_cast<double>(count)) + QLatin1Char(' ') + (count == 1 ? one : many);
 }
 
 QString particlesAhead(double count) { return QStringLiteral("≈ %1 particles").arg(formatShort(count, 3)); }

@@ -109,8 +109,17 @@ void RunForm::addRates() {
 
 void RunForm::showAll() {
   const RunRecord::Extent extent = m_session.recorded().extent();
-  m_from->setText(formatShort(extent.from, 6));
-  m_to->setText(formatShort(extent.to, 6));
+  const auto show = [](QLineEdit& field, ShownTime& shown, double seconds) {
+    shown = {formatShort(seconds), seconds};
+    field.setText(shown.text);
+  };
+  show(*m_from, m_shownFrom, extent.from);
+  show(*m_to, m_shownTo, extent.to);
+}
+
+/// A field that stands as it was filled in means the time that it was filled in with, whose digits it rounds.
+std::optional<double> RunForm::timeIn(const QLineEdit& field, const ShownTime& shown) {
+  return field.text() == shown.text ? shown.seconds : parseNumber(field.text());
 }
 
 void RunForm::followRun() {
@@ -139,7 +148,7 @@ void RunForm::setPlace(const QString& place) {
 
 FrameRange RunForm::range() const {
   if (!m_session.isReady()) return {1, 0, 1};
-  const auto from = parseNumber(m_from->text()), to = parseNumber(m_to->text());
+  const auto from = timeIn(*m_from, m_shownFrom), to = timeIn(*m_to, m_shownTo);
   const RunRecord& record = m_session.engine()->recording();
   const auto first = from ? record.frameAt(*from) : std::nullopt, last = to ? record.frameAt(*to) : std::nullopt;
   if (!first || !last || *to < *from) return {1, 0, 1};

@@ -4,6 +4,8 @@
 
 #include <QtWidgets/QDialog>
 
+#include <optional>
+
 class QComboBox;
 class QGridLayout;
 class QHBoxLayout;
@@ -61,6 +63,12 @@ class RunForm : public QWidget {
   QLineEdit* addTime(const QString& label, const QString& tip);
   void addRates();
   void showAll();  ///< as the range
+  /// What a field was filled in with.
+  struct ShownTime {
+    QString text;
+    double seconds = 0;
+  };
+  static std::optional<double> timeIn(const QLineEdit& field, const ShownTime& shown);  ///< s; nothing: no number
   void showPlace();
 
   Session& m_session;
@@ -73,6 +81,7 @@ class RunForm : public QWidget {
   QString m_place;
   bool m_chosen = false;  ///< the place, by hand
   bool m_rangeTyped = false;
+  ShownTime m_shownFrom, m_shownTo;
   double m_shownLength = 0;  ///< s of a frame, by which rates are told
 };
 
