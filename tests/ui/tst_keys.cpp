@@ -233,9 +233,11 @@ class TestKeys : public SampleWindowTest {
     QCOMPARE(row.model().keyMark, KeyMark::None);
   }
 
-  /// A row for each animated parameter; where there is none, no room is taken.
+  /// A row for each animated parameter; where there is none, the ruler stands alone, and takes no keys.
   void theTimelineHasARowOfKeysForEach() {
-    QVERIFY(!rows().isVisible());
+    QVERIFY(rows().isVisible());
+    QCOMPARE(rows().height(), KeyRows::kRuler);
+    QCOMPARE(rows().focusPolicy(), Qt::NoFocus);
     const auto* dock = m_window->findChild<QDockWidget*>(QStringLiteral("dock.transport"));
     const int without = dock->height();
     QCOMPARE(document().putKey(kFloor, 0, 400), QString());
@@ -247,7 +249,7 @@ class TestKeys : public SampleWindowTest {
     picture("tst_keys_timeline.png");
     document().removeTrack(kFloor);
     document().removeTrack({Owner::Scene, "", "gravity"});
-    QTRY_VERIFY(!rows().isVisible());
+    QTRY_COMPARE(rows().height(), KeyRows::kRuler);
     QTRY_COMPARE(dock->height(), without);
   }
 

@@ -45,7 +45,6 @@ QString secondsText(double seconds) { return formatShort(seconds, 6) + QStringLi
 }  // namespace
 
 KeyRows::KeyRows(Session& session, QWidget* parent) : QWidget(parent), m_session(session) {
-  setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(QStringLiteral("Keys over time"));
   connect(&session.document(), &Document::changed, this, &KeyRows::onChanged);
   connect(&session, &Session::valuesDue, this, qOverload<>(&QWidget::update));
@@ -69,6 +68,7 @@ void KeyRows::rebuild() {
   }
   followChosen();
   setFixedHeight(wantedHeight());
+  setFocusPolicy(m_rows.empty() ? Qt::NoFocus : Qt::StrongFocus);  // keys do nothing on the ruler alone
   update();
   if (m_rows.size() != before) Q_EMIT rowsChanged();
 }
@@ -176,7 +176,6 @@ void KeyRows::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
-  if (m_rows.empty()) return;
   paintRuler(painter);
   for (size_t r = 0; r < m_rows.size(); ++r) paintRow(painter, m_rows[r], kRuler + static_cast<int>(r) * kRow);
   paintVerticalLine(painter, xOf(std::min(m_session.now(), span())) - 0.5, kRuler - 5, height(),

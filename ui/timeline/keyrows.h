@@ -13,10 +13,10 @@ namespace ps {
 class Session;
 
 /// The keys of the document over the scene's time: a ruler, on which a drag shows recorded frames, and a row for each
-/// animated parameter. Keys are chosen by a click, Shift adds one, or by a box that is drawn around them, and dragged
-/// to other frames together (Shift: to any time; Ctrl: copies of them); Escape takes a drag back. A double-click sets a
-/// key of the value that holds there, on a name it opens the keys as a curve; Delete takes chosen ones away. Each
-/// gesture is one undo step.
+/// animated parameter, where there are any. Keys are chosen by a click, Shift adds one, or by a box that is drawn
+/// around them, and dragged to other frames together (Shift: to any time; Ctrl: copies of them); Escape takes a drag
+/// back. A double-click sets a key of the value that holds there, on a name it opens the keys as a curve; Delete takes
+/// chosen ones away. Each gesture is one undo step.
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
@@ -31,7 +31,7 @@ class KeyRows : public QWidget {
   };
   std::vector<Chosen> chosen() const;
   int rowCount() const { return static_cast<int>(m_rows.size()); }
-  int wantedHeight() const { return m_rows.empty() ? 0 : kRuler + kRow * rowCount(); }
+  int wantedHeight() const { return kRuler + kRow * rowCount(); }
   double xOf(double seconds) const;
   double secondsAt(double x) const;
   QPoint placeOf(const Address& address, size_t key) const;  ///< centre of its diamond

@@ -35,6 +35,7 @@ Timeline::Timeline(Session& session, PointedBy by, QWidget* parent)
   layout->addWidget(m_scroll);
   connect(m_keys, &KeyRows::rowsChanged, this, &Timeline::fit);
   connect(m_transport, &Transport::heightChanged, this, &Timeline::fit);
+  m_transport->setAxis({KeyRows::kLabel, KeyRows::kEnd});
   m_markers->hide();
   connect(m_markers, &MarkerRow::wanted, this, [this](bool any) {
     m_markers->setVisible(any);
@@ -51,14 +52,11 @@ std::vector<std::pair<QString, QString>> Timeline::gestures() {
           {QStringLiteral("Right-click"), QStringLiteral("Go on with an earlier run, compare, ghost, delete")}};
 }
 
-/// The keys keep their width where there are none: markers are on their scale.
+/// The ruler stays where there are no keys: markers and the recorded part are on its scale.
 void Timeline::fit() {
   const int most = KeyRows::kRuler + kMostRows * KeyRows::kRow;
   const int height = std::min(m_keys->wantedHeight(), most);
   m_scroll->setFixedHeight(height);
-  m_keys->setVisible(height > 0);
-  const bool rows = height > 0 || !m_markers->isHidden();
-  m_transport->setAxis(rows ? TimeAxis{KeyRows::kLabel, KeyRows::kEnd} : TimeAxis());
   const int all = m_transport->minimumHeight() + (m_markers->isHidden() ? 0 : MarkerRow::kHeight) + height;
   setFixedHeight(all);
   Q_EMIT heightChanged(all);
