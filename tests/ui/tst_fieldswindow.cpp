@@ -6,6 +6,7 @@
 #include "ui/graphs/graphview.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/outlinerdelegate.h"
+#include "ui/session/recordedview.h"
 
 #include <QtCore/QAbstractItemModel>
 #include <QtCore/QTemporaryDir>
@@ -105,6 +106,20 @@ class TestFieldsWindow : public SampleWindowTest {
     scene.setColour("org.example.lost.field");
     QCOMPARE(colours()->currentText(), QStringLiteral("Matter"));
     QTRY_VERIFY_WITH_TIMEOUT(legendNow().first.isEmpty(), kLong);
+  }
+
+  /// Frames hold the fields that were asked for when they were recorded.
+  void whatWasNotRecordedIsSaid() {
+    document().setColour("thesis_latent.melting");
+    QTRY_COMPARE_WITH_TIMEOUT(view()->overlayHits().legendWithout, QStringLiteral("none here"), kLong);
+    session().recorded().showAt(0);
+    QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(view()->overlayHits().legendWithout, QStringLiteral("not recorded"), kLong);
+    picture(QStringLiteral("tst_fieldswindow_notrecorded.png"));
+    document().setColour("temperature");
+    QTRY_COMPARE_WITH_TIMEOUT(view()->overlayHits().legendWithout, QString(), kLong);
+    session().recorded().showNewest();
+    QTRY_VERIFY_WITH_TIMEOUT(!session().recorded().isActive(), kLong);
   }
 
   void itsProbeIsPlottedAndRead() {

@@ -248,6 +248,8 @@ QSizeF legendSize(const ColourMap& map, const LegendText& text, const std::vecto
   if (map.classes.empty() && !text.unit.isEmpty())
     width = std::max(width,
                      std::ceil(kMargin + kBarWidth + kTick + number + textWidth(QChar(0x202F) + text.unit, font) + 6));
+  if (map.classes.empty() && !text.without.isEmpty())
+    width = std::max(width, std::ceil(kMargin + kBarWidth + kTick + textWidth(text.without, font) + kMargin));
   for (const LegendMark& mark : marks) {
     width =
         std::max(width, std::ceil(kMargin + kBarWidth + kMark + number + kMarkGap + textWidth(mark.label, font) + 6));
@@ -286,13 +288,15 @@ void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, st
   painter.setRenderHint(QPainter::Antialiasing);
   QPainterPath path;
   path.addRoundedRect(snapped(painter, bar), 2, 2);
-  painter.fillPath(path, scale.gradient());
   if (range.second > range.first) {
+    painter.fillPath(path, scale.gradient());
     paintTicks(painter, rect, scale, text, marks);
   } else {
-    paintText(painter, QRectF(bar.right() + 9, bar.center().y() - 8, rect.right() - bar.right() - 9, 16),
-              Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("none here"), Theme::font(TextRole::Small),
-              theme[Token::Muted]);
+    // Any of the map's colours would say that something is there.
+    painter.fillPath(path, theme[Token::Field]);
+    painter.strokePath(path, QPen(theme[Token::Line2], 1));
+    paintText(painter, QRectF(bar.right() + kTick, bar.center().y() - 8, rect.right() - bar.right() - kTick, 16),
+              Qt::AlignLeft | Qt::AlignVCenter, text.without, Theme::font(TextRole::Small), theme[Token::Muted]);
   }
   painter.restore();
 }

@@ -27,8 +27,9 @@ const ColourMap& colourMap(const QString& name);
 /// What a legend says beside its colours.
 struct LegendText {
   QString title;
-  QString unit;      ///< behind the upper end
-  double scale = 1;  ///< numbers are divided by it: 1000 with "kJ/kg" for values in J/kg
+  QString unit;       ///< behind the upper end
+  double scale = 1;   ///< numbers are divided by it: 1000 with "kJ/kg" for values in J/kg
+  QString without{};  ///< in place of colours and numbers where the range has no length: "none here"
 };
 
 /// A line across the gradient, at a value in the legend's unit: {0, "melts"}.

@@ -87,7 +87,8 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
     map.stops.resize(map.classes.size());
   }
   std::pair<double, double> range = state.range;
-  const LegendText text = legendText(*state.field, range);
+  LegendText text = legendText(*state.field, range);
+  if (!(range.second > range.first)) text.without = state.without;
   std::vector<LegendMark> marks;
   double pivot = 0;
   if (state.field->name == "temperature") {
@@ -104,6 +105,7 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
   hits.legendTitle = text.title;
   hits.legendClasses = static_cast<int>(map.classes.size());
   hits.legendUnit = text.unit;
+  hits.legendWithout = map.classes.empty() ? text.without : QString();
   if (map.classes.empty()) hits.legendBar = legendBar(rect, map);
   paintLegend(painter, rect, map, range, text, marks, pivot);
 }

@@ -30,6 +30,7 @@ struct OverlayState {
   std::pair<double, double> range{0, 1};                ///< SI
   std::vector<std::pair<QString, QString>> classes;     ///< letters and names of colours that the scene names: bodies
   double meltingPoint = 273.15, boilingPoint = 373.15;  ///< K; infinite or NaN: no mark
+  QString without = QStringLiteral("none here");        ///< what the legend says where nothing has the field's values
   bool empty = false;                                   ///< no snapshot yet
   std::vector<OverlayHint> hints;                       ///< empty: no strip
   std::optional<SceneTag> tag;
@@ -49,6 +50,7 @@ struct OverlayHits {
   QRectF legend;                    ///< empty: there is none
   QRectF legendBar;                 ///< its gradient; empty where colours are classes
   QString legendTitle, legendUnit;  ///< as painted
+  QString legendWithout;            ///< what stands in place of numbers; "": there are some
   int legendClasses = 0;            ///< swatches in place of a gradient
   SectionHits section;
 };

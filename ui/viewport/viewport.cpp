@@ -242,6 +242,7 @@ OverlayState Viewport::overlayState() const {
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
   if (m_hint) state.hints = hints();
+  if (m_session.recorded().isActive()) state.without = QStringLiteral("not recorded");
   const ToolPicture picture = m_tools.tool().picture();
   state.tag = picture.tag ? picture.tag : tag();
   state.invitation = invitation();
