@@ -42,7 +42,7 @@ class TestFocus : public SampleWindowTest {
   void partsOfTheWindowAreReachedInTurn() {
     std::vector<QWidget*> parts;
     for (int k = 0; k < 12; ++k) {
-      m_window->action(QStringLiteral("view.nextPart"))->trigger();
+      m_window->action(QStringLiteral("window.nextPart"))->trigger();
       QWidget* focus = QApplication::focusWidget();
       QVERIFY(focus);
       if (focus == view()) break;
@@ -55,9 +55,9 @@ class TestFocus : public SampleWindowTest {
     QCOMPARE(QApplication::focusWidget(), static_cast<QWidget*>(view()));
     for (const Dock* dock : m_window->layoutOfDocks().docks())
       QCOMPARE(std::find(parts.begin(), parts.end(), dock) != parts.end(), dock->isVisible());
-    m_window->action(QStringLiteral("view.previousPart"))->trigger();
+    m_window->action(QStringLiteral("window.previousPart"))->trigger();
     QVERIFY(parts.back()->isAncestorOf(QApplication::focusWidget()));
-    m_window->action(QStringLiteral("view.nextPart"))->trigger();
+    m_window->action(QStringLiteral("window.nextPart"))->trigger();
     QCOMPARE(QApplication::focusWidget(), static_cast<QWidget*>(view()));
   }
 };

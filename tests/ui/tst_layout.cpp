@@ -12,6 +12,8 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
 
 using namespace ps;
@@ -61,7 +63,7 @@ class TestLayout : public QObject {
     dragBetweenLeftDocks(-60);
     resize({1280, 800});
     QVERIFY(dock("dock.materials")->isVisible() && materials()->isVisible());
-    m_window->action(QStringLiteral("view.layout"))->trigger();
+    m_window->action(QStringLiteral("window.layout"))->trigger();
     QVERIFY(!dock("dock.materials")->isVisible());
   }
 
@@ -85,6 +87,89 @@ class TestLayout : public QObject {
     }
   }
 
+  /// The menu Window hides and shows docks, and says which are in sight; what is hidden is so after a restart.
+  void docksAreHiddenAndShown() {
+    open({1600, 1000});
+    QAction* graphs = m_window->action(QStringLiteral("window.dock.graphs"));
+    const QStringList checked{QStringLiteral("window.dock.outliner"),  QStringLiteral("window.dock.materials"),
+                              QStringLiteral("window.dock.inspector"), QStringLiteral("window.dock.graphs"),
+                              QStringLiteral("window.dock.transport"), QStringLiteral("window.workspaceScene")};
+    QCOMPARE(checkedInWindowMenu(), (QStringList{checked.last()} + checked.mid(0, 5)));
+    graphs->trigger();
+    QVERIFY(!dock("dock.graphs")->isVisible());
+    QVERIFY(!graphs->isChecked());
+    m_window->showWorkspace(MainWindow::kFilmTab);
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QVERIFY(!dock("dock.graphs")->isVisible());
+    m_window->action(QStringLiteral("window.full"))->trigger();
+    QVERIFY(checkedInWindowMenu().contains(QStringLiteral("window.full")));
+    QVERIFY(!dock("dock.outliner")->isVisible());
+    m_window->action(QStringLiteral("window.full"))->trigger();
+    QVERIFY(dock("dock.outliner")->isVisible() && !dock("dock.graphs")->isVisible());
+    QVERIFY(m_window->close());
+    m_window.reset();
+    open({1600, 1000}, true);
+    QVERIFY(!dock("dock.graphs")->isVisible());
+    QVERIFY(!checkedInWindowMenu().contains(QStringLiteral("window.dock.graphs")));
+    m_window->action(QStringLiteral("window.dock.graphs"))->trigger();
+    QVERIFY(dock("dock.graphs")->isVisible());
+    m_window->action(QStringLiteral("window.dock.outliner"))->trigger();
+    QVERIFY(!dock("dock.outliner")->isVisible());
+    m_window->action(QStringLiteral("window.layout"))->trigger();
+    QVERIFY(dock("dock.outliner")->isVisible());
+  }
+
+  /// One of another workspace leads there; materials that share a dock with the outliner come to the front.
+  void docksOfOtherPlacesAreGoneTo() {
+    open({1280, 800});
+    m_window->action(QStringLiteral("window.dock.film"))->trigger();
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kFilmTab);
+    QVERIFY(dock("dock.film")->isVisible());
+    m_window->action(QStringLiteral("window.workspaceScene"))->trigger();
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+    QAction* shared = m_window->action(QStringLiteral("window.dock.materials"));
+    shared->trigger();
+    QVERIFY(materials()->isVisible() && shared->isChecked());
+    shared->trigger();
+    QVERIFY(!materials()->isVisible() && m_window->findChild<Outliner*>()->isVisible() && !shared->isChecked());
+    QVERIFY(m_window->close());
+  }
+
+  /// What stands over the picture, and its light, are chosen under View, and stay as chosen.
+  void whatTheViewShowsIsChosen() {
+    open({1280, 800});
+    Viewport* view = m_window->viewport();
+    QTRY_VERIFY(!view->overlayHits().axes.empty());
+    m_window->session().document().setColour("temperature");
+    QTRY_VERIFY(!view->overlayHits().legend.isEmpty() && !view->overlayHits().hintClose.isEmpty());
+    for (const char* off : {"view.axes", "view.legend", "view.hint", "view.outlines"})
+      m_window->action(QString::fromLatin1(off))->trigger();
+    QTRY_VERIFY(view->overlayHits().axes.empty() && view->overlayHits().legend.isEmpty());
+    QVERIFY(view->overlayHits().hintClose.isEmpty());
+    m_window->selection().select(OutlineKind::Body, m_window->session().document().project().bodies.front().id);
+    QVERIFY(!view->look().outline);
+    QVERIFY(view->look().dark);
+    m_window->action(QStringLiteral("view.studio.bright"))->trigger();
+    QVERIFY(!view->look().dark);
+    m_window->action(QStringLiteral("view.light"))->trigger();
+    m_window->action(QStringLiteral("view.studio.dark"))->trigger();
+    QVERIFY(view->look().dark);
+    m_window->action(QStringLiteral("view.studio.theme"))->trigger();
+    QVERIFY(!view->look().dark);
+    m_window->action(QStringLiteral("view.studio.dark"))->trigger();
+    QVERIFY(m_window->close());
+    m_window.reset();
+    open({1280, 800}, true);
+    view = m_window->viewport();
+    QVERIFY(view->look().dark);
+    OverlayChoice left;
+    left.axes = left.legend = left.hints = left.outlines = false;
+    QVERIFY(view->overlays() == left);
+    m_window->action(QStringLiteral("view.outlines"))->trigger();
+    m_window->selection().select(OutlineKind::Body, m_window->session().document().project().bodies.front().id);
+    QTRY_VERIFY(view->look().outline);
+  }
+
   void pagesOfOneDockComeBackAsThat() {
     open({1280, 800});
     QVERIFY(m_window->close());
@@ -105,6 +190,18 @@ class TestLayout : public QObject {
     QVERIFY(m_window);
     m_window->session().pause();
     QTest::qWait(50);
+  }
+  QStringList checkedInWindowMenu() {
+    for (QAction* menu : m_window->findChild<QMenuBar*>()->actions()) {
+      if (menu->text() != QStringLiteral("Window")) continue;
+      Q_EMIT menu->menu()->aboutToShow();
+      QStringList checked;
+      for (const QAction* action : menu->menu()->actions()) {
+        if (action->isChecked()) checked << action->objectName();
+      }
+      return checked;
+    }
+    return {};
   }
   void resize(const QSize& size) {
     m_window->resize(size);

@@ -79,7 +79,7 @@ LegendText legendText(const ParticleField& field, std::pair<double, double>& ran
 }
 
 void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
-  if (!state.field || state.empty) return;
+  if (!state.shown.legend || !state.field || state.empty) return;
   ColourMap map = colourMap(QString::fromStdString(colourMapOf(state.field->name)));
   if (!state.classes.empty()) {
     map.classes = state.classes;
@@ -333,12 +333,12 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   OverlayHits hits;
   if (state.cursor) CursorPainter(painter, state).paint(*state.cursor);
   if (state.tag) paintTag(painter, state, *state.tag);
-  paintViewLabel(painter, state);
+  if (state.shown.name) paintViewLabel(painter, state);
   if (state.section) hits.section = paintSection(painter, *state.section, {kMargin, kMargin + kLine + kPadding / 2});
-  paintScaleBar(painter, state);
+  if (state.shown.scale) paintScaleBar(painter, state);
   paintLegendOver(painter, state, hits);
   if (!state.hints.empty()) hits.hintClose = paintHint(painter, state);
-  paintBall(painter, state, hits);
+  if (state.shown.axes) paintBall(painter, state, hits);
   if (!state.invitation.isEmpty()) paintInvitation(painter, state);
   return hits;
 }

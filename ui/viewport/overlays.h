@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/render/camera.h"
 #include "ui/tools/tool.h"
+#include "ui/viewport/overlaychoice.h"
 #include "ui/viewport/sectionstrip.h"
 
 #include <QtCore/QPointF>
@@ -32,7 +33,8 @@ struct OverlayState {
   double meltingPoint = 273.15, boilingPoint = 373.15;  ///< K; infinite or NaN: no mark
   QString without = QStringLiteral("none here");        ///< what the legend says where nothing has the field's values
   bool empty = false;                                   ///< no snapshot yet
-  std::vector<OverlayHint> hints;                       ///< empty: no strip
+  OverlayChoice shown;
+  std::vector<OverlayHint> hints;  ///< empty: no strip
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;
   std::optional<SectionNote> section;

@@ -241,7 +241,8 @@ OverlayState Viewport::overlayState() const {
   state.meltingPoint = meltingPoint();
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
-  if (m_hint) state.hints = hints();
+  state.shown = m_overlays;
+  if (m_overlays.hints) state.hints = hints();
   if (m_session.recorded().isActive()) state.without = QStringLiteral("not recorded");
   const ToolPicture picture = m_tools.tool().picture();
   state.tag = picture.tag ? picture.tag : tag();
@@ -419,11 +420,6 @@ void Viewport::paintPortsOver(QPainter& painter) const {
   for (const Emitter& emitter : picture.emitters) view.hovered = Port{false, emitter.id};
   for (const Sink& sink : picture.sinks) view.hovered = Port{true, sink.id};
   paintPorts(painter, view);
-}
-
-void Viewport::setHintShown(bool on) {
-  m_hint = on;
-  update();
 }
 
 QString Viewport::summary() const {

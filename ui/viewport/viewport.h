@@ -5,6 +5,7 @@
 #include "ui/tools/navigation.h"
 #include "ui/tools/porthandles.h"
 #include "ui/viewport/legendrange.h"
+#include "ui/viewport/overlaychoice.h"
 #include "ui/viewport/overlays.h"
 
 #include <QtCore/QElapsedTimer>
@@ -47,8 +48,10 @@ class Viewport : public QOpenGLWidget {
   void frameAll();
   /// What the pointer would take hold of there, in the widget's pixels.
   std::optional<PortHandle> portHandleAt(const QPointF& position) const;
-  bool hintShown() const { return m_hint; }
-  void setHintShown(bool on);
+  const OverlayChoice& overlays() const { return m_overlays; }
+  void setOverlays(const OverlayChoice& overlays);
+  Studio studio() const { return m_studio; }
+  void setStudio(Studio studio);
   const std::optional<ViewSection>& viewSection() const { return m_section; }  ///< none: the whole scene is shown
   /// As it is seen from here.
   std::optional<Section> section() const;
@@ -184,7 +187,8 @@ class Viewport : public QOpenGLWidget {
   mutable std::optional<std::pair<Vector3, Vector3>> m_box;  ///< of all there is to see in m_now, once it was asked for
   std::pair<double, double> m_range{0, 1};
   OverlayHits m_hits;
-  bool m_hint = true;
+  OverlayChoice m_overlays;
+  Studio m_studio = Studio::AsTheme;
 
   Drag m_drag = Drag::None;
   QPointF m_pressed;

@@ -300,8 +300,10 @@ bool Viewport::cancelGesture() {
 }
 
 bool Viewport::clickOverlay(const QPointF& position) {
-  if (m_hint && m_hits.hintClose.contains(position)) {
-    setHintShown(false);
+  if (m_overlays.hints && m_hits.hintClose.contains(position)) {
+    OverlayChoice less = m_overlays;
+    less.hints = false;
+    setOverlays(less);
     return true;
   }
   if (m_hits.legend.contains(position)) {

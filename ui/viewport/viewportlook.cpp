@@ -39,15 +39,26 @@ Look Viewport::look() {
   }
   look.rangeMinimum = m_range.first;
   look.rangeMaximum = m_range.second;
-  look.dark = Theme::current().dark();
+  look.dark = m_studio == Studio::AsTheme ? Theme::current().dark() : m_studio == Studio::Dark;
   look.meltingPoint = meltingPoint();
   look.outline = outline();
   look.section = section();
   if (m_ghost)
     look.ghost = Ghost{m_ghost, channels(Theme::current()[Token::Curve]), channels(Theme::current()[Token::Field]),
                        1.5f * static_cast<float>(devicePixelRatioF())};
-  if (m_tools.tool().usesBrush()) look.guides = guideLines(m_tools.brush(), m_document.project().environment);
+  if (m_overlays.guides && m_tools.tool().usesBrush())
+    look.guides = guideLines(m_tools.brush(), m_document.project().environment);
   return look;
+}
+
+void Viewport::setOverlays(const OverlayChoice& overlays) {
+  m_overlays = overlays;
+  update();
+}
+
+void Viewport::setStudio(Studio studio) {
+  m_studio = studio;
+  update();
 }
 
 Look Viewport::shownLook() const {
@@ -60,7 +71,7 @@ Look Viewport::shownLook() const {
 
 /// Around the selected bodies, or those that take a material that is about to be dropped; two logical pixels wide.
 std::optional<BodyOutline> Viewport::outline() const {
-  if (!m_now || !m_now->bodyIds) return std::nullopt;
+  if (!m_now || !m_now->bodyIds || (!m_overlays.outlines && m_dropTarget.empty())) return std::nullopt;
   BodyOutline outline;
   const std::vector<std::string> takers = takersOf(m_document, m_selection, m_dropTarget);
   const auto takes = [&](const std::string& id) { return std::find(takers.begin(), takers.end(), id) != takers.end(); };

@@ -31,7 +31,6 @@
 #include "ui/window/editactions.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
-#include "ui/window/focuskeeper.h"
 #include "ui/window/handleactions.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
@@ -57,6 +56,7 @@
 #include "ui/window/vrmode.h"
 #include "ui/window/waysout.h"
 #include "ui/window/welcome.h"
+#include "ui/window/windowactions.h"
 
 #include <QtCore/QFileInfo>
 #include <QtCore/QMimeData>
@@ -246,17 +246,8 @@ void MainWindow::makeMenus() {
   m_favourites->addTo(sketch);
   m_pane->showFavourites(m_favourites->menu());
   if (viewport()) new MakeRealButton(*m_sketch->makeReal(), *viewport());
+  new WindowActions(*this, m_actions, bar->addMenu(QStringLiteral("Window")));
   makeHelpMenu(bar->addMenu(QStringLiteral("Help")));
-  m_actions.add(nullptr, QStringLiteral("view.workspace"), QStringLiteral("Next workspace"),
-                {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {
-                  QTabBar* tabs = m_top->workspaces();
-                  tabs->setCurrentIndex((tabs->currentIndex() + 1) % tabs->count());
-                });
-  auto* focus = new FocusKeeper(*this, viewport(), [this] { return m_layout->docks(); });
-  m_actions.add(nullptr, QStringLiteral("view.nextPart"), QStringLiteral("Keys to the next panel"),
-                {QKeySequence(QStringLiteral("F6"))}, [focus] { focus->step(true); });
-  m_actions.add(nullptr, QStringLiteral("view.previousPart"), QStringLiteral("Keys to the panel before"),
-                {QKeySequence(QStringLiteral("Shift+F6"))}, [focus] { focus->step(false); });
 }
 
 void MainWindow::makeSimulationMenu(QMenu* menu) {

@@ -54,7 +54,7 @@ QString whyNot(const QAction& action, bool ready) {
       {"edit.redo", "Nothing to redo"},
       {"sketch.real", "Nothing is held"},
       {"view.section", "Nothing is cut open: press X"},
-      {"view.full", "The welcome page is shown"},
+      {"window.full", "The welcome page is shown"},
       {"file.restore", "No unsaved work waits"},
       {"file.removeState", "The project holds no saved state"},
       {"simulation.state", "The project holds no saved state"},

@@ -99,7 +99,7 @@ const std::vector<DockRow>& dockTable() {
                                            {"dock.materials", "Materials", "", {Scene}},
                                            {"dock.inspector", "Inspector", "Material", {Scene}},
                                            {"dock.graphs", "Graphs", "", {Scene, Tune}},
-                                           {"dock.transport", "Transport", "", {Scene, Tune, Film}},
+                                           {"dock.transport", "Timeline", "", {Scene, Tune, Film}},
                                            {"dock.responses", "Responses", "", {Tune}},
                                            {"dock.curve", "Curve", "", {Tune}},
                                            {"dock.points", "Points", "", {Tune}},

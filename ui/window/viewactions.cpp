@@ -45,15 +45,48 @@ void ViewActions::makeMenu(QMenu* menu) {
   addColours(colours);
   QObject::connect(&m_session, &Session::ready, colours, [this, colours] { addColours(colours); });
   makeSection(menu->addMenu(QStringLiteral("Section")));
+  makeShow(menu->addMenu(QStringLiteral("Show")));
+  makeLight(menu->addMenu(QStringLiteral("Light")));
   menu->addSeparator();
   makeThemes(menu);
-  menu->addSeparator();
-  m_actions.add(menu, QStringLiteral("view.full"), QStringLiteral("Full viewport"),
-                {QKeySequence(QStringLiteral("F11"))}, [this] { m_layout.setFullViewport(!m_layout.fullViewport()); });
-  m_actions.add(menu, QStringLiteral("view.layout"), QStringLiteral("Default layout"), {},
-                [this] { m_layout.applyDefault(); });
-  m_actions.add(menu, QStringLiteral("view.hint"), QStringLiteral("Show hints"), {},
-                viewAct([](Viewport& v) { v.setHintShown(!v.hintShown()); }));
+}
+
+/// What stands over the picture.
+void ViewActions::makeShow(QMenu* menu) {
+  const auto nameOf = [](const OverlayRow& row) { return QStringLiteral("view.") + QLatin1String(row.key); };
+  for (const OverlayRow& row : kOverlayRows) {
+    QAction* action = m_actions.add(menu, nameOf(row), QString::fromLatin1(row.label), {}, [this, on = row.on] {
+      if (!m_view) return;
+      OverlayChoice shown = m_view->overlays();
+      shown.*on = !(shown.*on);
+      m_view->setOverlays(shown);
+    });
+    action->setProperty(kWords, QString::fromLatin1(row.words));
+    action->setCheckable(true);
+  }
+  const auto follow = [this, nameOf] {
+    for (const OverlayRow& row : kOverlayRows)
+      m_actions.find(nameOf(row))->setChecked(m_view && m_view->overlays().*row.on);
+  };
+  QObject::connect(menu, &QMenu::aboutToShow, menu, follow);
+}
+
+/// Whose light falls on the scene, whatever theme the window has.
+void ViewActions::makeLight(QMenu* menu) {
+  const auto nameOf = [](const StudioRow& row) { return QStringLiteral("view.studio.") + QLatin1String(row.key); };
+  auto* studios = new QActionGroup(&m_actions.window());
+  for (const StudioRow& row : kStudioRows) {
+    QAction* action = m_actions.add(menu, nameOf(row), QString::fromLatin1(row.label), {}, [this, studio = row.studio] {
+      if (m_view) m_view->setStudio(studio);
+    });
+    action->setProperty(kWords, QStringLiteral("light background backdrop"));
+    action->setCheckable(true);
+    studios->addAction(action);
+  }
+  QObject::connect(menu, &QMenu::aboutToShow, menu, [this, nameOf] {
+    for (const StudioRow& row : kStudioRows)
+      m_actions.find(nameOf(row))->setChecked(m_view && m_view->studio() == row.studio);
+  });
 }
 
 /// What only acts on a section is enabled while there is one.

@@ -23,6 +23,8 @@ class ViewActions {
 
  private:
   void makeSection(QMenu* menu);
+  void makeShow(QMenu* menu);
+  void makeLight(QMenu* menu);
   void makeThemes(QMenu* menu);
   /// Matter and the fields that have no entry yet.
   void addColours(QMenu* menu);

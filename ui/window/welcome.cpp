@@ -148,7 +148,7 @@ void Welcome::onPage() {
   m_bare = bare;
   m_parts.layout.setFullViewport(bare);
   m_parts.top.workspaces()->setVisible(!bare);
-  m_parts.actions.find(QStringLiteral("view.full"))->setEnabled(!bare);
+  m_parts.actions.find(QStringLiteral("window.full"))->setEnabled(!bare);
 }
 
 void Welcome::showOffer() {

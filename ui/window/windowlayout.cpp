@@ -23,9 +23,9 @@ namespace {
 
 constexpr const char* kTheme = "look/dark";
 constexpr const char* kGeometry = "window/geometry";
-constexpr const char* kHint = "view/hint";
+constexpr const char* kStudio = "view/studio";
 constexpr const char *kSize = "window/size", *kOwn = "window/own", *kJoined = "window/joined";
-const QString kMaterials = QStringLiteral("Materials");
+const QString kOutliner = QStringLiteral("Outliner"), kMaterials = QStringLiteral("Materials");
 constexpr std::pair<Workspace, const char*> kStates[] = {
     {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
 constexpr int kStateVersion = 4;
@@ -43,6 +43,25 @@ constexpr Column kColumns[] = {{0, true, 204, 352, 270, 140, 182, 400, 150, 400}
 const Column& columnOf(int width) {
   return *std::find_if(std::rbegin(kColumns), std::rend(kColumns) - 1,
                        [width](const Column& column) { return width >= column.from; });
+}
+
+QString keyOf(const OverlayRow& row) { return QStringLiteral("view/") + QLatin1String(row.key); }
+
+void restoreView(Viewport& view, const QSettings& settings) {
+  OverlayChoice shown;
+  for (const OverlayRow& row : kOverlayRows) shown.*row.on = settings.value(keyOf(row), shown.*row.on).toBool();
+  view.setOverlays(shown);
+  const QString studio = settings.value(QLatin1String(kStudio)).toString();
+  for (const StudioRow& row : kStudioRows) {
+    if (studio == QLatin1String(row.key)) view.setStudio(row.studio);
+  }
+}
+
+void saveView(const Viewport& view, QSettings& settings) {
+  for (const OverlayRow& row : kOverlayRows) settings.setValue(keyOf(row), view.overlays().*row.on);
+  for (const StudioRow& row : kStudioRows) {
+    if (view.studio() == row.studio) settings.setValue(QLatin1String(kStudio), QLatin1String(row.key));
+  }
 }
 
 }  // namespace
@@ -98,6 +117,23 @@ void WindowLayout::showPage(const QString& title) {
     holder->showPage(title);
   else
     holder->choosePage(title);  // to show and hide it would leave the window as wide as both together
+}
+
+bool WindowLayout::isShown(size_t dock) const {
+  if (m_joined && m_docks[dock] == m_docks[1])
+    return m_docks[0]->isVisibleTo(&m_window) && m_docks[0]->currentPage() == kMaterials;
+  return m_docks[dock]->isVisibleTo(&m_window);
+}
+
+void WindowLayout::setDockShown(size_t dock, bool on) {
+  setFullViewport(false);
+  setOwn();
+  if (m_joined && m_docks[dock] == m_docks[1]) {
+    m_docks[0]->setVisible(true);
+    m_docks[0]->choosePage(on ? kMaterials : kOutliner);
+  } else {
+    m_docks[dock]->setVisible(on);
+  }
 }
 
 void WindowLayout::setPageTitle(const QString& title, const QString& shown) {
@@ -286,7 +322,7 @@ void WindowLayout::restore() {
   for (const auto& [workspace, key] : kStates) {
     if (workspace != Workspace::Scene) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
   }
-  if (m_view) m_view->setHintShown(settings.value(QLatin1String(kHint), true).toBool());
+  if (m_view) restoreView(*m_view, settings);
 }
 
 void WindowLayout::save() const {
@@ -301,7 +337,7 @@ void WindowLayout::save() const {
   settings.setValue(QLatin1String(kOwn), m_own);
   settings.setValue(QLatin1String(kJoined), m_joined);
   for (const auto& [workspace, key] : kStates) settings.setValue(QLatin1String(key), states[workspace]);
-  if (m_view) settings.setValue(QLatin1String(kHint), m_view->hintShown());
+  if (m_view) saveView(*m_view, settings);
 }
 
 void WindowLayout::setDark(bool dark) {

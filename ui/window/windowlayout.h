@@ -33,6 +33,10 @@ class WindowLayout : public QObject {
   const std::vector<Dock*>& docks() const { return m_docks; }
   Dock* dockOf(const QString& page) const;  ///< by its title; nullptr: there is none
   void showPage(const QString& title);      ///< of whichever dock has it, in sight where the workspace shows that dock
+  /// Of docks(), by its number: whether this workspace shows it now. Materials that are a page of the outliner's dock
+  /// are shown where that page is.
+  bool isShown(size_t dock) const;
+  void setDockShown(size_t dock, bool on);  ///< as somebody wants it: see setOwn()
   Workspace workspace() const { return m_workspace; }
   /// Shows its docks as they were left, or as they are by default.
   void setWorkspace(Workspace workspace);
