@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where keys go when what had them is gone, and the way through the window without a mouse.
 #include "tests/ui/samplewindow.h"
+#include "ui/panels/outliner.h"
 #include "ui/window/dock.h"
 #include "ui/window/windowlayout.h"
 
 #include <QtGui/QAction>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QTreeView>
 
 #include <algorithm>
 
@@ -37,6 +41,61 @@ class TestFocus : public SampleWindowTest {
     QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(2).center());
     QTest::qWait(50);
     QCOMPARE(QApplication::focusWidget(), tabs);
+  }
+
+  /// However the naming ends, and whatever the keys were on before.
+  void aRenamedRowLeavesTheKeysInTheOutliner_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<bool>("byHand");  // Tab came before
+    for (const bool byHand : {false, true}) {
+      const QByteArray after = byHand ? ", after Tab" : "";
+      QTest::newRow("Enter" + after) << static_cast<int>(Qt::Key_Return) << byHand;
+      QTest::newRow("Escape" + after) << static_cast<int>(Qt::Key_Escape) << byHand;
+      QTest::newRow("Tab" + after) << static_cast<int>(Qt::Key_Tab) << byHand;
+    }
+  }
+  void aRenamedRowLeavesTheKeysInTheOutliner() {
+    QFETCH(int, key);
+    QFETCH(bool, byHand);
+    m_window->layoutOfDocks().showPage(QStringLiteral("Outliner"));
+    m_window->selection().select(OutlineKind::Body, document().project().bodies.front().id);
+    auto* tree = m_window->outliner()->findChild<QTreeView*>();
+    tree->setFocus();
+    if (byHand) {
+      QTest::keyClick(tree, Qt::Key_Backtab);
+      tree->setFocus();
+    }
+    m_window->action(QStringLiteral("edit.rename"))->trigger();
+    auto* name = tree->viewport()->findChild<QLineEdit*>();
+    QVERIFY(name);
+    QTRY_VERIFY(name->hasFocus());
+    name->setText(QStringLiteral("named by %1").arg(QString::fromLatin1(QTest::currentDataTag())));
+    QTest::keyClick(name, static_cast<Qt::Key>(key));
+    QTRY_VERIFY(!tree->viewport()->findChild<QLineEdit*>());
+    QTest::qWait(50);
+    QVERIFY2(tree->hasFocus(),
+             QApplication::focusWidget() ? QApplication::focusWidget()->metaObject()->className() : "none");
+  }
+
+  /// The brush that a click takes is for the view, and so are the keys that follow.
+  void aBrushThatIsChosenLeavesTheKeysInTheView() {
+    m_window->showWorkspace(MainWindow::kSketchTab);
+    const auto leave = [this] {
+      m_window->layoutOfDocks().dock(QStringLiteral("dock.inspector"))->firstStop()->setFocus();
+      QVERIFY(!view()->hasFocus());
+    };
+    leave();
+    m_window->action(QStringLiteral("sketch.shape.cube"))->trigger();
+    QTRY_VERIFY(view()->hasFocus());
+    leave();
+    const auto buttons = m_window->findChildren<QAbstractButton*>();
+    const auto sphere = std::find_if(buttons.begin(), buttons.end(), [](const QAbstractButton* button) {
+      return button->property("shape").toString() == QStringLiteral("sphere");
+    });
+    QVERIFY(sphere != buttons.end());
+    QTest::mouseClick(*sphere, Qt::LeftButton);
+    QTRY_VERIFY(view()->hasFocus());
+    m_window->showWorkspace(MainWindow::kSceneTab);
   }
 
   void partsOfTheWindowAreReachedInTurn() {

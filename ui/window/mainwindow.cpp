@@ -361,6 +361,7 @@ void MainWindow::connectParts() {
   connect(save, &QToolButton::clicked, m_files, &FileActions::exportCsv);
   Viewport* view = viewport();
   if (!view) return;
+  connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });
   connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { m_views->openViewMenu(global); });
   connect(view, &Viewport::glFailed, this, [this](const QString& problem) {
     m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem);

@@ -131,6 +131,7 @@ void SketchActions::addBrushes() {
                       QStringLiteral("Brush shape: %1").arg(pluginLabel(plugins, id)), keysOf(id), [this, id] {
                         if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
                         m_tools.takeBrush(id);
+                        Q_EMIT shapeTaken();
                       });
     action->setProperty(kWords, QString::fromStdString(id));
   }

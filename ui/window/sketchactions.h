@@ -18,6 +18,7 @@ class Toolbox;
 
 /// The menu Sketch: a row for each tool of the table, and for each brush that is installed.
 class SketchActions : public QObject {
+  Q_OBJECT
  public:
   SketchActions(Session& session, Toolbox& tools, const Actions& actions)
       : m_session(session), m_tools(tools), m_actions(actions) {}
@@ -26,6 +27,9 @@ class SketchActions : public QObject {
   void addGravity(QMenu* menu);
 
   QAction* makeReal() const { return m_makeReal; }  ///< enabled while something is held
+
+ Q_SIGNALS:
+  void shapeTaken();  ///< a brush was chosen by its name
 
  private:
   void addHolding(QMenu* menu);

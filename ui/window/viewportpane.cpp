@@ -217,10 +217,14 @@ void ViewportPane::makeBrushBar() {
   m_shapeMenu->setPopupMode(QToolButton::InstantPopup);
   m_shapeMenu->setFocusPolicy(Qt::TabFocus);
   brush->addWidget(m_shapeMenu);
-  connect(m_shapes, &QButtonGroup::buttonClicked, this,
-          [this](const QAbstractButton* button) { chooseShape(button->property(kShape).toString()); });
-  connect(m_shapeActions, &QActionGroup::triggered, this,
-          [this](const QAction* action) { chooseShape(action->data().toString()); });
+  connect(m_shapes, &QButtonGroup::buttonClicked, this, [this](const QAbstractButton* button) {
+    if (m_viewport && !button->hasFocus()) m_viewport->setFocus(Qt::OtherFocusReason);
+    chooseShape(button->property(kShape).toString());
+  });
+  connect(m_shapeActions, &QActionGroup::triggered, this, [this](const QAction* action) {
+    if (m_viewport) m_viewport->setFocus(Qt::OtherFocusReason);
+    chooseShape(action->data().toString());
+  });
   m_sizeLabel->setProperty("role", "muted");
   brush->addSpacing(8);
   brush->addWidget(m_sizeLabel);
