@@ -171,7 +171,7 @@ void paintMark(QPainter& painter, const QRectF& rect, const Scale& scale, const 
             Qt::AlignLeft | Qt::AlignVCenter, number, font, theme[Token::Text]);
   const double x = left + kMark + textWidth(number, font) + kMarkGap;
   paintText(painter, QRectF(x, at.text - 8, rect.right() - x - 4, 16), Qt::AlignLeft | Qt::AlignVCenter, at.mark->label,
-            font, theme[Token::Muted]);
+            font, theme[Token::Text2]);
 }
 
 void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const LegendText& words,
@@ -201,7 +201,7 @@ void paintTicks(QPainter& painter, const QRectF& rect, const Scale& scale, const
     paintText(painter, QRectF(scale.bar.left(), rect.bottom() - kFoot - 2, rect.width() - 2 * kMargin, kFoot),
               Qt::AlignLeft | Qt::AlignVCenter,
               arrow + markNumber(mark.value, step, words.scale) + QLatin1Char(' ') + mark.label, font,
-              theme[Token::Muted]);
+              theme[Token::Text2]);
   }
   for (double value = std::ceil(scale.range.first / step) * step; value < scale.range.second; value += step) {
     if (ladder.reserve(scale.y(value)))
@@ -296,7 +296,7 @@ void paintLegend(QPainter& painter, const QRectF& rect, const ColourMap& map, st
     painter.fillPath(path, theme[Token::Field]);
     painter.strokePath(path, QPen(theme[Token::Line2], 1));
     paintText(painter, QRectF(bar.right() + kTick, bar.center().y() - 8, rect.right() - bar.right() - kTick, 16),
-              Qt::AlignLeft | Qt::AlignVCenter, text.without, Theme::font(TextRole::Small), theme[Token::Muted]);
+              Qt::AlignLeft | Qt::AlignVCenter, text.without, Theme::font(TextRole::Small), theme[Token::Text2]);
   }
   painter.restore();
 }

@@ -139,7 +139,7 @@ QRectF paintHint(QPainter& painter, const OverlayState& state) {
     x += w + 2 * kPadding - 3;
   }
   const QRectF button(x - kPadding / 2, rect.top() + 4, textWidth(close, font) + kPadding, rect.height() - 8);
-  paintText(painter, button, Qt::AlignCenter, close, font, theme[Token::Muted]);
+  paintText(painter, button, Qt::AlignCenter, close, font, theme[Token::Text2]);
   return button;
 }
 
