@@ -56,7 +56,7 @@ class TestRecordedView : public SampleWindowTest {
     }
     QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
     QVERIFY(!session().recorded().isActive());
-    transport().setDuration(0.4);  // a frame is then some fifty pixels wide
+    transport().setDuration(0.4);  // a frame is then some thirty pixels wide
   }
 
   void aDragShowsWhatWasRecorded() {
