@@ -38,10 +38,13 @@ inline void branchAt(MainWindow& window, uint64_t frame, uint64_t until) {
   const size_t runs = session.recorded().earlier().size();
   scrubTo(*window.transport(), frame);
   QTRY_COMPARE_WITH_TIMEOUT(session.snapshot()->stats.frame, frame, kLong);
+  const double speed = session.recorded().speed();
+  session.setSpeed(0.02);  // one frame before it is paused again, not as many as come without being kept
   QTest::mouseClick(window.transport()->continueButton(), Qt::LeftButton);
   QTRY_COMPARE_WITH_TIMEOUT(session.recorded().earlier().size(), runs + 1, kLong);
   QTRY_VERIFY_WITH_TIMEOUT(!session.recorded().isActive(), kLong);  // the window has heard of it
   session.pause();
+  session.setSpeed(speed);
   hashNow(session);  // the frame that it was at is done
   while (session.newest()->stats.frame < until) {
     stepKept(session);
