@@ -46,6 +46,7 @@ class TestContentWindow : public SampleWindowTest {
 
   void anInstalledMaterialIsAddedAndDrawn() {
     auto* panel = m_window->findChild<MaterialsPanel*>();
+    m_window->layoutOfDocks().showPage(QStringLiteral("Materials"));
     const QRect tile = panel->tileOf("wax");
     QVERIFY(!tile.isEmpty() && panel->rect().contains(tile));
     QTest::mouseClick(panel, Qt::LeftButton, {}, tile.center());
