@@ -43,7 +43,7 @@ class TestShareWindow : public SampleWindowTest {
     QSignalSpy done(&session().work(), &RunWork::done);
     m_window->action(QStringLiteral("file.share"))->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(done.count(), 1, kLong);
-    QVERIFY2(done.front().at(1).toString().contains(QStringLiteral("ends after 30 frames")),
+    QVERIFY2(done.front().at(1).toString().contains(QStringLiteral("after 30 frames")),
              qPrintable(done.front().at(1).toString()));
     const Project copy = loadProject(m_copy.toStdString(), *session().plugins()).project;
     QVERIFY(copy.end && copy.end->frame == 30);

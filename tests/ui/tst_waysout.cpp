@@ -243,7 +243,7 @@ class TestWaysOut : public SampleWindowTest {
     StatusLine* line = m_window->statusLine();
     session().play();
     QTRY_VERIFY_WITH_TIMEOUT(
-        line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("note on Wood: Young's modulus")), kLong);
+        line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("note on Wood: Young's modulus")), 4 * kLong);
     session().pause();
     for (const auto tab : {MainWindow::kSceneTab, MainWindow::kTuneTab, MainWindow::kSketchTab}) {
       m_window->showWorkspace(tab);

@@ -366,7 +366,8 @@ void TestCli::statesThatDoNotFitAreTold() {
       cli({"simulate", kept, "--frames", "1", "--set", "bodies/ice/shape/box/size=[0.14, 0.1, 0.1]", "--report", r});
   QCOMPARE(ran.code, 0);
   const QString says =
-      "/state: the state is of another scene: the body 'ice' has another shape by now; the scene opens at its start";
+      "/state: the state is of another scene: the body 'Ice block' has another shape by now; the scene opens at its "
+      "start";
   QCOMPARE(QString::fromUtf8(ran.err), "warning: " + kept + ":" + says + "\n");
   QCOMPARE(jsonFile(r)["warnings"][0].get<std::string>(), (kept + ":" + says).toStdString());
   QCOMPARE(jsonFile(r)["frames"].get<int>(), 1);
@@ -381,7 +382,8 @@ void TestCli::statesThatDoNotFitAreTold() {
   };
   ran = validated([](nlohmann::json& state) { state["bodies"][0]["id"] = "snow"; });
   QCOMPARE(ran.code, 0);
-  QVERIFY2(ran.err.contains("/state: the state is of another scene: the body 'ice' came later"), ran.err.constData());
+  QVERIFY2(ran.err.contains("/state: the state is of another scene: the body 'Ice block' came later"),
+           ran.err.constData());
   ran = validated([](nlohmann::json& state) { state["blocks"][0]["data"] = "AAAA"; });
   QCOMPARE(ran.code, 2);
   QVERIFY2(ran.err.startsWith((odd + ":/state/blocks/0/data: the block 'clock/frames' is no zstd frame").toUtf8()),

@@ -144,7 +144,7 @@ class TestProjectState : public QObject {
     QTest::newRow("no ice") << "bodies=[]"
                             << "/state: the state is of another scene: the body 'ice' has gone;";
     QTest::newRow("more") << R"(bodies/ice/id="snow")"
-                          << "/state: the state is of another scene: the body 'snow' came later;";
+                          << "/state: the state is of another scene: the body 'ice' came later;";
     QTest::newRow("no tap") << "emitters=[]"
                             << "/state: the state has matter of 'tap', which has gone; the scene opens at its start";
     QTest::newRow("cold") << R"(solver/thermal={"model": ""})"
