@@ -67,15 +67,16 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
     const bool begins = words.isEmpty() || entry.title.startsWith(joined, Qt::CaseInsensitive);
     const bool another = entry.words.split(QLatin1Char(' ')).contains(joined, Qt::CaseInsensitive);
     const bool asTyped = all.contains(joined, Qt::CaseInsensitive);
+    // Help has many words: where they only all occur somewhere, even what would replace the scene comes before.
     const int rank = !entry.whyNot.isEmpty()        ? 8
                      : is                           ? 0
                      : begins                       ? 1
-                     : entry.replaces               ? 7
+                     : entry.replaces               ? 6
                      : inTitle(QStringLiteral(" ")) ? 2
                      : another                      ? 3
                      : inTitle({})                  ? 4
                      : asTyped                      ? 5
-                                                    : 6;
+                                                    : 7;
     found.emplace_back(rank, i);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
