@@ -48,8 +48,7 @@ class VrCupTest : public CupStory<VrWindowTest> {
   QImage eye(bool isRight) {
     const auto names = m_run->texts("picture");
     for (auto name = names.rbegin(); name != names.rend(); ++name)
-      if (name->ends_with(isRight ? "-right.png" : "-left.png"))
-        return QImage(QString::fromStdString(*name));
+      if (name->ends_with(isRight ? "-right.png" : "-left.png")) return QImage(QString::fromStdString(*name));
     return {};
   }
 
