@@ -7,11 +7,22 @@
 #include <phasesketch/thin.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 namespace ps {
 namespace {
+
+/// The choices in the order of kBecomings.
+enum Choice : size_t { kOfItself, kRigid, kBonded, kSoft, kCloth, kRope };
+
+std::string_view nameOf(Choice choice) {
+  std::string_view rest = kBecomings;
+  for (size_t before = 0; before < choice; ++before) rest.remove_prefix(rest.find('|') + 1);
+  return rest.substr(0, rest.find('|'));
+}
 
 /// A property at `temperature` K; nullopt of what has none.
 std::optional<double> propertyOf(const Project& project, const PluginRegistry& plugins, const std::string& material,
@@ -31,23 +42,24 @@ bool isSolid(const Project& project, const PluginRegistry& plugins, const std::s
 bool makes(const PluginRegistry& plugins, const std::string& id, const std::string& becoming) {
   const api::ConstraintPlugin* plugin = plugins.constraint(id);
   if (!plugin) return false;
-  if (becoming == "bonded") return plugin->extension(api::kHoldsFrozen) != nullptr;
-  if (becoming == "cloth") return plugin->extension(api::kHoldsSheets) != nullptr;
-  if (becoming == "rope") return plugin->extension(api::kHoldsLines) != nullptr;
+  if (becoming == nameOf(kBonded)) return plugin->extension(api::kHoldsFrozen) != nullptr;
+  if (becoming == nameOf(kCloth)) return plugin->extension(api::kHoldsSheets) != nullptr;
+  if (becoming == nameOf(kRope)) return plugin->extension(api::kHoldsLines) != nullptr;
   const auto form = plugins.constraintForm(id);
   const auto* group = form ? std::get_if<const api::GroupPlugin*>(&*form) : nullptr;
   api::GroupTraits traits;
   if (!group || !(*group)->traits(&traits) || traits.thin != 0) return false;
-  return becoming == (traits.rigid != 0 ? "rigid" : "soft");
+  return becoming == nameOf(traits.rigid != 0 ? kRigid : kSoft);
 }
 
 bool needsStructure(const std::string& becoming) {
-  return becoming == "rigid" || becoming == "bonded" || becoming == "soft" || becoming == "cloth" || becoming == "rope";
+  return std::ranges::any_of(std::array{kRigid, kBonded, kSoft, kCloth, kRope},
+                             [&](Choice choice) { return becoming == nameOf(choice); });
 }
 
 /// The first by id; "" where none is installed.
 std::string structureFor(const PluginRegistry& plugins, const std::string& becoming) {
-  if (becoming == "bonded") return frozenStructure(plugins);
+  if (becoming == nameOf(kBonded)) return frozenStructure(plugins);
   const std::vector<std::string> ids = plugins.ids(PluginKind::Constraint);
   const auto found =
       std::find_if(ids.begin(), ids.end(), [&](const std::string& id) { return makes(plugins, id, becoming); });
@@ -77,15 +89,14 @@ std::string ownBecoming(const Project& project, const PluginRegistry& plugins, c
   const double stiffness = propertyOf(project, plugins, material, "youngs_modulus", temperature).value_or(0);
   const bool staysSolid = isSolid(project, plugins, material, temperature + kStandsBelowMelting);
   const bool stands = stiffness >= kStandsFrom && staysSolid && !isForThin(project, plugins, material);
-  return stands && !structureFor(plugins, "rigid").empty() ? "rigid" : "bonded";
+  const std::string rigid(nameOf(kRigid));
+  return stands && !structureFor(plugins, rigid).empty() ? rigid : std::string(nameOf(kBonded));
 }
 
 QString whyNotBecome(const PluginRegistry& plugins, const std::string& becoming) {
   if (!needsStructure(becoming) || !structureFor(plugins, becoming).empty()) return {};
   return QStringLiteral("No plugin is installed that makes what is drawn %1. Choose another row under “Becomes”.")
-      .arg(becoming == "cloth"  ? QStringLiteral("cloth")
-           : becoming == "rope" ? QStringLiteral("a rope")
-                                : QString::fromStdString(becoming));
+      .arg((becoming == nameOf(kRope) ? QStringLiteral("a ") : QString()) + QString::fromStdString(becoming));
 }
 
 void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,

@@ -51,7 +51,7 @@ constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ellipsoid", "ball sphere"},
                                 {Kind::Torus, "Torus", "ring doughnut"},
                                 {Kind::Tube, "Tube", "pipe"},
                                 {Kind::Bowl, "Bowl", "cup"},
-                                {Kind::Sheet, "Sheet", "cloth"},
+                                {Kind::Sheet, "Sheet", "cloth fabric"},
                                 {Kind::Rope, "Rope"}};
 
 /// As the parameter of solids calls it.
