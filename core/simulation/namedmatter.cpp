@@ -149,8 +149,7 @@ void NamedMatter::putBack(Engine& engine, Entry& entry) {
   entry.extracted.clear();
 }
 
-void NamedMatter::apply(Engine& engine, const AddCells& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const AddCells& command) {
   finishHands(engine);
   const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette);
   if (command.key == 0) return;
@@ -158,8 +157,7 @@ void NamedMatter::apply(Engine& engine, const AddCells& command) {
   entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());
 }
 
-void NamedMatter::apply(Engine& engine, const TakeCells& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const TakeCells& command) {
   const std::vector<uint32_t> ids = sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared);
   Entry& entry = m_entries[command.key];
   entry.afterStart = engine.solver().frame() > 0;
@@ -167,8 +165,7 @@ void NamedMatter::apply(Engine& engine, const TakeCells& command) {
   extract(engine, entry, ids);
 }
 
-void NamedMatter::apply(Engine& engine, const TakeBody& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const TakeBody& command) {
   const ParticleStore& store = engine.particles();
   Entry& entry = m_entries[command.key];
   entry = {};
@@ -176,8 +173,7 @@ void NamedMatter::apply(Engine& engine, const TakeBody& command) {
   extract(engine, entry, entry.ids);
 }
 
-void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const TakeMatter& command) {
   const auto found = m_entries.find(command.key);
   if (found != m_entries.end()) {  // it may have taken nothing: what stands there by now is none of its
     extract(engine, found->second, found->second.ids);
@@ -186,13 +182,12 @@ void NamedMatter::apply(Engine& engine, const TakeMatter& command) {
   }
 }
 
-void NamedMatter::apply(Engine& engine, const PutBack& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const PutBack& command) {
   if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
     putBack(engine, found->second);
     return;
   }
-  for (const AddCells& cells : command.cells) apply(engine, cells);
+  for (const AddCells& cells : command.cells) obey(engine, cells);
 }
 
 /// In their order; what has been done moves over.
@@ -235,8 +230,7 @@ void NamedMatter::redoTies(Engine& engine, Entry& entry) {
   entry.untied.clear();
 }
 
-void NamedMatter::apply(Engine& engine, const PaintCells& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const PaintCells& command) {
   std::vector<Coat> coats{
       {sparing(engine, engine.particlesIn(command.lattice, command.cells), command.spared), command.material}};
   std::vector<Coat> painted;
@@ -247,8 +241,7 @@ void NamedMatter::apply(Engine& engine, const PaintCells& command) {
   entry.painted.push_back(std::move(painted[0]));
 }
 
-void NamedMatter::apply(Engine& engine, const NameMatter& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const NameMatter& command) {
   std::vector<uint32_t> ids = ofBody(engine, engine.particlesIn(command.lattice, command.cells), command.body);
   Entry& entry = m_entries[command.key];
   if (!command.paintedFrom.empty()) {
@@ -259,8 +252,7 @@ void NamedMatter::apply(Engine& engine, const NameMatter& command) {
   entry.ids = std::move(ids);
 }
 
-void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const ReturnBody& command) {
   if (const auto found = m_entries.find(command.key); found != m_entries.end()) {
     putBack(engine, found->second);
     return;
@@ -270,11 +262,10 @@ void NamedMatter::apply(Engine& engine, const ReturnBody& command) {
   std::vector<uint32_t> ids = engine.addBody(*command.body);
   Entry& entry = m_entries[command.key] = {};
   entry.ids = std::move(ids);
-  for (const NameMatter& named : command.named) apply(engine, named);
+  for (const NameMatter& named : command.named) obey(engine, named);
 }
 
-void NamedMatter::apply(Engine&, const ForgetMatter& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine&, const ForgetMatter& command) {
   for (const MatterKey key : command.keys) {
     const auto found = m_entries.find(key);
     if (found == m_entries.end()) continue;
@@ -283,8 +274,7 @@ void NamedMatter::apply(Engine&, const ForgetMatter& command) {
   }
 }
 
-void NamedMatter::apply(Engine& engine, const TouchMatter& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const TouchMatter& command) {
   Hand::require(command, engine);
   Entry& entry = m_entries[command.key];
   if (!entry.hand) entry.hand.emplace();
@@ -292,8 +282,7 @@ void NamedMatter::apply(Engine& engine, const TouchMatter& command) {
   if (entry.hand->isGone()) entry.hand.reset();
 }
 
-void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const UndoTouch& command) {
   const auto found = m_entries.find(command.key);
   if (found == m_entries.end()) return;
   Entry& entry = found->second;
@@ -305,8 +294,7 @@ void NamedMatter::apply(Engine& engine, const UndoTouch& command) {
   paint(engine, entry.before, entry.stripped);
 }
 
-void NamedMatter::apply(Engine& engine, const RedoTouch& command) {
-  m_bytes.reset();
+void NamedMatter::obey(Engine& engine, const RedoTouch& command) {
   const auto found = m_entries.find(command.key);
   if (found == m_entries.end()) return;
   found->second.heat = giveHeat(engine, found->second.taken);

@@ -38,20 +38,26 @@ class NamedMatter {
   std::vector<MatterKey> hands() const;
   /// What hands do in a frame, before it.
   void act(Engine& engine);
-  void apply(Engine& engine, const AddCells& command);
-  void apply(Engine& engine, const TakeCells& command);
-  void apply(Engine& engine, const TakeBody& command);
-  void apply(Engine& engine, const TakeMatter& command);
-  void apply(Engine& engine, const PutBack& command);
-  void apply(Engine& engine, const PaintCells& command);
-  void apply(Engine& engine, const NameMatter& command);
-  void apply(Engine& engine, const ReturnBody& command);
-  void apply(Engine& engine, const ForgetMatter& command);
-  void apply(Engine& engine, const TouchMatter& command);
-  void apply(Engine& engine, const UndoTouch& command);
-  void apply(Engine& engine, const RedoTouch& command);
+  /// Does what a command that names matter says.
+  template <class Command, class Self = NamedMatter>
+  auto apply(Engine& engine, const Command& command) -> decltype(std::declval<Self&>().obey(engine, command)) {
+    m_bytes.reset();
+    obey(engine, command);
+  }
 
  private:
+  void obey(Engine& engine, const AddCells& command);
+  void obey(Engine& engine, const TakeCells& command);
+  void obey(Engine& engine, const TakeBody& command);
+  void obey(Engine& engine, const TakeMatter& command);
+  void obey(Engine& engine, const PutBack& command);
+  void obey(Engine& engine, const PaintCells& command);
+  void obey(Engine& engine, const NameMatter& command);
+  void obey(Engine& engine, const ReturnBody& command);
+  void obey(Engine& engine, const ForgetMatter& command);
+  void obey(Engine& engine, const TouchMatter& command);
+  void obey(Engine& engine, const UndoTouch& command);
+  void obey(Engine& engine, const RedoTouch& command);
   /// Particles, the material that they become or the colour that they get, and what they were while they are so.
   struct Coat {
     std::vector<uint32_t> ids;
