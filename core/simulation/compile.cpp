@@ -252,7 +252,7 @@ Material compileMaterial(const Project& project, const SceneMaterial& source, co
     material = *installed;
   } else if (const EvaluatedMaterial* last = lastOf(source, evaluated)) {
     if (last->parameters != source.parameters) {
-      throw PluginError("the material '" + (source.label.empty() ? source.id : source.label) + "': '" + source.base +
+      throw PluginError("the material '" + shownName(source) + "': '" + source.base +
                         "' failed while it ran, so its parameters stay as they were; start the program again");
     }
     material = last->material;
@@ -264,8 +264,7 @@ Material compileMaterial(const Project& project, const SceneMaterial& source, co
   for (const auto& [key, value] : source.properties.values) material.properties[key] = responseOf(value);
   if (const std::string problem = problemOf(material); !problem.empty()) {
     const std::string key = problem.substr(0, problem.find_first_of(" :"));
-    throw SceneError("the material '" + (source.label.empty() ? source.id : source.label) + "': " + problem,
-                     {Owner::Material, source.id, key});
+    throw SceneError("the material '" + shownName(source) + "': " + problem, {Owner::Material, source.id, key});
   }
   return material;
 }

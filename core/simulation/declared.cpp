@@ -5,6 +5,7 @@
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/declare.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/probeparameters.h"
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneproblem.h"
@@ -139,7 +140,7 @@ api::ParameterList adhesionDeclarations(const Project& project, const std::strin
   std::vector<std::array<std::string, 2>> others;
   if (!materialById(project, id)) return {};
   for (const SceneMaterial& other : project.materials) {
-    if (other.id != id) others.push_back({other.id, other.label.empty() ? other.id : other.label});
+    if (other.id != id) others.push_back({other.id, shownName(other)});
   }
   const std::lock_guard lock(g_lists);
   auto& list = lists[others];

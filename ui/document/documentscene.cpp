@@ -2,6 +2,7 @@
 // What comes into a document's scene and leaves it: bodies with their matter, materials.
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -132,7 +133,7 @@ void Document::setAdhesion(const std::string& id, const std::string& other, bool
     material->adheresTo.emplace(others.begin(), others.end());
     material->adheresTo->insert(material->adheresTo->end(), partners.begin(), partners.end());
   }
-  const QString title = QStringLiteral("what %1 holds on to").arg(text(material->label.empty() ? id : material->label));
+  const QString title = QStringLiteral("what %1 holds on to").arg(text(shownName(*material)));
   m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
 }
 
@@ -160,8 +161,7 @@ void Document::useOtherMaterial(const std::string& id, const std::string& base) 
   const auto material = std::find_if(after.begin(), after.end(), [&](const SceneMaterial& m) { return m.id == id; });
   const Material* installed = m_plugins ? m_plugins->material(base) : nullptr;
   if (material == after.end() || !installed || material->base == base) return;
-  const QString title =
-      QStringLiteral("another material for %1").arg(text(material->label.empty() ? id : material->label));
+  const QString title = QStringLiteral("another material for %1").arg(text(shownName(*material)));
   SceneMaterial other;
   other.id = id;
   other.base = base;
@@ -185,7 +185,7 @@ QString Document::removeMaterial(const std::string& id) {
   const auto found = std::find_if(m_project.materials.begin(), m_project.materials.end(),
                                   [&](const SceneMaterial& m) { return m.id == id; });
   if (!problem.isEmpty() || found == m_project.materials.end()) return problem;
-  const QString title = QStringLiteral("removing %1").arg(text(found->label.empty() ? id : found->label));
+  const QString title = QStringLiteral("removing %1").arg(text(shownName(*found)));
   std::vector<SceneMaterial> after = m_project.materials;
   std::erase_if(after, [&](const SceneMaterial& m) { return m.id == id; });
   m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/document/missingplugins.h"
 
+#include "core/scene/shownname.h"
 #include "core/simulation/declared.h"
 #include "ui/document/declared.h"
 
@@ -12,10 +13,6 @@ namespace ps {
 namespace {
 
 constexpr qsizetype kMostNamed = 3;
-
-const std::string& materialName(const SceneMaterial& material) {
-  return material.label.empty() ? material.id : material.label;
-}
 
 /// "“Block”, “Spoon” and 4 more"
 QString listOf(const QStringList& names) {
@@ -86,7 +83,7 @@ QString missingText(const MissingPlugin& missing, const Project& project, const 
       const auto material = std::find_if(project.materials.begin(), project.materials.end(),
                                          [&](const SceneMaterial& m) { return m.id == missing.material; });
       const QString name =
-          QString::fromStdString(material == project.materials.end() ? missing.material : materialName(*material));
+          QString::fromStdString(material == project.materials.end() ? missing.material : shownName(*material));
       return QStringLiteral("The material “%1” needs ").arg(name) + plugin + still + kept;
     }
     case PluginKind::Constraint:

@@ -19,11 +19,11 @@ struct MissingPlugin {
   std::vector<Address> rows{};  ///< where it is chosen
 };
 
-/// Of materials, of what holds bodies together, of heat; ascending by what they are for, each thing once.
+/// Of materials in the order of the scene, then of what holds bodies together, then of heat; each of them once.
 std::vector<MissingPlugin> missingPlugins(const Project& project, const PluginRegistry& plugins);
 
-/// "The material “Bingham paste” needs the plugin “org.example.bingham”, which is not installed. “Block” stands still;
-/// all values are kept."
+/// "The material “Bingham paste” needs the plugin “org.example.bingham”, which is not installed. “Block” stands still
+/// meanwhile. All values are kept."
 QString missingText(const MissingPlugin& missing, const Project& project, const PluginRegistry& plugins);
 
 }  // namespace ps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/graphmenu.h"
 
+#include "core/scene/shownname.h"
 #include "core/simulation/graphsource.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -171,9 +172,8 @@ void GraphMenu::addTargets(QMenu& menu, const std::string& graph) const {
   const auto named = [](const auto& item) { return nameOf(item); };
   each(QStringLiteral("Body"), project.bodies, &Probe::body, named);
   each(QStringLiteral("Tap"), project.emitters, &Probe::body, named);
-  each(QStringLiteral("Material"), project.materials, &Probe::material, [](const SceneMaterial& material) {
-    return QString::fromStdString(material.label.empty() ? material.id : material.label);
-  });
+  each(QStringLiteral("Material"), project.materials, &Probe::material,
+       [](const SceneMaterial& material) { return QString::fromStdString(shownName(material)); });
 }
 
 void GraphMenu::addQuantities(QMenu& menu, const std::string& graph, const Probe& of, const QString& name) const {

@@ -2,6 +2,7 @@
 // The page Material of the inspector: one, or several that are edited together.
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -99,9 +100,8 @@ void Inspector::showMaterialHeader() {
     if (emitter.material == material->id) bodies << ownerLabel(project, {Owner::Emitter, emitter.id, "speed"});
   }
   m_grade = gradeText(plugins, material->base);
-  m_material->setHeader(QString::fromStdString(material->label.empty() ? material->id : material->label),
-                        bodies.join(QStringLiteral(", ")), materialDetail(),
-                        m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
+  m_material->setHeader(QString::fromStdString(shownName(*material)), bodies.join(QStringLiteral(", ")),
+                        materialDetail(), m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
   if (!plugins || plugins->material(material->base)) return;
   for (const MissingPlugin& missing : missingPlugins(project, *plugins)) {
     if (missing.material == material->id) m_material->setHeaderNote(wayout::note(missing, m_document));

@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/selection.h"
@@ -134,7 +135,7 @@ void MaterialsPanel::rebuild() {
   std::set<std::string> bases;
   for (const SceneMaterial& material : project.materials) {
     if (!material.mixture) bases.insert(material.base);
-    m_tiles.push_back({material.id, QString::fromStdString(material.label.empty() ? material.id : material.label),
+    m_tiles.push_back({material.id, QString::fromStdString(shownName(material)),
                        swatchOf(project, plugins, material.id), plugins && !plugins->material(material.base), false});
   }
   m_own = m_tiles.size();

@@ -3,6 +3,7 @@
 
 #include "core/io/parameterjson.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/theme/units.h"
 
@@ -45,7 +46,7 @@ FavouriteBrush favouriteOf(const BrushSettings& brush, const PluginRegistry& plu
   QStringList parts{pluginLabel(&plugins, brush.shape), lengthText(brush.radius)};
   if (!plugins.needs(brush.shape, api::kTouchesMatter) && !plugins.needs(brush.shape, api::kSmoothsMatter)) {
     if (const SceneMaterial* material = materialOf(project, brush.material))
-      parts << QString::fromStdString(material->label.empty() ? material->id : material->label);
+      parts << QString::fromStdString(shownName(*material));
     if (!plugins.needs(brush.shape, api::kPaintsMatter)) parts << temperatureText(brush.temperature, 0);
   }
   favourite.name = parts.join(QStringLiteral(", "));

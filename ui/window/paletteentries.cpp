@@ -4,6 +4,7 @@
 #include "core/matter/material.h"
 #include "core/matter/phasebands.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
@@ -180,7 +181,7 @@ void addMaterials(Entries& entries, MainWindow& window) {
   std::set<std::string> present;
   for (const SceneMaterial& material : session.document().project().materials) {
     present.insert(material.base);
-    entries.push_back({QString::fromStdString(material.label.empty() ? material.id : material.label),
+    entries.push_back({QString::fromStdString(shownName(material)),
                        QStringLiteral("Material"),
                        {},
                        wordsOf(material.id, material.tags) + QLatin1Char(' ') + words[material.base],
