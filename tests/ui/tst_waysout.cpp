@@ -174,11 +174,15 @@ class TestWaysOut : public SampleWindowTest {
     QCOMPARE(other.id, std::string("paste"));
     QCOMPARE(other.base, std::string("honey"));
     QVERIFY(other.properties.values.empty() && other.parameters.values.empty());
-    QVERIFY(m_window->notice()->text().contains(QStringLiteral("“Bingham paste” is “Honey” now")));
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("What was of “org.example.bingham” is of “Honey” now")));
     ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("body/block/material"));
     QVERIFY(!row || !labelOf(*row).contains(QStringLiteral("plugin:")));
     document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("The material “Bingham paste” needs")));  // again
+    document().undoStack().redo();
+    QVERIFY(!m_window->notice()->text().contains(QStringLiteral("Bingham paste")));
+    document().undoStack().undo();
   }
 
   /// Paused at its start the scene is made anew by itself, and the block falls.
@@ -221,7 +225,7 @@ class TestWaysOut : public SampleWindowTest {
   void whatIsWrongInAFileNamesTheThing() {
     const QString path = QStringLiteral("/data/pond.json");
     const auto said = [&](const char* pointer) {
-      return fileProblem(path.toStdString() + ":" + pointer + ": must be more", path, kBroken);
+      return FileProblems(path, kBroken).said(path.toStdString() + ":" + pointer + ": must be more");
     };
     QCOMPARE(said("/materials/1/properties/density_solid"),
              QStringLiteral("The material “Wood”, Density, solid: must be more (pond.json, line 6: "
@@ -232,8 +236,8 @@ class TestWaysOut : public SampleWindowTest {
     QCOMPARE(said("/bodies/3"), QStringLiteral("The body number 4: must be more (pond.json, line 8: /bodies/3)"));
     QCOMPARE(said("/solver/substeps"),
              QStringLiteral("The solver, Substeps: must be more (pond.json, line 10: /solver/substeps)"));
-    QCOMPARE(fileProblem("nowhere.json: no such file", path, ""), QStringLiteral("nowhere.json: no such file"));
-    QCOMPARE(fileProblem("/data/pond.json:/: line 3, column 5: a comma is missing", path, "{,"),
+    QCOMPARE(FileProblems(path, "").said("nowhere.json: no such file"), QStringLiteral("nowhere.json: no such file"));
+    QCOMPARE(FileProblems(path, "{,").said("/data/pond.json:/: line 3, column 5: a comma is missing"),
              QStringLiteral("pond.json: line 3, column 5: a comma is missing"));
   }
 

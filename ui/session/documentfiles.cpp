@@ -148,13 +148,13 @@ void DocumentFiles::load(const Source& source) {
       bytes = readFile(path, kMaximumProjectBytes);
       read->file.hash = hashOf(bytes);
       read->loaded = parse(bytes, source.path, *plugins, source.anyway);
+      FileProblems problems(source.path, bytes);
       for (auto* messages : {&read->loaded.problems, &read->loaded.warnings}) {
-        for (ProjectMessage& message : *messages)
-          message.text = fileProblem(message.text, source.path, bytes).toStdString();
+        for (ProjectMessage& message : *messages) message.text = problems.said(message.text).toStdString();
       }
       if (locks) read->lock = own->lockOf(source.documentPath, mine);
     } catch (const std::exception& error) {
-      read->problem = fileProblem(error.what(), source.path, bytes);
+      read->problem = FileProblems(source.path, bytes).said(error.what());
     }
     read->seconds = static_cast<double>(clock.elapsed()) / 1000;
     QMetaObject::invokeMethod(this, [this, request, source, read] {

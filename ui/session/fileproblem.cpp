@@ -2,7 +2,6 @@
 #include "ui/session/fileproblem.h"
 
 #include "core/base/error.h"
-#include "core/base/jsontext.h"
 #include "core/matter/material.h"
 #include "core/parameters/parameterset.h"
 #include "core/scene/project.h"
@@ -10,6 +9,8 @@
 #include <QtCore/QFileInfo>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -69,70 +70,86 @@ std::vector<std::string> partsOf(std::string_view pointer) {
   return parts;
 }
 
-/// Walks through a text that has been read as JSON, so that it may trust it.
-class Walk {
- public:
-  explicit Walk(std::string_view text) : m_text(text) {}
-  size_t at() const { return m_at; }
+/// Characters of a text for a parser, which counts the lines that it has read.
+struct CountedText {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
 
-  /// To where the member or element begins; false, and nowhere, when there is none.
-  bool enter(const std::string& part) {
-    skipSpace();
-    const size_t start = m_at;
-    const bool object = peek() == '{';
-    if (!object && peek() != '[') return false;
-    ++m_at;
-    for (size_t index = 0; skipSpace(), m_at < m_text.size() && peek() != '}' && peek() != ']'; ++index) {
-      const size_t begin = m_at;
-      const bool found = object ? readText() == part : std::to_string(index) == part;
-      if (object) skipSpace(), ++m_at, skipSpace();  // the colon
-      if (found) {
-        m_begin = begin;
-        return true;
-      }
-      skipValue();
-      skipSpace();
-      if (peek() == ',') ++m_at;
-    }
-    m_at = start;
-    return false;
+  struct Read {
+    size_t lines = 0;
+    char last = 0;
+  };
+  const char* at;
+  Read* read;
+  const char& operator*() const { return *at; }
+  CountedText& operator++() {
+    read->last = *at++;
+    read->lines += read->last == '\n' ? 1 : 0;
+    return *this;
   }
-  size_t begin() const { return m_begin; }  ///< of the last that was entered, with its name
+  bool operator==(const CountedText& other) const { return at == other.at; }
+};
+
+/// The line of what a pointer names, or of its last part that there is. Reads no further than that.
+class LineFinder final : public nlohmann::json_sax<json> {
+ public:
+  LineFinder(const std::vector<std::string>& parts, const CountedText::Read& read) : m_parts(parts), m_read(read) {}
+  size_t line() const { return m_line; }
+
+  bool null() override { return element(); }
+  bool boolean(bool) override { return element(); }
+  bool number_integer(number_integer_t) override { return element(true); }
+  bool number_unsigned(number_unsigned_t) override { return element(true); }
+  bool number_float(number_float_t, const string_t&) override { return element(true); }
+  bool string(string_t&) override { return element(); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(true); }
+  bool start_array(std::size_t) override { return open(false); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    m_levels.back().name = name;
+    return begin(false);
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
 
  private:
-  char peek() const { return m_at < m_text.size() ? m_text[m_at] : '\0'; }
-  void skipSpace() {
-    while (m_at < m_text.size() && std::string_view(" \t\r\n").find(m_text[m_at]) != std::string_view::npos) ++m_at;
+  struct Level {
+    bool object;
+    std::string name{};  ///< of the member, or the number of the element, that is being read
+    size_t elements = 0;
+  };
+  bool open(bool object) {
+    const bool goesOn = element();
+    m_levels.push_back({object});
+    return goesOn;
   }
-  std::string readText() {
-    const size_t from = m_at;
-    for (++m_at; m_at < m_text.size() && m_text[m_at] != '"'; ++m_at) m_at += m_text[m_at] == '\\' ? 1 : 0;
-    ++m_at;
-    const json value = json::parse(m_text.substr(from, m_at - from), nullptr, false);
-    return value.is_string() ? value.get<std::string>() : std::string();
+  bool close() {
+    m_levels.pop_back();
+    return true;
   }
-  void skipValue() {
-    size_t depth = 0;
-    do {
-      skipSpace();
-      const char c = peek();
-      if (c == '"') {
-        readText();
-      } else if (c == '{' || c == '[') {
-        ++depth, ++m_at;
-      } else if (c == '}' || c == ']') {
-        --depth, ++m_at;
-      } else if (c == ',' || c == ':') {
-        ++m_at;
-      } else {
-        while (m_at < m_text.size() && std::string_view(",:]} \t\r\n").find(m_text[m_at]) == std::string_view::npos)
-          ++m_at;
-      }
-    } while (depth > 0 && m_at < m_text.size());
+  /// A number ends where the character after it has been read.
+  bool element(bool ahead = false) {
+    if (m_levels.empty() || m_levels.back().object) return true;
+    m_levels.back().name = std::to_string(m_levels.back().elements++);
+    return begin(ahead);
+  }
+  bool begin(bool ahead) {
+    const auto same = std::mismatch(m_levels.begin(), m_levels.end(), m_parts.begin(), m_parts.end(),
+                                    [](const Level& level, const std::string& part) { return level.name == part; });
+    if (same.first != m_levels.end() || m_levels.size() <= m_found) return true;
+    m_found = m_levels.size();
+    m_line = 1 + m_read.lines - (ahead && m_read.last == '\n' ? 1 : 0);
+    return m_found < m_parts.size();
   }
 
-  std::string_view m_text;
-  size_t m_at = 0, m_begin = 0;
+  const std::vector<std::string>& m_parts;
+  const CountedText::Read& m_read;
+  std::vector<Level> m_levels;
+  size_t m_found = 0, m_line = 1;
 };
 
 /// "“Wood”": of an item of a list, as far as it says so.
@@ -192,32 +209,32 @@ QString thingAt(std::string_view pointer, const json& document) {
 }  // namespace
 
 size_t lineOfPointer(std::string_view text, std::string_view pointer) {
-  Walk walk(text);
-  size_t begin = 0;
-  for (const std::string& part : partsOf(pointer)) {
-    if (!walk.enter(part)) break;
-    begin = walk.begin();
-  }
-  return 1 + static_cast<size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
+  const std::vector<std::string> parts = partsOf(pointer);
+  CountedText::Read read;
+  LineFinder finder(parts, read);
+  json::sax_parse(CountedText{text.data(), &read}, CountedText{text.data() + text.size(), &read}, &finder);
+  return finder.line();
 }
 
-QString fileProblem(const std::string& message, const QString& path, std::string_view text) {
-  const std::string before = path.toStdString() + ":/";
+FileProblems::FileProblems(const QString& path, std::string_view text) : m_path(path), m_text(text) {}
+
+QString FileProblems::said(const std::string& message) {
+  const std::string before = m_path.toStdString() + ":/";
   const QString whole = QString::fromStdString(message);
   if (!message.starts_with(before)) return whole;
   const size_t from = before.size() - 1, end = message.find(": ", from);
   if (end == std::string::npos) return whole;
   const std::string pointer = message.substr(from, end - from);
-  const QString what = QString::fromStdString(message.substr(end + 2)), file = QFileInfo(path).fileName();
-  const json document = text.size() > kLongest ? json(json::value_t::discarded)
-                                               : json::parse(text, nullptr, false);  // parsed: it was read
-  if (document.is_discarded())  // the sentence says line and column where it is no JSON
+  const QString what = QString::fromStdString(message.substr(end + 2)), file = QFileInfo(m_path).fileName();
+  if (!m_document)
+    m_document = m_text.size() > kLongest ? json(json::value_t::discarded) : json::parse(m_text, nullptr, false);
+  if (m_document->is_discarded())  // the sentence says line and column where it is no JSON
     return pointer == "/" ? QStringLiteral("%1: %2").arg(file, what)
                           : QStringLiteral("%1: %2 (at %3)").arg(file, what, QString::fromStdString(pointer));
-  const QString thing = thingAt(pointer, document);
+  const QString thing = thingAt(pointer, *m_document);
   const QString place = QStringLiteral("(%1, line %2: %3)")
                             .arg(file)
-                            .arg(lineOfPointer(text, pointer))
+                            .arg(lineOfPointer(m_text, pointer))
                             .arg(QString::fromStdString(pointer));
   QString said = what;
   while (said.endsWith(QLatin1Char('.'))) said.chop(1);

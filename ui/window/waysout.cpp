@@ -34,7 +34,8 @@
 namespace ps {
 namespace {
 
-const QString kTopic = QStringLiteral("missing"), kInstalling = QStringLiteral("installing");
+const QString kTopic = QStringLiteral("missing"), kTaken = QStringLiteral("taken instead"),
+              kInstalling = QStringLiteral("installing");
 
 /// Of those that are in a folder; "" where the plugin is among them and sound.
 QString whyNotIn(const std::vector<PluginInfo>& list, const QString& folder, const std::string& id) {
@@ -53,6 +54,13 @@ WaysOut::WaysOut(const Parts& parts, QObject* parent) : QObject(parent), m_parts
   connect(&parts.inspector, &Inspector::wayOutWanted, this, &WaysOut::follow);
   if (parts.messages) connect(parts.messages, &MessagesPage::linkActivated, this, &WaysOut::follow);
   connect(&parts.session.files(), &DocumentFiles::opened, this, &WaysOut::tellMissing);
+  // Undo brings what is missing back, and redo takes it away; what was said of either is over.
+  connect(&parts.session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    const auto* materials = std::get_if<MaterialsChanged>(&event);
+    if (!materials || !materials->other) return;
+    m_parts.notices.bar().close(kTaken);
+    showMissing();
+  });
   connect(&parts.plugins, &PluginPage::folderWanted, this, [this](const std::string& id) {
     const QString folder = folderToUse(&m_parts.actions.window(),
                                        QStringLiteral("Folder of the plugin “%1”").arg(QString::fromStdString(id)),
@@ -75,16 +83,22 @@ void WaysOut::follow(const QString& link) {
 }
 
 void WaysOut::tellMissing() {
+  showMissing();
+  const Document& document = m_parts.session.document();
+  if (!document.plugins()) return;
+  for (const MissingPlugin& missing : missingPlugins(document.project(), *document.plugins())) {
+    m_parts.session.log().add(MessageLevel::Warning, document.title(),
+                              missingText(missing, document.project(), *document.plugins()), wayout::linksOf(missing));
+  }
+}
+
+void WaysOut::showMissing() {
   NoticeBar& bar = m_parts.notices.bar();
   bar.close(kTopic);
   const Document& document = m_parts.session.document();
   if (!document.plugins()) return;
   const std::vector<MissingPlugin> all = missingPlugins(document.project(), *document.plugins());
   if (all.empty()) return;
-  for (const MissingPlugin& missing : all) {
-    m_parts.session.log().add(MessageLevel::Warning, document.title(),
-                              missingText(missing, document.project(), *document.plugins()), wayout::linksOf(missing));
-  }
   std::vector<NoticeBar::Button> buttons;
   for (const MessageLink& link : wayout::linksOf(all.front()))
     buttons.push_back({link.text, [this, target = link.target] { follow(target); }});
@@ -121,18 +135,22 @@ QMenu* WaysOut::materialsFor(const std::string& material) {
 
 void WaysOut::useOther(const std::string& material, const std::string& base) {
   Session& session = m_parts.session;
-  const QString before = ownerLabel(session.document().project(), {Owner::Material, material, ""});
+  const auto& materials = session.document().project().materials;
+  const auto found =
+      std::find_if(materials.begin(), materials.end(), [&](const SceneMaterial& m) { return m.id == material; });
+  if (found == materials.end()) return;
+  const QString gone = QString::fromStdString(found->base);
   const bool atOnce = session.appliesAtOnce();
   session.document().useOtherMaterial(material, base);
   NoticeBar& bar = m_parts.notices.bar();
-  bar.close(kTopic);
-  const QString text = QStringLiteral("“%1” is “%2” now. Undo brings back the old one with all its values.")
-                           .arg(before, ownerLabel(session.document().project(), {Owner::Material, material, ""}));
+  const QString text =
+      QStringLiteral("What was of “%1” is of “%2” now. Undo brings back the old one with all its values.")
+          .arg(gone, ownerLabel(session.document().project(), {Owner::Material, material, ""}));
   session.log().add(MessageLevel::Ok, session.document().title(), text);
-  if (atOnce) return bar.show(kTopic, MessageLevel::Ok, QStringLiteral("Another material is used."), text);
-  bar.show(kTopic, MessageLevel::Info, QStringLiteral("Another material is used from the start on."), text,
+  if (atOnce) return bar.show(kTaken, MessageLevel::Ok, QStringLiteral("Another material is used."), text);
+  bar.show(kTaken, MessageLevel::Info, QStringLiteral("Another material is used from the start on."), text,
            {{QStringLiteral("Back to the start"), [this] {
-               m_parts.notices.bar().close(kTopic);
+               m_parts.notices.bar().close(kTaken);
                m_parts.session.reset();
              }}});
 }

@@ -36,6 +36,8 @@ class WaysOut : public QObject {
   void follow(const QString& link);
   /// Of an opened scene: over the view, and in the messages one for each.
   void tellMissing();
+  /// Over the view alone, as the scene is by now; nothing while it misses none.
+  void showMissing();
   void findPlugin(const std::string& id);
   /// A menu of those that are installed; nullptr where the scene has no such material.
   QMenu* materialsFor(const std::string& material);
