@@ -237,11 +237,12 @@ void Outliner::onChanged(const ChangeEvent& event) {
   const auto* port = std::get_if<PortChanged>(&event);
   const auto* body = std::get_if<BodyChanged>(&event);
   const auto* walls = std::get_if<WallsChanged>(&event);
+  const auto* materials = std::get_if<MaterialsChanged>(&event);
   const bool shows =
       std::holds_alternative<ProjectOpened>(event) || (body && !body->move) ||
-      std::holds_alternative<StrokeChanged>(event) || (walls && !walls->moved) || (port && !port->moved) ||
-      std::holds_alternative<ProbesChanged>(event) || std::holds_alternative<TracksChanged>(event) ||
-      std::holds_alternative<OrderChanged>(event) ||
+      std::holds_alternative<StrokeChanged>(event) || (walls && !walls->moved) || (materials && materials->other) ||
+      (port && !port->moved) || std::holds_alternative<ProbesChanged>(event) ||
+      std::holds_alternative<TracksChanged>(event) || std::holds_alternative<OrderChanged>(event) ||
       (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
   if (shows) rebuild();
 }

@@ -71,6 +71,26 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 12, 16, 12);
   column->setSpacing(10);
+  column->addLayout(makeHead());
+  m_view->setModel(m_model);
+  m_view->setRootIsDecorated(false);
+  m_view->setUniformRowHeights(true);
+  m_view->setAllColumnsShowFocus(true);
+  m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  m_view->setAccessibleName(QStringLiteral("Plugins"));
+  column->addWidget(m_view, 1);
+  column->addLayout(makeFoot());
+  connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
+  connect(&session, &Session::ready, this, [this, &session] {
+    m_registry = session.plugins();
+    refresh();
+  });
+  connect(&session, &Session::happened, this, [this](const EngineEvent& event) {
+    if (event.flags & static_cast<StepFlags>(StepFlag::PluginFault)) refresh();
+  });
+}
+
+QHBoxLayout* PluginPage::makeHead() {
   auto* head = new QHBoxLayout;
   auto* title = new QLabel(QStringLiteral("Plugins"));
   title->setFont(Theme::font(TextRole::Title));
@@ -92,14 +112,11 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   head->addWidget(m_filter);
   head->addWidget(copy);
   head->addWidget(back);
-  column->addLayout(head);
-  m_view->setModel(m_model);
-  m_view->setRootIsDecorated(false);
-  m_view->setUniformRowHeights(true);
-  m_view->setAllColumnsShowFocus(true);
-  m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  m_view->setAccessibleName(QStringLiteral("Plugins"));
-  column->addWidget(m_view, 1);
+  return head;
+}
+
+/// What is said of the row that is chosen, and what can be done about it.
+QHBoxLayout* PluginPage::makeFoot() {
   m_details->setWordWrap(true);
   m_details->setTextFormat(Qt::RichText);
   m_details->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -110,7 +127,6 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   foot->addWidget(m_details, 1);
   foot->addWidget(m_again, 0, Qt::AlignTop);
   foot->addWidget(m_folder, 0, Qt::AlignTop);
-  column->addLayout(foot);
   m_again->setToolTip(QStringLiteral("Loads it in a process of its own, which it may take down, and allows it again"));
   m_again->hide();
   m_folder->setToolTip(QStringLiteral("Installs it from a folder that it was downloaded to or built in"));
@@ -119,14 +135,7 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
     if (const MissingPlugin* missing = missingAt(m_view->currentIndex())) Q_EMIT folderWanted(missing->id);
   });
   connect(m_again, &QPushButton::clicked, this, &PluginPage::tryAgain);
-  connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
-  connect(&session, &Session::ready, this, [this, &session] {
-    m_registry = session.plugins();
-    refresh();
-  });
-  connect(&session, &Session::happened, this, [this](const EngineEvent& event) {
-    if (event.flags & static_cast<StepFlags>(StepFlag::PluginFault)) refresh();
-  });
+  return foot;
 }
 
 QString PluginPage::summary() const {

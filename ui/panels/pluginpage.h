@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QModelIndex;
@@ -45,6 +46,8 @@ class PluginPage : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  QHBoxLayout* makeHead();
+  QHBoxLayout* makeFoot();
   void addMissing();
   void showDetails();
   void showMissing(const MissingPlugin& missing);

@@ -163,7 +163,7 @@ void MainWindow::makeTopBar() {
   m_top = new TopBar(undoAction, redoAction, search, headset);
   setMenuWidget(m_top);
   QTabBar* workspaces = m_top->workspaces();
-  for (const char* name : {"Scene", "Tune", "Sketch", "Film"}) workspaces->addTab(QString::fromLatin1(name));
+  for (const char* name : kWorkspaces) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
     m_layout->setWorkspace(index == kTuneTab   ? Workspace::Tune
@@ -290,7 +290,7 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
 }
 
 /// In the header of the dock, beside the graphs alone.
-void MainWindow::addGraphButton() {
+void MainWindow::connectGraphs() {
   Dock* dock = m_layout->dock(QStringLiteral("dock.graphs"));
   QToolButton* button = dock->addAction(QStringLiteral("plus"), QStringLiteral("Add a graph"));
   connect(button, &QToolButton::clicked, this, [this, button] {
@@ -300,6 +300,13 @@ void MainWindow::addGraphButton() {
   });
   connect(dock, &Dock::pageChanged, button,
           [button](const QString& page) { button->setVisible(page == QStringLiteral("Graphs")); });
+  QToolButton* save = dock->addAction(QStringLiteral("download"), QStringLiteral("Export all frames as CSV…"));
+  connect(save, &QToolButton::clicked, m_files, &FileActions::exportCsv);
+  connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {
+    m_files->exportGraph(*graphs(), id.toStdString(), ending);
+  });
+  m_resuming->setReadings([this] { return graphs() ? graphs()->readings() : decltype(graphs()->readings())(); },
+                          [this](const auto& readings) { graphs()->setReadings(readings); });
 }
 
 void MainWindow::connectParts() {
@@ -309,6 +316,7 @@ void MainWindow::connectParts() {
   });
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
   connect(&m_session->files(), &DocumentFiles::saved, this, &MainWindow::updateTitle);
+  connect(&m_session->files(), &DocumentFiles::saved, outliner(), &Outliner::rebuild);  // the file names the scene
   connect(m_session.get(), &Session::projectShown, this, [this] {
     if (m_session->isBroken() && m_options.exitOnBadProject) {
       Q_EMIT startFailed(notice()->text());
@@ -334,12 +342,7 @@ void MainWindow::connectParts() {
   connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);
-  connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {
-    m_files->exportGraph(*graphs(), id.toStdString(), ending);
-  });
-  m_resuming->setReadings([this] { return graphs() ? graphs()->readings() : decltype(graphs()->readings())(); },
-                          [this](const auto& readings) { graphs()->setReadings(readings); });
-  addGraphButton();
+  connectGraphs();
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
   connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
@@ -356,9 +359,6 @@ void MainWindow::connectParts() {
     m_layout->setPageTitle(QStringLiteral("Messages"),
                            unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
   });
-  Dock* graphs = m_layout->dock(QStringLiteral("dock.graphs"));
-  QToolButton* save = graphs->addAction(QStringLiteral("download"), QStringLiteral("Export all frames as CSV…"));
-  connect(save, &QToolButton::clicked, m_files, &FileActions::exportCsv);
   Viewport* view = viewport();
   if (!view) return;
   connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });

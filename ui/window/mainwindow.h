@@ -7,6 +7,7 @@
 
 #include <QtWidgets/QMainWindow>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -80,6 +81,7 @@ class MainWindow : public QMainWindow {
   CurveTarget& curves() { return *m_curves; }
   /// Tabs of the top bar, in their order.
   enum WorkspaceTab { kSceneTab, kTuneTab, kSketchTab, kFilmTab };
+  static constexpr std::array kWorkspaces{"Scene", "Tune", "Sketch", "Film"};  ///< what the tabs are called
   void showWorkspace(WorkspaceTab tab);
   WorkspaceTab workspaceTab() const;
   CommandPalette* palette() const { return m_palette; }
@@ -120,7 +122,7 @@ class MainWindow : public QMainWindow {
   void onTool();
   void makeMiddle();
   void makeMenus();
-  void addGraphButton();
+  void connectGraphs();
   void makeHelpMenu(QMenu* menu);
   void makeSimulationMenu(QMenu* menu);
   void connectParts();

@@ -20,10 +20,7 @@ namespace ps {
 namespace {
 
 using Tab = MainWindow::WorkspaceTab;
-constexpr std::pair<Tab, const char*> kWorkspaces[] = {{MainWindow::kSceneTab, "Scene"},
-                                                       {MainWindow::kTuneTab, "Tune"},
-                                                       {MainWindow::kSketchTab, "Sketch"},
-                                                       {MainWindow::kFilmTab, "Film"}};
+constexpr auto& kWorkspaces = MainWindow::kWorkspaces;
 
 QString workspaceAction(const char* name) { return QStringLiteral("window.workspace") + QLatin1String(name); }
 
@@ -64,18 +61,18 @@ WindowActions::WindowActions(MainWindow& window, const Actions& actions, QMenu* 
 
 void WindowActions::addWorkspaces(QMenu* menu) {
   auto* group = new QActionGroup(this);
-  for (const auto& [tab, name] : kWorkspaces) {
-    QAction* action = m_actions.add(menu, workspaceAction(name), QStringLiteral("Workspace ") + QLatin1String(name), {},
-                                    [this, tab = tab] {
+  for (size_t k = 0; k < kWorkspaces.size(); ++k) {
+    QAction* action = m_actions.add(menu, workspaceAction(kWorkspaces[k]),
+                                    QStringLiteral("Workspace ") + QLatin1String(kWorkspaces[k]), {}, [this, k] {
                                       m_window.welcome().leave();
-                                      m_window.showWorkspace(tab);
+                                      m_window.showWorkspace(static_cast<Tab>(k));
                                     });
     action->setCheckable(true);
     group->addAction(action);
   }
   m_actions.add(menu, QStringLiteral("window.workspace"), QStringLiteral("Next workspace"),
                 {QKeySequence(QStringLiteral("Ctrl+Tab"))}, [this] {
-                  const int next = (m_window.workspaceTab() + 1) % static_cast<int>(std::size(kWorkspaces));
+                  const int next = (m_window.workspaceTab() + 1) % static_cast<int>(kWorkspaces.size());
                   m_window.showWorkspace(static_cast<Tab>(next));
                 });
 }
@@ -106,8 +103,8 @@ void WindowActions::refresh() {
   const WindowLayout& layout = m_window.layoutOfDocks();
   for (size_t k = 0; k < dockTable().size(); ++k)
     m_actions.find(dockAction(dockTable()[k]))->setChecked(layout.isShown(k));
-  for (const auto& [tab, name] : kWorkspaces)
-    m_actions.find(workspaceAction(name))->setChecked(m_window.workspaceTab() == tab);
+  for (size_t k = 0; k < kWorkspaces.size(); ++k)
+    m_actions.find(workspaceAction(kWorkspaces[k]))->setChecked(m_window.workspaceTab() == static_cast<Tab>(k));
   m_actions.find(QStringLiteral("window.full"))->setChecked(layout.fullViewport());
 }
 
