@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface in the headset: palette and board, pointed at by beam and by tip, painted and seen.
+#include "tests/ui/hands.h"
 #include "tests/vr/panelhands.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
@@ -46,6 +47,7 @@ class VrPanelsTest : public PanelsTest {
   void labelsSayWhatControllersDo();
   void labelsHangBesideTheHand();
   void labelsGoAndComeBack();
+  void aMousePressesThePalette();
 };
 
 namespace {
@@ -395,8 +397,16 @@ void VrPanelsTest::labelsSayWhatControllersDo_data() {
                           << "Select, Menu"
                           << "Select, Menu";
   QTest::newRow("bare hands") << "/interaction_profiles/ext/hand_interaction_ext"
-                              << "Pinch, Fist, Fist, Pinch"
+                              << "Pinch, Fist, Fist, Pinch, Index, then Pinch"
                               << "Pinch, Fist, Fist, Pinch";
+  QTest::newRow("joints alone") << "joints"
+                                << "Pinch, Fist, Fist, Pinch, Index, then Pinch"
+                                << "Pinch, Fist, Fist, Pinch";
+  QTest::newRow("a mouse") << "mouse"
+                           << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
+                              "U, P, Tab"
+                           << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
+                              "U, P, Tab";
   QTest::newRow("none") << ""
                         << ""
                         << "";
@@ -464,6 +474,45 @@ void VrPanelsTest::labelsGoAndComeBack() {
   QVERIFY(button->isChecked());
   QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
   leave();
+}
+
+/// Without a headset: what the mouse points at on the palette is pressed, though the hand reaches farther. The hand
+/// that it leads then has labels, of that window's keys.
+void VrPanelsTest::aMousePressesThePalette() {
+  enterWithout();
+  const vr::HeadsetView view = painted();
+  QVERIFY(!view.labels[vr::kRight].image);
+  VrWithout& window = *vr().window();
+  const double aspect = double(window.width()) / window.height();
+  QToolButton* labels = button(vr::kPalette, "Labels");
+  QVERIFY(labels && !labels->isChecked());
+  const QWidget* palette = panels().widget(vr::kPalette);
+  const QPointF middle = labels->mapTo(palette, labels->rect().center());
+  vr::Panels geometry;
+  geometry.follow(window.room().frame(1, aspect), view);
+  QVERIFY(geometry.place(vr::kPalette));
+  const Vector3 there = geometry.place(vr::kPalette)->at(middle.x() / palette->width(), middle.y() / palette->height());
+  const auto seen = project(window.room().eye(aspect), window.width(), window.height(), there);
+  QVERIFY(seen);
+  const QPoint at(int(seen->x()), int(seen->y()));
+  const auto frames = [&](uint64_t more) {
+    const uint64_t from = vr().frames();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > from + more, kLong);
+  };
+  hands::move(window, at);
+  frames(3);
+  QTest::mousePress(&window, Qt::LeftButton, {}, at);
+  frames(3);
+  QTest::mouseRelease(&window, Qt::LeftButton, {}, at);
+  QTRY_VERIFY_WITH_TIMEOUT(panels().showsLabels() && labels->isChecked(), kLong);
+  QCOMPARE(document().undoStack().index(), 0);  // nothing was drawn
+  const auto described = [&] {
+    panels().paint();
+    vr::HeadsetView now;
+    panels().describe(now);
+    return now.labels;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image && !described()[vr::kLeft].image, kLong);
 }
 
 QTEST_MAIN(VrPanelsTest)

@@ -96,7 +96,7 @@ class VrWindowTest : public SampleWindowTest {
       }
     const double each = 4.0 * side * side;
     // A smaller picture is made of fewer and larger steps of light, and has more edge for its area.
-    QVERIFY2(difference / each < (side == kSide ? 1 : 2), qPrintable(QString::number(difference / each)));
+    QVERIFY2(difference / each < (side == kSide ? 1 : 1.5), qPrintable(QString::number(difference / each)));
     QVERIFY2(contrast / each > 10, qPrintable(QString::number(contrast / each)));
   }
   void leaveAtLast() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/barehand.h"
 
+#include "ui/vr/handlabels.h"
+
 #include <algorithm>
 
 namespace ps::vr {
@@ -51,6 +53,7 @@ bool pointsWith(const SeenHand& hand) { return closed(hand, kIndexTip) == 0 && c
 void useBareHand(HandInput& input, size_t hand, const SeenHand& seen, bool told) {
   input.joints = seen.joints;
   input.points = pointsWith(seen);
+  if (input.profile.empty()) input.profile = kJointsAlone;
   if (!input.grip) input.grip = gripOf(hand, seen.palm);
   const Quaternion aims = input.aim ? input.aim->orientation : seen.palm.orientation;
   input.aim = HandPose{seen.joints[kIndexTip].position + aims * Vector3(0, 0, kTip), aims};

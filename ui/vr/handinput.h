@@ -28,13 +28,13 @@ using HandJoints = std::array<HandJoint, kJoints>;
 
 /// What a controller says at a time. Buttons are named after what they do (suggestions.h says which they are).
 struct HandInput {
-  std::optional<HandPose> grip;      ///< of the palm; nothing while the controller is asleep or out of sight
-  std::optional<HandPose> aim;       ///< -z points where the hand does
-  Vector3 velocity{0, 0, 0};         ///< of the grip, m/s; 0 where it is not known
-  double draw = 0, hold = 0;         ///< how far trigger and grip are pressed, 0..1
-  double steerX = 0, steerY = 0;     ///< stick or pad, -1..1, right and forward
-  std::string_view profile;          ///< of OpenXR, as suggestions() have it: what the hand holds; "": nothing of them
-  bool pad = false;                  ///< a pad steers, which means something where it is pressed
+  std::optional<HandPose> grip;   ///< of the palm; nothing while the controller is asleep or out of sight
+  std::optional<HandPose> aim;    ///< -z points where the hand does
+  Vector3 velocity{0, 0, 0};      ///< of the grip, m/s; 0 where it is not known
+  double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
+  double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
+  std::string_view profile;       ///< what it holds: of OpenXR, as suggestions() have it, or of handlabels.h; "": none
+  bool pad = false;               ///< a pad steers, which means something where it is pressed
   std::optional<HandJoints> joints;  ///< of a bare hand that is seen, in the floor's space
   bool points = false;               ///< a bare hand, of which the index alone is straight
   bool steerPressed = false, first = false, second = false;

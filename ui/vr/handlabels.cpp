@@ -19,8 +19,6 @@ std::string nameOf(std::string_view part) {
                                                                       {"trackpad", "Pad"},
                                                                       {"menu", "Menu"},
                                                                       {"select", "Select"},
-                                                                      {"pinch_ext", "Pinch"},
-                                                                      {"grasp_ext", "Fist"},
                                                                       {"a", "A"},
                                                                       {"b", "B"},
                                                                       {"x", "X"},
@@ -47,16 +45,35 @@ void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, size_t ha
   }
 }
 
+/// As the window of a trial takes them, whichever hand they lead.
+std::vector<HandLabel> keys() {
+  return {{"Left button", "draw, press"}, {"Shift", "hold"},      {"Shift, left button", "erase"},
+          {"G", "both hands: the scene"}, {"Wheel", "reach"},     {"Up, down", "size"},
+          {"Left, right", "turn"},        {"N", "next material"}, {"F", "go where the left hand points"},
+          {"Space", "play, pause"},       {"U", "undo"},          {"P", "board"},
+          {"Tab", "the other hand"}};
+}
+
+std::vector<HandLabel> ofBareHand(size_t hand) {
+  std::vector<HandLabel> labels{
+      {"Pinch", "draw, press"}, {"Fist", "hold; both hands: the scene"}, {"Fist, Pinch", "erase"}};
+  if (hand == kLeft) labels.push_back({"Index, then Pinch", "point; go there"});
+  return labels;
+}
+
 }  // namespace
 
 std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand) {
+  if (profile == kMouse) return keys();
+  if (profile == kJointsAlone) return ofBareHand(hand);
   std::vector<HandLabel> labels;
   const std::vector<Suggestion>& all = suggestions();
   const auto of = std::find_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.profile == profile; });
   if (of == all.end()) return labels;
-  labels.push_back({of->bareHand ? "Pinch" : nameOf(of->draw), "draw, press"});
+  if (of->bareHand) return ofBareHand(hand);
+  labels.push_back({nameOf(of->draw), "draw, press"});
   if (!of->hold.empty()) {
-    const std::string hold = of->bareHand ? "Fist" : nameOf(of->hold);
+    const std::string hold = nameOf(of->hold);
     labels.push_back({hold, "hold; both hands: the scene"});
     labels.push_back({hold + ", " + labels.front().part, "erase"});
   }

@@ -12,7 +12,11 @@ struct HandLabel {
   std::string part, does;
 };
 
-/// What the parts of a controller, or of a bare hand that is read as one, do; none of a profile that is not suggested.
+/// In place of a profile: a hand that mouse and keyboard lead, and a bare one of which nobody but its joints tells.
+inline constexpr std::string_view kMouse = "mouse", kJointsAlone = "joints";
+
+/// What the parts of a controller, of a bare hand, or of mouse and keyboard do; none of a profile that is not
+/// suggested.
 std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand);
 
 }  // namespace ps::vr

@@ -18,6 +18,8 @@ class LiveScene : public HeadsetScene {
 
   std::array<std::optional<Vibration>, 2> prepare(const HeadsetFrame& frame) override;
   void draw(size_t eye, const Eye& view, const RenderTarget& target) override;
+  /// m along where a hand would point from a place in the room, to the first panel of the last frame.
+  std::optional<double> panelAhead(const HandPose& aim) const { return m_panels.ahead(aim); }
   bool hasDepth() const override { return true; }
   void drawDepth(size_t eye, const Eye& view, const RenderTarget& target) override;
 

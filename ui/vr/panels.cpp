@@ -158,6 +158,15 @@ std::optional<PanelPoint> Panels::beamOn(size_t panel, const HandPose& aim, doub
   return PanelPoint{panel, at.x() / place.width + 0.5, 0.5 - at.y() / place.height, length, false, false};
 }
 
+std::optional<double> Panels::ahead(const HandPose& aim) const {
+  std::optional<double> nearest;
+  for (size_t panel = 0; panel < kPanels; ++panel) {
+    const auto beam = m_places[panel] ? beamOn(panel, aim, 0) : std::nullopt;
+    if (beam && (!nearest || beam->depth < *nearest)) nearest = beam->depth;
+  }
+  return nearest;
+}
+
 std::optional<Vector3> Panels::hit(size_t hand) const {
   const std::optional<PanelPoint>& pointed = m_pointed.at(hand);
   if (!pointed || pointed->tip || !m_places[pointed->panel]) return std::nullopt;

@@ -31,6 +31,8 @@ class Panels {
   const std::optional<Place>& place(size_t panel) const { return m_places.at(panel); }
   const std::optional<Place>& labels(size_t hand) const { return m_labels.at(hand); }
   const std::optional<PanelPoint>& pointed(size_t hand) const { return m_pointed.at(hand); }
+  /// m along where a hand would point from a place, to the first panel there.
+  std::optional<double> ahead(const HandPose& aim) const;
   /// Its trigger is none of the brush's business.
   bool takes(size_t hand) const { return m_pointed.at(hand) || m_presses.at(hand); }
   /// m, in the room, where the hand's beam ends.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/simulatedroom.h"
 
+#include "ui/vr/handlabels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,7 @@ constexpr double kTangent = 0.75;                   // of half the picture's hei
 constexpr double kNear = 0.03, kFar = 100;          // m
 constexpr double kSteepest = 1.4;                   // rad
 constexpr double kNearest = 0.15, kFarthest = 1.5;  // m, of a hand from the eyes
+constexpr double kBeforePanel = 0.06;               // m, of its tip, which would press what it is near
 
 /// Looks along a way, upright.
 Quaternion along(const Vector3& way) {
@@ -42,18 +45,25 @@ Eye SimulatedRoom::eye(double aspect) const {
   return eyeThrough(place.inverse().matrix(), -wide, wide, -kTangent, kTangent, kNear, kFar);
 }
 
-HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
+HandPose SimulatedRoom::pointer(double aspect) const {
   const HandPose eyes = head();
-  const Vector3 way = eyes.orientation * Vector3(m_x * kTangent * aspect, m_y * kTangent, -1).normalized();
+  return {eyes.position, along(eyes.orientation * Vector3(m_x * kTangent * aspect, m_y * kTangent, -1))};
+}
+
+HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
+  const HandPose eyes = pointer(aspect);
   HandInput& used = m_hands[m_used];
-  used.aim = used.grip = HandPose{eyes.position + (m_reach[m_used] - kTip) * way, along(way)};
+  for (HandInput& hand : m_hands) hand.profile = &hand == &used ? kMouse : std::string_view();
+  const double reach = m_most ? std::min(m_reach[m_used], *m_most - kBeforePanel) : m_reach[m_used];
+  used.aim = used.grip =
+      HandPose{eyes.position - (reach - kTip) * (eyes.orientation * Vector3::UnitZ()), eyes.orientation};
   // The palm of a left hand that rests faces the eyes: it holds the palette.
   HandPose& palm = *m_hands[kLeft].grip;
   if (m_used != kLeft) palm.orientation = Quaternion::FromTwoVectors(Vector3::UnitX(), eyes.position - palm.position);
   HeadsetFrame frame;
   frame.time = seconds;
   frame.period = std::max(0.0, seconds - m_before);
-  frame.head = eyes;
+  frame.head = head();
   frame.hands = m_hands;
   frame.focused = true;
   m_before = seconds;

@@ -13,6 +13,9 @@ class SimulatedRoom {
   SimulatedRoom();
   /// `seconds`: on a clock that runs on; `aspect`: width of the picture by its height.
   HeadsetFrame frame(double seconds, double aspect);
+  HandPose pointer(double aspect) const;  ///< from the eyes, to where the hand in use is seen
+  /// m from the eyes, beyond which the hand in use does not go from now on: a panel is there, to be pointed at.
+  void keepBefore(std::optional<double> metres) { m_most = metres; }
   Eye eye(double aspect) const;         ///< in the room
   void turn(double right, double up);   ///< rad, of the head
   void walk(const Vector3& way);        ///< m to the right, up, and on the level to where it looks
@@ -29,6 +32,7 @@ class SimulatedRoom {
   double m_right = 0, m_up = -0.45;  // rad
   double m_x = 0, m_y = 0;           // where the hand in use is seen
   std::array<double, 2> m_reach{0.55, 0.55};
+  std::optional<double> m_most;
   std::array<HandInput, 2> m_hands;
   size_t m_used = kRight;
   double m_before = 0;  // s, of the last frame

@@ -128,6 +128,7 @@ void VrMode::enterWithout() {
   if (active()) return showState();
   try {
     begin();
+    m_panels->showLabels(false);  // the window itself says what its keys do
     m_window = new VrWithout(m_link, m_parts.view->window());
     connect(m_window, &VrWithout::closed, this, &VrMode::leave);
     connect(m_window, &VrWithout::failed, this, [this](const QString& why) { end({true, why.toStdString()}); });

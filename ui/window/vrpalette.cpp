@@ -126,32 +126,35 @@ void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<
   m_choices.push_back({value, std::move(text)});
 }
 
-/// In two rows, each of which is as wide as the others; the last button is of labels.
+/// In two rows, each of which is as wide as the others; behind them what has labels shown.
 void VrPalette::addPages(QGridLayout& grid, const std::vector<const char*>& pages) {
-  const int count = static_cast<int>(pages.size()) + 1, upper = (count + 1) / 2, lower = count - upper;
-  auto* rows = new QGridLayout;
-  rows->setSpacing(kGap);
-  for (int column = 0; column < upper * std::max(1, lower); ++column) rows->setColumnStretch(column, 1);
-  for (int k = 0; k < upper + lower; ++k) {
-    const bool labels = k + 1 == count;
-    const QString title = QString::fromLatin1(labels ? "Labels" : pages[static_cast<size_t>(k)]);
-    auto* one = new QToolButton;
+  std::vector<QToolButton*> all;
+  const auto make = [&](const QString& title) {
+    auto* one = all.emplace_back(new QToolButton);
     one->setText(title);
     one->setAccessibleName(title);
     one->setMinimumHeight(kButton);
     one->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    if (labels) {
-      m_labelled = one;
-      one->setCheckable(true);
-      one->setChecked(true);
-      one->setToolTip(QStringLiteral("What the buttons of the controllers do, beside them"));
-      connect(one, &QToolButton::clicked, this, &VrPalette::labelsWanted);
-    } else {
-      connect(one, &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
-    }
+    return one;
+  };
+  for (const char* page : pages) {
+    const QString title = QString::fromLatin1(page);
+    connect(make(title), &QToolButton::clicked, this, [this, title] { Q_EMIT pageWanted(title); });
+  }
+  m_labelled = make(QStringLiteral("Labels"));
+  m_labelled->setCheckable(true);
+  m_labelled->setChecked(true);
+  m_labelled->setToolTip(QStringLiteral("What the buttons of the controllers do, beside them"));
+  connect(m_labelled, &QToolButton::clicked, this, &VrPalette::labelsWanted);
+
+  const int count = static_cast<int>(all.size()), upper = (count + 1) / 2, lower = count - upper;
+  auto* rows = new QGridLayout;
+  rows->setSpacing(kGap);
+  for (int column = 0; column < upper * std::max(1, lower); ++column) rows->setColumnStretch(column, 1);
+  for (int k = 0; k < count; ++k) {
     const bool above = k < upper;
     const int wide = above ? std::max(1, lower) : upper, place = above ? k : k - upper;
-    rows->addWidget(one, above ? 0 : 1, place * wide, 1, wide);
+    rows->addWidget(all[static_cast<size_t>(k)], above ? 0 : 1, place * wide, 1, wide);
   }
   grid.addLayout(rows, grid.rowCount(), 0, 1, kColumns);
 }
