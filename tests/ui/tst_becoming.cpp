@@ -108,7 +108,8 @@ class TestBecoming : public ToolTest {
     QFETCH(QString, phase);
     QFETCH(bool, fixed);
     const std::string wanted = becomes.toStdString();
-    draw(wanted, "rubber");
+    const char* material = wanted == "gas" ? "water" : "rubber";  // rubber never boils
+    draw(wanted, material);
     const auto bodies = [this]() -> const std::vector<Body>& { return m_document->project().bodies; };
     QCOMPARE(bodies().size(), size_t{1});
     const std::string text = writeProject(m_document->project());
@@ -118,9 +119,9 @@ class TestBecoming : public ToolTest {
       QCOMPARE(QString::fromStdString(choiceOf(body.parameters, bodyParameters(), "phase")), phase);
       QCOMPARE(toggleOf(body.parameters, bodyParameters(), "fixed"), fixed);
     }
-    draw(wanted, "rubber");
+    draw(wanted, material);
     QCOMPARE(bodies().size(), size_t{1});
-    draw(wanted == "soft" ? "rigid" : "soft", "rubber", 0.02);
+    draw(wanted == "soft" ? "rigid" : "soft", material, 0.02);
     QCOMPARE(bodies().size(), size_t{2});
     m_document->undoStack().undo();
     m_document->undoStack().undo();
@@ -133,9 +134,15 @@ class TestBecoming : public ToolTest {
   void whatNobodyMakesIsRefused() {
     PluginRegistry less;
     less.fault("cloth", "it failed");
-    QVERIFY(whyNotBecome(less, "cloth").contains(QStringLiteral("Choose another row under “Becomes”")));
-    QCOMPARE(whyNotBecome(less, "liquid"), QString());
-    QCOMPARE(whyNotBecome(*m_plugins, "cloth"), QString());
+    const Project& project = m_document->project();
+    const auto why = [&](const PluginRegistry& plugins, const char* material, const char* becoming) {
+      return whyNotBecome(project, plugins, material, becoming);
+    };
+    QVERIFY(why(less, "wood", "cloth").contains(QStringLiteral("Choose another row under “Becomes”")));
+    QCOMPARE(why(less, "wood", "liquid"), QString());
+    QCOMPARE(why(*m_plugins, "wood", "cloth"), QString());
+    QVERIFY(why(*m_plugins, "wood", "gas").contains(QStringLiteral("never boils")));
+    QCOMPARE(why(*m_plugins, "water", "gas"), QString());
   }
 
   /// Those of a sheet's edge, where a mark shows them, while it is selected alone; its row says which edge that is.

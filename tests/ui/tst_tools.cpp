@@ -539,6 +539,11 @@ class TestTools : public ToolTest {
     QVERIFY(above.centre.y() > above.floor);
     tool.hover(aimed({-0.2, 0, 0}, scene));
     QCOMPARE(tool.picture().cursor->floor, 0.0);
+    tool.press(aimed({0.19, 0.3, 0}, scene));
+    QCOMPARE(tool.picture().cursor->floor, above.floor);
+    tool.drag(aimed({-0.2, 0.3, 0}, scene));  // and past its end
+    QCOMPARE(tool.picture().cursor->floor, 0.0);
+    tool.cancel();
   }
 
   /// A sweep that begins beside the matter takes what comes under it, at its depth and not below its own hole.

@@ -3,6 +3,7 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
+#include "ui/document/declared.h"
 
 #include <phasesketch/thin.h>
 
@@ -93,7 +94,13 @@ std::string ownBecoming(const Project& project, const PluginRegistry& plugins, c
   return stands && !structureFor(plugins, rigid).empty() ? rigid : std::string(nameOf(kBonded));
 }
 
-QString whyNotBecome(const PluginRegistry& plugins, const std::string& becoming) {
+QString whyNotBecome(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                     const std::string& becoming) {
+  if (becoming == "gas" && propertyOf(project, plugins, material, "boiling_temperature", 0).value_or(0) <= 0)
+    return QStringLiteral(
+               "“%1” never boils, so that it cannot become gas. Choose another row under “Becomes”, or "
+               "another material.")
+        .arg(ownerLabel(project, {Owner::Material, material, ""}));
   if (!needsStructure(becoming) || !structureFor(plugins, becoming).empty()) return {};
   return QStringLiteral("No plugin is installed that makes what is drawn %1. Choose another row under “Becomes”.")
       .arg((becoming == nameOf(kRope) ? QStringLiteral("a ") : QString()) + QString::fromStdString(becoming));

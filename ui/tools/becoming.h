@@ -23,8 +23,9 @@ inline constexpr double kStandsFrom = 1e8, kStandsBelowMelting = 100;
 /// it is no solid. Bonded too is what cloth and ropes are made of.
 std::string ownBecoming(const Project& project, const PluginRegistry& plugins, const std::string& material,
                         double temperature);
-/// "" or why no body can become that: no plugin is installed that makes it.
-QString whyNotBecome(const PluginRegistry& plugins, const std::string& becoming);
+/// "" or why no body of a scene's material can become that: no plugin is installed that makes it, or it never boils.
+QString whyNotBecome(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                     const std::string& becoming);
 /// Sets what holds a new body of `temperature` K together, its phase, and whether it is held in place.
 void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
             double temperature);

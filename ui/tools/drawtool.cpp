@@ -179,6 +179,7 @@ void DrawTool::drag(const Pointer& pointer) {
 
 void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_cursor->centre = point;
+  m_cursor->floor = heightBelow(pointer, point, box().document().project().environment);
   m_cursor->pressure = pointer.pressure;
   const QString problem = m_stroke.move(point, pointer.seconds - m_began, heldBy(pointer));
   if (!problem.isEmpty()) endAsItIs(problem);

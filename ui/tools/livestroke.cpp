@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/group.h"
 #include "core/scene/pose.h"
+#include "core/scene/shownname.h"
 #include "core/sketch/symmetry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -102,7 +103,7 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& pal
   if (const Body* body = bodyAt(now, point, material->id, palette)) return *body;
   Body body;
   body.id = m_box.document().freeBodyId("sketch-" + material->id);
-  const std::string label = material->label.empty() ? material->id : material->label;
+  const std::string& label = shownName(*material);
   std::set<std::string> names;
   for (const Body& other : project.bodies) names.insert(other.name);
   body.name = "Sketched " + label;
@@ -142,9 +143,11 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
   if (!erase && m_box.document().project().materials.empty()) {
     return QStringLiteral("The scene has no material to draw with. Add one under Materials.");
   }
-  if (const QString problem = erase || m_box.reworks() ? QString() : whyNotBecome(*plugins, brush.becomes);
-      !problem.isEmpty())
-    return problem;
+  if (!erase && !m_box.reworks()) {
+    const Project& project = m_box.document().project();
+    const QString problem = whyNotBecome(project, *plugins, sceneMaterial(project, brush.material)->id, brush.becomes);
+    if (!problem.isEmpty()) return problem;
+  }
   if (now.spacing > 0 && now.spacing != m_box.spacing()) {
     return QStringLiteral(
                "The particle spacing of %1 acts once back at the start. Press Home first, or undo the change.")

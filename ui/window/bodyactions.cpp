@@ -261,7 +261,7 @@ void BodyActions::addTool(const ToolForm& form) {
   document.undoStack().endMacro();
 }
 
-/// A fifth of the scene wide; a bowl is half a ball and twice as wide, sheets and ropes lie, and are longer.
+/// A fifth of the scene wide; a torus and a bowl, half a ball, are twice as wide, sheets and ropes lie, and are longer.
 Body BodyActions::newSolid(Kind kind, const QString& name) const {
   const double size = rounded(kOfScene * narrowSide(m_session.document()));
   Body body;
@@ -271,9 +271,13 @@ Body BodyActions::newSolid(Kind kind, const QString& name) const {
   auto& values = solid.parameters.values;
   values["kind"] = body.id;
   values["size_x"] = size;
-  values["size_y"] = kind == Kind::Torus ? rounded(size / 4) : size;
+  values["size_y"] = size;
   values["size_z"] = size;
   if (kind == Kind::Tube) values["wall"] = rounded(size / 5);
+  if (kind == Kind::Torus) {  // particles leave a hole in it
+    values["size_x"] = values["size_z"] = 2 * size;
+    values["size_y"] = rounded(size / 2);
+  }
   if (kind == Kind::Bowl) {
     values["size_x"] = values["size_z"] = 2 * size;  // it must hold something
     values["wall"] = rounded(std::max(size / 8, spacingOf(m_session.document())));
