@@ -447,6 +447,14 @@ class TestWindow : public QObject {
     if (!view) QSKIP("no OpenGL");
     NoticeBar* notice = m_window->notice();
     const QRect before(view->mapTo(m_window.get(), QPoint(0, 0)), view->size());
+    // What stands over the picture begins below whichever notice there is.
+    const auto below = [&] {
+      const auto& axes = m_window->viewport()->overlayHits().axes;
+      const int covered = notice->isVisible() ? notice->height() : 0;
+      return axes.empty() ? -1 : axes.front().rect.top() - covered;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(below() > 0, kLong);
+    const double place = below();
     notice->show(QStringLiteral("test"), MessageLevel::Info, QStringLiteral("Something was said."),
                  QStringLiteral("And what to do."), {{QStringLiteral("Do it"), [] {}}});
     QCoreApplication::processEvents();
@@ -455,7 +463,9 @@ class TestWindow : public QObject {
     QCOMPARE(notice->mapTo(m_window.get(), QPoint(0, 0)), before.topLeft());
     QCOMPARE(notice->width(), before.width());
     QVERIFY(notice->height() >= notice->sizeHint().height() / 2 && notice->height() < before.height() / 2);
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(below() - place) < 1, kLong);
     notice->close(QStringLiteral("test"));
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(below() - place) < 1, kLong);
   }
 
   /// It is found, behind what can be done.

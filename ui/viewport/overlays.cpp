@@ -27,7 +27,7 @@ void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
 
 void paintViewLabel(QPainter& painter, const OverlayState& state) {
   const QFont font = Theme::font(TextRole::Normal);
-  const QRectF rect(kMargin, kMargin, textWidth(state.viewName, font) + 2 * kPadding, kLine);
+  const QRectF rect(kMargin, state.top + kMargin, textWidth(state.viewName, font) + 2 * kPadding, kLine);
   paintGround(painter, rect);
   paintText(painter, rect, Qt::AlignCenter, state.viewName, font, Theme::current()[Token::Text]);
 }
@@ -145,7 +145,7 @@ QRectF paintHint(QPainter& painter, const OverlayState& state) {
 
 void paintBall(QPainter& painter, const OverlayState& state, OverlayHits& hits) {
   constexpr double kRadius = 33, kArm = 23, kDot = 7.5;
-  const QPointF centre(state.size.width() - kMargin - kRadius, kMargin + kRadius);
+  const QPointF centre(state.size.width() - kMargin - kRadius, state.top + kMargin + kRadius);
   const Theme& theme = Theme::current();
   painter.setPen(QPen(theme[Token::Line], 1));
   painter.setBrush(theme[Token::Overlay]);
@@ -334,7 +334,8 @@ OverlayHits paintOverlays(QPainter& painter, const OverlayState& state) {
   if (state.cursor) CursorPainter(painter, state).paint(*state.cursor);
   if (state.tag) paintTag(painter, state, *state.tag);
   if (state.shown.name) paintViewLabel(painter, state);
-  if (state.section) hits.section = paintSection(painter, *state.section, {kMargin, kMargin + kLine + kPadding / 2});
+  if (state.section)
+    hits.section = paintSection(painter, *state.section, {kMargin, state.top + kMargin + kLine + kPadding / 2});
   if (state.shown.scale) paintScaleBar(painter, state);
   paintLegendOver(painter, state, hits);
   if (!state.hints.empty()) hits.hintClose = paintHint(painter, state);

@@ -34,6 +34,7 @@ struct OverlayState {
   QString without = QStringLiteral("none here");        ///< what the legend says where nothing has the field's values
   bool empty = false;                                   ///< no snapshot yet
   OverlayChoice shown;
+  double top = 0;                  ///< logical pixels of the view that something else lies over
   std::vector<OverlayHint> hints;  ///< empty: no strip
   std::optional<SceneTag> tag;
   std::optional<BrushCursor> cursor;

@@ -213,7 +213,7 @@ void Viewport::paintGL() {
       ToolPicture picture = m_tools.tool().picture();
       if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
       paintWires(painter, picture.wires, m_navigator.camera(), size());
-      if (m_now)
+      if (m_now && m_overlays.outlines)
         paintPins(painter, heldPlaces(m_session.document().project(), m_selection, *m_now), m_navigator.camera(),
                   size());
       if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
@@ -242,6 +242,7 @@ OverlayState Viewport::overlayState() const {
   state.boilingPoint = m_session.transitions().boils();
   state.empty = !m_now;
   state.shown = m_overlays;
+  state.top = m_covered;
   if (m_overlays.hints) state.hints = hints();
   if (m_session.recorded().isActive()) state.without = QStringLiteral("not recorded");
   const ToolPicture picture = m_tools.tool().picture();

@@ -50,6 +50,8 @@ class Viewport : public QOpenGLWidget {
   std::optional<PortHandle> portHandleAt(const QPointF& position) const;
   const OverlayChoice& overlays() const { return m_overlays; }
   void setOverlays(const OverlayChoice& overlays);
+  /// Logical pixels at the upper edge over which something else lies: what stands there begins below.
+  void setCovered(int top);
   Studio studio() const { return m_studio; }
   void setStudio(Studio studio);
   const std::optional<ViewSection>& viewSection() const { return m_section; }  ///< none: the whole scene is shown
@@ -189,6 +191,7 @@ class Viewport : public QOpenGLWidget {
   OverlayHits m_hits;
   OverlayChoice m_overlays;
   Studio m_studio = Studio::AsTheme;
+  int m_covered = 0;
 
   Drag m_drag = Drag::None;
   QPointF m_pressed;

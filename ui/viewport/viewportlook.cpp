@@ -56,6 +56,12 @@ void Viewport::setOverlays(const OverlayChoice& overlays) {
   update();
 }
 
+void Viewport::setCovered(int top) {
+  if (top == m_covered) return;
+  m_covered = top;
+  update();
+}
+
 void Viewport::setStudio(Studio studio) {
   m_studio = studio;
   update();

@@ -48,13 +48,15 @@ void paintWires(QPainter& painter, const std::vector<Wire>& wires, const Camera&
 }
 
 void paintPins(QPainter& painter, const std::vector<Vector3>& places, const Camera& camera, const QSizeF& size) {
-  constexpr double kMark = 2.5;  // px, radius
+  constexpr double kMark = 2.5;   // px, radius
+  constexpr size_t kMost = 1000;  // marks; of more places every so many have one
+  const size_t step = 1 + places.size() / kMost;
   const Theme& theme = Theme::current();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(theme[Token::Shadow], 1.5));
   painter.setBrush(theme[Token::Accent]);
-  for (const Vector3& place : places) {
-    const auto pixel = project(camera, static_cast<int>(size.width()), static_cast<int>(size.height()), place);
+  for (size_t i = 0; i < places.size(); i += step) {
+    const auto pixel = project(camera, static_cast<int>(size.width()), static_cast<int>(size.height()), places[i]);
     if (pixel) painter.drawEllipse(QPointF((*pixel)[0], (*pixel)[1]), kMark, kMark);
   }
 }

@@ -175,10 +175,13 @@ void ViewportPane::placeNotice() {
   const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(width()) : m_notice->sizeHint().height();
   m_notice->setGeometry(0, m_bar->height(), width(), tall);
   m_notice->raise();
+  if (m_viewport) m_viewport->setCovered(m_notice->isVisible() ? tall : 0);
 }
 
 bool ViewportPane::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == m_notice && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show)) placeNotice();
+  if (watched == m_notice &&
+      (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show || event->type() == QEvent::Hide))
+    placeNotice();
   return QWidget::eventFilter(watched, event);
 }
 
