@@ -113,6 +113,10 @@ class Builder final : public nlohmann::json_sax<json> {
     if ((last == 'N' || last == 'I') && what.find("; expected") == std::string::npos) {
       return "NaN and Infinity are not numbers in JSON";
     }
+    const auto has = [&](const char* words) { return what.find(words) != std::string::npos; };
+    const bool value = has("literal; expected") || has("unexpected '{'") || has("unexpected '['");
+    if (value && (what.ends_with("expected '}'") || what.ends_with("expected ']'")))
+      return "not valid JSON: a comma is missing before it";
     const size_t dash = what.find(" - ");
     const std::string words = dash == std::string::npos ? what : what.substr(dash + 3);
     return shownText("not valid JSON: " + words, 160);  // they may end within a character

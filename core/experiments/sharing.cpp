@@ -108,7 +108,7 @@ RunEnd runToEnd(const Project& project, PluginRegistry& plugins, uint64_t frame,
   Engine engine = made(project, plugins);
   const uint64_t begun = engine.stats().frame;
   if (t_progress) t_progress->expect(1);
-  beginStage("Running to the end, so that who opens the copy can compare", 1,
+  beginStage("Running to the end, by which machines are compared", 1,
              static_cast<double>(frame > begun ? frame - begun : 0));
   for (uint64_t at = begun; at < frame; ++at) {
     const StepReport step = engine.step();

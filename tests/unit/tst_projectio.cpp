@@ -507,6 +507,8 @@ void TestProjectIo::hostileTextIsRefused_data() {
   row("within a character", "{\"a\": \u00e9}", "not valid JSON");
   row("a long name", "{\"a" + QByteArray("\u00e9").repeated(100) + "\": [1 2]}", "\u00e9\u2026/1: line 1, column");
   row("comma", "{\"a\": 1,\n \"b\": 2,}", ":/b: line 2, column 9: not valid JSON");
+  row("no comma", "{\"a\": 1\n \"b\": 2}", ":/a: line 2, column 4: not valid JSON: a comma is missing before it");
+  row("no comma in a list", "[1\n {}]", "a comma is missing before it");
   row("two documents", "{} {}", "not valid JSON");
 }
 

@@ -35,10 +35,10 @@ void paintPicture(QPainter& painter, const QRectF& rect, const QImage& picture, 
   painter.drawPixmap(rect, scaled, QRectF(scaled.rect()));
 }
 
-/// Its place while it is in the user's own folders.
+/// Its file, from the user's own folder on where it is in there.
 QString placeText(const QString& path) {
-  const QString folder = QFileInfo(path).path(), home = QDir::homePath();
-  return folder.startsWith(home) ? QLatin1Char('~') + folder.mid(home.size()) : folder;
+  const QString home = QDir::homePath() + QLatin1Char('/');
+  return path.startsWith(home) ? QStringLiteral("~/") + path.mid(home.size()) : path;
 }
 
 }  // namespace
