@@ -76,6 +76,7 @@ void Hand::require(const TouchMatter& command, const Engine& engine) {
 void Hand::move(const TouchMatter& command) {
   if (!command.path.empty()) m_path.push_back({command.path, 1.0 / command.samples});
   m_still = command.still;
+  if (m_first.size() != m_still.size()) m_first = m_still;
   m_spared = command.spared;
   m_held.resize(m_still.size());
 }
@@ -135,30 +136,35 @@ void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
   });
   for (size_t k = 0; k < m_still.size(); ++k) {
     if (m_still[k].kind != api::TouchKind::Hold) continue;
-    hold(engine, m_still[k], m_held[k], isSpared, change);
+    if (!m_held[k]) m_held[k] = take(engine, m_first[k], isSpared);
+    hold(engine, m_still[k], *m_held[k], change);
     moves = true;
   }
   if (moves) engine.addVelocities(change);
 }
 
-/// Brings what is held to where it was about the hand, without its weight, as far as the force reaches.
-void Hand::hold(const Engine& engine, const api::Touch& touch, std::optional<std::vector<Held>>& held,
-                const std::vector<uint8_t>& isSpared, std::vector<Vector3>& change) const {
+std::vector<Hand::Held> Hand::take(const Engine& engine, const api::Touch& touch,
+                                   const std::vector<uint8_t>& isSpared) {
   const ParticleStore& store = engine.particles();
-  if (!held) {
-    held.emplace();
-    const std::vector<double> grip = gripOf(engine, touch, isSpared);
-    for (size_t row = 0; row < grip.size(); ++row) {
-      if (grip[row] > 0) held->push_back({store.id()[row], offsetOf(store, row, touch.centre), grip[row]});
-    }
+  std::vector<Held> held;
+  const std::vector<double> grip = gripOf(engine, touch, isSpared);
+  for (size_t row = 0; row < grip.size(); ++row) {
+    if (grip[row] > 0) held.push_back({store.id()[row], offsetOf(store, row, touch.centre), grip[row]});
   }
+  return held;
+}
+
+/// Brings what is held to where it was about the hand, without its weight, as far as the force reaches.
+void Hand::hold(const Engine& engine, const api::Touch& touch, const std::vector<Held>& held,
+                std::vector<Vector3>& change) {
+  const ParticleStore& store = engine.particles();
   double total = 0;
-  for (const Held& one : *held) {
+  for (const Held& one : held) {
     if (const size_t row = store.indexOf(one.id); row < store.size()) total += one.weight * store.mass()[row];
   }
   const SolverSettings settings = compileSettings(engine.project());
   const Vector3 weight = settings.dt * vectorOf(settings.gravity);
-  for (const Held& one : *held) {
+  for (const Held& one : held) {
     const size_t row = store.indexOf(one.id);
     if (row >= store.size()) continue;
     const Vector3 speed = atMost(kFollows / settings.dt * (one.offset - offsetOf(store, row, touch.centre)), kFastest);

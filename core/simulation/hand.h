@@ -52,11 +52,13 @@ class Hand {
   std::vector<TieChange> changeTies(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   void push(Engine& engine, const std::vector<uint8_t>& isSpared);
-  void hold(const Engine& engine, const api::Touch& touch, std::optional<std::vector<Held>>& held,
-            const std::vector<uint8_t>& isSpared, std::vector<Vector3>& change) const;
+  static std::vector<Held> take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared);
+  static void hold(const Engine& engine, const api::Touch& touch, const std::vector<Held>& held,
+                   std::vector<Vector3>& change);
 
   std::vector<Path> m_path;  ///< one after the other, of about as long
   std::vector<api::Touch> m_still;
+  std::vector<api::Touch> m_first;  ///< where it was when it began: there it takes, however far it goes in a frame
   std::vector<std::string> m_spared;
   std::vector<std::optional<std::vector<Held>>> m_held;  ///< by the touches of m_still; nothing: not yet
 };

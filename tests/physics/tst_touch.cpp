@@ -123,6 +123,7 @@ class TestTouch : public QObject {
   void fixedMatterIsHeatedAndLockedIsSpared();
   void whatCannotBeIsRefused();
   void aHandCarriesAsFarAsItsForceReaches();
+  void aHandTakesWhereItClosed();
   void aPushIsNoMoreThanItsForce();
   void stirredMatterTurns();
   void theSameBitsEverywhere_data() { onehash::addRows(); }
@@ -344,6 +345,27 @@ void TestTouch::aHandCarriesAsFarAsItsForceReaches() {
     const double fallen = 0.3 - (centreOf(engine, 0).y() - start.y());
     QVERIFY2(fallen > 0.03 && fallen < 0.08, qPrintable(QString::number(fallen)));  // g t^2/2 = 0.05
   }
+}
+
+/// However far it has gone by the next frame: a frame may last longer than a hand needs to leave the matter.
+void TestTouch::aHandTakesWhereItClosed() {
+  const double force = 8 * 917 * std::pow(6 * kSpacing, 3) * 9.81;
+  Engine engine(twoBlocks(), m_plugins);
+  run(engine, 10);
+  const Vector3 start = centreOf(engine, 0);
+  engine.apply(still(hold({0, 0.09, 0}, force, 0.09)));
+  engine.apply(still(hold({0, 0.39, 0}, force, 0.09)));
+  run(engine, 60);
+  const double lifted = centreOf(engine, 0).y() - start.y();
+  QVERIFY2(std::abs(lifted - 0.3) < 0.02, qPrintable(QString::number(lifted)));
+  engine.apply(letGo());
+  run(engine, 60);
+  QVERIFY(centreOf(engine, 0).y() - start.y() < 0.1);
+  engine.apply(still(hold({0, 0.9, 0}, force, 0.09)));  // there is nothing
+  engine.apply(still(hold({0, 0.09, 0}, force, 0.09)));
+  engine.apply(still(hold({0, 0.39, 0}, force, 0.09)));
+  run(engine, 30);
+  QVERIFY(centreOf(engine, 0).y() - start.y() < 0.1);
 }
 
 void TestTouch::aPushIsNoMoreThanItsForce() {
