@@ -200,7 +200,7 @@ class TestTools : public ToolTest {
     pointer = aimed({0.2, 0, 0.2}, now);
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
-    QCOMPARE(refused.count(), 1);
+    QTRY_COMPARE(refused.count(), 1);  // the window does not wait for it
     const QString why = refused.front()[1].toString();
     QVERIFY2(why.contains(QStringLiteral("fixture.brush")) && why.contains(words), qPrintable(why));
     m_tools->tool().release(pointer);
@@ -239,6 +239,42 @@ class TestTools : public ToolTest {
     QTRY_VERIFY(ongoingCalls().empty());
     qunsetenv("PS_LET_GO");
     cleanup();
+  }
+
+  /// It thinks for as long as it wants to: the pointer goes on, and what it gives comes then.
+  void aSlowBrushDoesNotStopTheWindow() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        folder.filePath(QStringLiteral("endless_brush.so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    m_document->setPlugins(&plugins);
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    m_tools->setBrush(brush);
+    m_tools->activate("brush");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    QTRY_VERIFY(m_engine->snapshot());
+    const SnapshotPtr now = m_engine->snapshot();
+    Pointer pointer = aimed({0.15, 0, 0.15}, now);
+    m_tools->tool().press(pointer);
+    for (const double way : {0.05, 0.1, 0.15}) {
+      pointer = aimed({0.15 + way, 0, 0.15}, now);
+      pointer.seconds = way;
+      m_tools->tool().drag(pointer);  // while the brush has not come back
+    }
+    QTRY_VERIFY(!ongoingCalls().empty());
+    qputenv("PS_LET_GO", "1");
+    m_tools->tool().release(pointer);
+    qunsetenv("PS_LET_GO");
+    QCOMPARE(refused.count(), 0);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    // A cell for each spacing of the way.
+    const auto* drawn = std::get_if<VoxelShape>(&m_document->project().bodies.back().shape);
+    QVERIFY(drawn);
+    QVERIFY(VoxelCanvas(drawn->runs).cells().cells().size() >= static_cast<size_t>(std::lround(0.15 / kSpacing)));
+    cleanup();  // the plugins go before the document does
   }
 
   /// The last sample waits for the end of the stroke: what fails there is told as well.

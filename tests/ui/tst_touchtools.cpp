@@ -546,7 +546,7 @@ class TestTouchTools : public ToolTest {
     QVERIFY(tool.picture().cursor->erase);
     const int steps = m_document->undoStack().count();
     tool.press(at(kTop));
-    QVERIFY(iron() > 0);
+    QTRY_VERIFY(iron() > 0);
     QVERIFY(tool.cancel());
     QCOMPARE(iron(), size_t{0});
     tool.release(at(kTop));

@@ -157,9 +157,7 @@ void DrawTool::drag(const Pointer& pointer) {
   if (!m_stroke.active() || !m_cursor) return;
   if (m_cursor->erase || box().reworks()) {
     if (const auto matter = matterUnder(pointer)) {
-      if (!isJoined(*matter, pointer)) {
-        if (const QString problem = m_stroke.lift(); !problem.isEmpty()) return endAsItIs(problem);
-      }
+      if (!isJoined(*matter, pointer)) m_stroke.lift();
       m_plane = drawingPlaneFor(*matter, pointer.forward);
       m_straight.stop();  // the guides go on from where it leaves the matter
       m_trail.start(*matter);
@@ -181,14 +179,7 @@ void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_cursor->centre = point;
   m_cursor->floor = heightBelow(pointer, point, box().document().project().environment);
   m_cursor->pressure = pointer.pressure;
-  const QString problem = m_stroke.move(point, pointer.seconds - m_began, heldBy(pointer));
-  if (!problem.isEmpty()) endAsItIs(problem);
-}
-
-/// What went wrong ends the stroke where it came to.
-void DrawTool::endAsItIs(const QString& problem) {
-  m_stroke.finish();
-  refuse(problem);
+  m_stroke.move(point, pointer.seconds - m_began, heldBy(pointer));
 }
 
 void DrawTool::release(const Pointer&) {

@@ -45,7 +45,6 @@ class DrawTool : public Tool {
   bool erases(const Pointer& pointer) const { return pointer.eraser || m_erases != pointer.control; }
   bool meetsMatter() const;  ///< instead of standing on it
   QString brushLabel() const;
-  void endAsItIs(const QString& problem);
   void refuse(const QString& why);
 
   const bool m_erases;

@@ -67,10 +67,7 @@ void HandBrush::move(const HandInScene& hand) {
     say(m_touch.move(*hand.place, seconds, heldBy(hand)));
   } else if (m_stroke.active() && (*hand.place - *m_last.place).norm() >= kWay * m_box.spacing()) {
     m_last = hand;
-    const QString problem = m_stroke.move(*hand.place, seconds, heldBy(hand));
-    if (problem.isEmpty()) return;
-    m_stroke.finish();
-    say(problem);
+    m_stroke.move(*hand.place, seconds, heldBy(hand));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "ui/session/selection.h"
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
+#include "ui/tools/strokethread.h"
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
@@ -51,6 +52,10 @@ std::optional<int> takesMore(const Document& document, const Body& body, const s
 }
 
 }  // namespace
+
+LiveStroke::LiveStroke(Toolbox& box) : m_box(box) {
+  QObject::connect(&m_looks, &QTimer::timeout, &m_looks, [this] { watch(); });
+}
 
 StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing, const Vector3& up) {
   StrokeSetup s;
@@ -174,11 +179,8 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_atStart = now.stats.frame == 0;
   m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing(), up);
   m_up = up;
-  m_fed.reset();
-  m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_cells = {};
   m_filled.clear();
-  m_occupied.reset();
   m_smooths = false;
   m_record = std::make_shared<StrokeRecord>();
   m_record->erase = erase;
@@ -196,13 +198,14 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
     m_stroke.stamp = m_box.shape();
     m_setup.stamp = stampCells(*m_stroke.stamp);
   }
-  // What the brush does decides, as in feed(), not what its metadata say.
-  const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
-  if (plugin && kindOf(*plugin, erase) == api::EditKind::Paint) {
+  // What the brush does decides, not what its metadata say.
+  const api::BrushPlugin& plugin = *m_box.document().plugins()->brush(m_brush.shape);
+  m_kind = kindOf(plugin, erase);
+  if (m_kind == api::EditKind::Paint) {
     m_record->material = sceneMaterial(m_box.document().project(), m_brush.material)->id;
-  } else if (plugin && kindOf(*plugin, erase) == api::EditKind::Colour) {
-    m_record->material = colourOf(*plugin, m_setup);
-  } else if (plugin && kindOf(*plugin, erase) == api::EditKind::Smooth) {
+  } else if (m_kind == api::EditKind::Colour) {
+    m_record->material = colourOf(plugin, m_setup);
+  } else if (m_kind == api::EditKind::Smooth) {
     if (const QString problem = whyNoSmoothing(now, point); !problem.isEmpty()) {
       m_record.reset();
       return problem;
@@ -211,10 +214,33 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
     m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
-    if (plugin && kindOf(*plugin, erase) == api::EditKind::Fill) noteOccupied(now);
     drawOn(std::get<VoxelShape>(m_body->shape));
   }
-  return move(point, 0, held);
+  start();
+  move(point, 0, held);
+  return {};
+}
+
+/// Its brush begins to work, for what is to come.
+void LiveStroke::start() {
+  StrokeScene scene{m_box.document().project().environment, {}};
+  if (m_kind == api::EditKind::Fill) scene.isFree = freePlaces();
+  const api::BrushPlugin& plugin = *m_box.document().plugins()->brush(m_brush.shape);
+  // Called from the stroke's thread, which may have been left by the time that this one looks.
+  const auto thread = std::make_shared<std::weak_ptr<StrokeThread>>();
+  m_thread = std::make_shared<StrokeThread>(
+      m_brush.shape, std::make_unique<StrokeMaker>(plugin, m_setup, m_stroke.erase, std::move(scene)), [this, thread] {
+        QMetaObject::invokeMethod(
+            &m_looks,
+            [this, thread] {
+              if (m_thread && m_thread == thread->lock()) tell(guarded([this] { take(); }));
+            },
+            Qt::QueuedConnection);
+      });
+  *thread = m_thread;
+  m_idleLooks = 0;
+  m_done = 0;
+  m_looks.start(kBrushLook);
 }
 
 /// What is drawn is drawn as if the sketch stood where it once was.
@@ -232,16 +258,15 @@ Vector3 LiveStroke::ownTurn(const Vector3& turn) const {
   return turnBetween(strokeAxes(m_setup.up), m_setup.grid.pose.inverse().turn.toRotationMatrix() * inScene);
 }
 
-QString LiveStroke::move(const Vector3& point, double seconds, const Held& held) {
-  if (!m_record) return {};
+void LiveStroke::move(const Vector3& point, double seconds, const Held& held) {
+  if (!m_record) return;
   const Vector3 own = m_setup.grid.pose.isNothing() ? point : m_setup.grid.pose.inverse().of(point);
   const Vector3 turn = ownTurn(held.turn);
   m_stroke.samples.push_back({own[0], own[1], own[2], held.pressure, seconds, turn[0], turn[1], turn[2]});
-  return guarded([&] { feed(m_resampler->add({double3Of(own), held.pressure, seconds, {}, {}, double3Of(turn)})); });
+  m_thread->add({double3Of(own), held.pressure, seconds, {}, {}, double3Of(turn)});
 }
 
-template <class Work>
-QString LiveStroke::guarded(Work work) {
+QString LiveStroke::guarded(const std::function<void()>& work) {
   try {
     work();
     return {};
@@ -255,33 +280,38 @@ QString LiveStroke::guarded(Work work) {
   }
 }
 
-void LiveStroke::feed(std::vector<api::StrokeSample> samples) {
-  const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush.shape);
-  if (samples.empty() || !plugin) return;
-  if (m_fed) samples.insert(samples.begin(), *m_fed);
-  m_fed = samples.back();
-  const api::EditKind kind = kindOf(*plugin, m_stroke.erase);
-  std::optional<StrokeEdits> edits = inTime(
-      m_brush.shape, [plugin, kind, setup = m_setup, samples] { return applyBrush(*plugin, setup, kind, samples); });
-  if (!edits) throw BrushFault(kNotBack);
-  const Environment& environment = m_box.document().project().environment;
-  std::vector<api::Cell> fresh;
-  const bool fills = kind == api::EditKind::Fill, draws = fills || kind == api::EditKind::Add;
-  if (fills) edits->filled = floodedFrom(edits->filled);
-  for (const api::Cell& cell : edits->of(kind).cells()) {
-    if (!m_cells.contains(cell) && (!draws || isInScene(environment, m_setup.grid, cell))) fresh.push_back(cell);
-  }
+/// What went wrong while it is being drawn ends it where it came to.
+void LiveStroke::tell(const QString& problem) {
+  if (problem.isEmpty()) return;
+  finish();
+  const bool draws = m_kind == api::EditKind::Add || m_kind == api::EditKind::Fill;
+  m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
+}
+
+/// Cells that have come go to the engine.
+void LiveStroke::take() {
+  const std::vector<api::Cell> fresh = m_thread->take();
   if (fresh.empty()) return;
   m_cells.add(fresh);
-  if (kind == api::EditKind::Smooth) return smooth(fresh);
+  if (m_kind == api::EditKind::Smooth) return smooth(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
     m_box.link()->erase(*m_record, cells);
-  } else if (!draws) {
-    m_box.link()->repaint(*m_record, cells);
-  } else {
+  } else if (m_kind == api::EditKind::Add || m_kind == api::EditKind::Fill) {
     m_box.link()->paint(*m_record, m_body, cells);
+  } else {
+    m_box.link()->repaint(*m_record, cells);
   }
+}
+
+/// A brush that has something to do and has done nothing for too many looks is given up.
+void LiveStroke::watch() {
+  if (!m_thread) return m_looks.stop();
+  const auto [open, done] = m_thread->progress();
+  m_idleLooks = open > 0 && done == std::exchange(m_done, done) ? m_idleLooks + 1 : 0;
+  if (m_idleLooks < kBrushLooks) return;
+  m_thread->leave();
+  tell(guarded([] { throw BrushFault(kNotBack); }));
 }
 
 std::vector<VoxelShape::Stroke> LiveStroke::pieces() const {
@@ -309,18 +339,22 @@ void LiveStroke::collectErasure(StrokeRecord& record) const {
   }
 }
 
-QString LiveStroke::lift() {
-  if (!m_record) return {};
-  const QString problem = guarded([&] { feed(m_resampler->finish()); });
-  m_fed.reset();
+void LiveStroke::lift() {
+  if (!m_record) return;
+  m_thread->lift();
   m_pieces.push_back(m_stroke);
   m_stroke.samples.clear();
-  return problem;
 }
 
 QString LiveStroke::finish() {
   if (!m_record) return {};
-  const QString problem = guarded([&] { feed(m_resampler->finish()); });
+  m_thread->lift();
+  const QString problem = guarded([this] {
+    if (!m_thread->wait()) throw BrushFault(kNotBack);
+    take();
+    take();  // what went wrong after that
+  });
+  m_thread.reset();
   if (m_record) keep();  // what came so far stays, unless the brush failed
   return problem;
 }
@@ -361,6 +395,7 @@ std::string LiveStroke::groupOfSelection() const {
 }
 
 void LiveStroke::cancel() {
+  m_thread.reset();
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();

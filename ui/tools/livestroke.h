@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/simulation/lattice.h"
 #include "core/simulation/snapshot.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/stroke.h"
@@ -9,14 +8,16 @@
 #include "ui/tools/held.h"
 
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 
+#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 
 namespace ps {
 
 class PluginRegistry;
+class StrokeThread;
 class Toolbox;
 
 /// Cells that the box around one stamp of a brush may hold: what can be stamped at every movement of the pointer.
@@ -27,22 +28,23 @@ inline constexpr double kMaximumStamp = 32768;
 StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugins, double spacing,
                         const Vector3& up = {0, 1, 0});
 
-/// A stroke in the making: takes places along it, lets the brush plugin turn them into cells, sends new cells straight
-/// to the engine, and hands the document one command at the end.
+/// A stroke in the making: takes places along it, lets the brush plugin turn them into cells on another thread, sends
+/// new cells to the engine as they come, and hands the document one command at the end. What goes wrong meanwhile is
+/// told by the toolbox.
 class LiveStroke {
  public:
-  explicit LiveStroke(Toolbox& box) : m_box(box) {}
+  explicit LiveStroke(Toolbox& box);
 
   /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on; `up`: away
   /// from what it is drawn on. What is drawn goes on with the sketched body of the same matter that it begins on, where
   /// there is one, else it is a body of its own.
   QString begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, const Held& held);
-  /// "" or what went wrong; the stroke then ends as far as it came, or is given up where the brush failed. `seconds`
-  /// since it began.
-  QString move(const Vector3& point, double seconds, const Held& held);
-  /// The next place is not joined to the last one. "" or what went wrong, as of move().
-  QString lift();
-  /// Likewise.
+  /// `seconds` since it began.
+  void move(const Vector3& point, double seconds, const Held& held);
+  /// The next place is not joined to the last one.
+  void lift();
+  /// Waits for what the brush still gives. "" or what went wrong: the stroke then ends as far as it came, or is given
+  /// up where the brush failed.
   QString finish();
   void cancel();
   bool active() const { return m_record != nullptr; }
@@ -54,16 +56,17 @@ class LiveStroke {
   Vector3 ownTurn(const Vector3& turn) const;
   void keep();
   QString whyNoSmoothing(const Snapshot& now, const Vector3& point);
-  void noteOccupied(const Snapshot& now);
-  CellSet floodedFrom(const CellSet& seeds) const;
+  std::function<bool(const Vector3&)> freePlaces() const;
   void smooth(const std::vector<api::Cell>& fresh);
   void keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied);
   QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
   Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
   const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material, int& palette) const;
-  void feed(std::vector<api::StrokeSample> samples);
-  template <class Work>
-  QString guarded(Work work);  ///< "" or what went wrong; a brush that failed is put aside
+  void start();
+  void take();
+  void watch();
+  QString guarded(const std::function<void()>& work);  ///< "" or what went wrong; a brush that failed is put aside
+  void tell(const QString& problem);
   std::vector<VoxelShape::Stroke> pieces() const;
   std::string groupOfSelection() const;
   void collectErasure(StrokeRecord& record) const;
@@ -74,12 +77,14 @@ class LiveStroke {
   std::shared_ptr<StrokeRecord> m_record;
   std::shared_ptr<const Body> m_body;  ///< that an adding or smoothing stroke changes, as it was before
   bool m_atStart = false, m_smooths = false;
-  std::unique_ptr<StrokeResampler> m_resampler;
-  std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
+  api::EditKind m_kind = api::EditKind::Add;
+  QTimer m_looks;                          ///< whether the brush comes back
+  std::shared_ptr<StrokeThread> m_thread;  ///< goes before what it tells
+  int m_idleLooks = 0;
+  size_t m_done = 0;
   StrokeSetup m_setup;
   Vector3 m_up{0, 1, 0};  ///< in the scene, away from what is drawn on
   CellSet m_cells;
-  std::optional<OccupiedPlaces> m_occupied;               ///< as a stroke that fills hollows began
   VoxelCanvas m_canvas;                                   ///< that a smoothing stroke rounds, as it was before
   std::map<int, std::shared_ptr<StrokeRecord>> m_filled;  ///< what it fills, by palette entry
   VoxelShape::Stroke m_stroke;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sketch/strokemaker.h"
+
+#include "core/sketch/flooding.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ps {
+
+StrokeMaker::StrokeMaker(const api::BrushPlugin& brush, StrokeSetup setup, bool erases, StrokeScene scene)
+    : m_brush(brush),
+      m_setup(std::move(setup)),
+      m_scene(std::move(scene)),
+      m_kind(kindOf(brush, erases)),
+      m_resampler(m_setup.grid.spacing) {}
+
+std::vector<api::Cell> StrokeMaker::add(const api::StrokeSample& raw) { return feed(m_resampler.add(raw)); }
+
+std::vector<api::Cell> StrokeMaker::lift() {
+  std::vector<api::Cell> cells = feed(m_resampler.finish());
+  m_fed.reset();
+  return cells;
+}
+
+std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples) {
+  if (samples.empty()) return {};
+  if (m_fed) samples.insert(samples.begin(), *m_fed);
+  m_fed = samples.back();
+  StrokeEdits edits = applyBrush(m_brush, m_setup, m_kind, samples);
+  const bool fills = m_kind == api::EditKind::Fill, draws = fills || m_kind == api::EditKind::Add;
+  if (fills) edits.filled = floodedFrom(edits.filled);
+  std::vector<api::Cell> fresh;
+  for (const api::Cell& cell : edits.of(m_kind).cells()) {
+    if (!m_cells.contains(cell) && (!draws || isInScene(m_scene.environment, m_setup.grid, cell)))
+      fresh.push_back(cell);
+  }
+  m_cells.add(fresh);
+  return fresh;
+}
+
+CellSet StrokeMaker::floodedFrom(const CellSet& seeds) const {
+  const Environment& environment = m_scene.environment;
+  return flooded(m_setup.grid, seeds, m_cells, environment.gravity, [&](const SketchGrid& grid, const CellSet& cells) {
+    std::vector<api::Cell> free;
+    std::copy_if(cells.cells().begin(), cells.cells().end(), std::back_inserter(free), [&](const api::Cell& cell) {
+      return isInScene(environment, grid, cell) && m_scene.isFree(grid.centreOf(cell));
+    });
+    return CellSet(free);
+  });
+}
+
+}  // namespace ps
