@@ -329,6 +329,22 @@ void Solver::Impl::iterate(uint32_t index, double dt) {
   }
 }
 
+/// All is fluid, and something goes farther in the next substep than lists allow. Contact of solids counts on lists
+/// that reach farther than the support does.
+bool Solver::Impl::outrunsLists(double dt) const {
+  if (density.fluid().size() != store.size()) return false;
+  const double most = 0.5 * kSkinSpacings * settings.spacing / dt;
+  const api::Float4* velocity = store.velocity();
+  return anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    float fastest = 0;
+    for (size_t i = first; i < last; ++i) {
+      const api::Float4& v = velocity[i];
+      fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
+    }
+    return double{fastest} > most * most;
+  });
+}
+
 void Solver::Impl::substep(uint32_t index) {
   const double dt = settings.dt / settings.substeps;
   timed(Stage::Contact, [&] {
@@ -341,8 +357,8 @@ void Solver::Impl::substep(uint32_t index) {
   });
   balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
-    if (neighbours.stale(store)) {
-      neighbours.build(store);
+    if (neighbours.close() || neighbours.stale(store)) {
+      neighbours.build(store, outrunsLists(dt));
       listsChanged(false);
     }
   });
