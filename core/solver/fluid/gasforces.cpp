@@ -73,7 +73,6 @@ GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {
     const double drag = m_solver.gasDrag > 0 ? f * open * dragRate(ratio, kDragCoefficient, m_solver.gasDrag) : 0;
     return {(1 - f) - f * lift, drag};
   }
-  if (!(m_solver.airDrag > 0)) return {1, 0};
   const double volume = store.position()[i].w, diameter = std::cbrt(6 * volume / std::numbers::pi);
   const double ratio = airDensity() * volume / double{store.mass()[i]};
   return {1 - open * ratio, open * dragRate(ratio, m_solver.airDrag, diameter)};
@@ -82,18 +81,18 @@ GasForces::Pull GasForces::pullOf(const ParticleStore& store, size_t i) const {
 void GasForces::apply(ParticleStore& store, size_t first, size_t last, double dt) const {
   const api::Double3 g = m_solver.gravity, u = m_solver.wind;
   const double strength = std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
-  const bool thesis = m_solver.gasModel == GasModel::Thesis;
+  const bool thesis = m_solver.gasModel == GasModel::Thesis, inAir = m_solver.airDrag > 0;
   for (size_t i = first; i < last; ++i) {
     api::Float4& v = store.velocity()[i];
     if (!(v.w > 0)) continue;
     Pull pull{1, 0};
     if (thesis && store.gasFraction()[i] > 0) {
       if (strength > 0) pull.weight = -thesisGravity(store.gasFraction()[i]) / strength;
-    } else {
+    } else if (inAir || store.gasFraction()[i] > 0) {
       pull = pullOf(store, i);
     }
     const double x = double{v.x} - u.x, y = double{v.y} - u.y, z = double{v.z} - u.z;
-    const double slow = 1 / (1 + pull.drag * std::sqrt(x * x + y * y + z * z) * dt);
+    const double slow = pull.drag > 0 ? 1 / (1 + pull.drag * std::sqrt(x * x + y * y + z * z) * dt) : 1;
     v.x = static_cast<float>(u.x + (x + dt * pull.weight * g.x) * slow);
     v.y = static_cast<float>(u.y + (y + dt * pull.weight * g.y) * slow);
     v.z = static_cast<float>(u.z + (z + dt * pull.weight * g.z) * slow);
