@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -84,18 +85,19 @@ void apply(Instance& instance, const json& what) {
   }
 }
 
-bool isThere(const std::string& file) { return !file.empty() && access(file.c_str(), R_OK) == 0; }
-
-// The script that a test has brought meanwhile, which is gone then: another one may follow.
+// The script that a test has brought meanwhile. It is put aside before it is read: another one may follow at any time.
 void goOn(Instance& instance) {
+  const std::string& brought = instance.laterScript;
+  const std::string taken = brought + ".taken";
+  if (brought.empty() || std::rename(brought.c_str(), taken.c_str()) != 0) return;
   try {
-    instance.script.goOn(Script(instance.laterScript), instance.frame);
+    instance.script.goOn(Script(taken), instance.frame);
     instance.nextEvent = 0;
     instance.log.write({{"later_script", "begun"}, {"frame", instance.frame}});
   } catch (const std::exception& error) {
     instance.log.write({{"later_script", error.what()}, {"frame", instance.frame}});
   }
-  unlink(instance.laterScript.c_str());
+  unlink(taken.c_str());
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ void changeRefreshRate(Instance& instance, float rate) {
 
 void nextFrame(Instance& instance) {
   ++instance.frame;
-  if (isThere(instance.laterScript)) goOn(instance);
+  goOn(instance);
   applyEvents(instance);
 }
 
