@@ -4,14 +4,13 @@
 // dropped in and heated until it melts; two undos. What the desktop has then, and saves, is what is there, and both
 // eyes see it.
 #include "tests/ui/cupstory.h"
-#include "tests/vr/vrwindow.h"
-#include "ui/tools/tooltable.h"
+#include "tests/vr/vrstory.h"
 
 #include <cmath>
 
 using namespace ps;
 
-class VrCupTest : public CupStory<VrWindowTest> {
+class VrCupTest : public VrStory<CupStory<VrWindowTest>> {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() { emptyScene(); }
@@ -28,40 +27,14 @@ class VrCupTest : public CupStory<VrWindowTest> {
   void theDesktopHasExactlyThat();
 
  private:
-  /// What a hand does next, from its own frame 0; the head stays.
-  void next(const QString& keys, const QString& more = {}) { m_run->goOn(vrScript(more, keys)); }
-  QString right(int frame, const Vector3& tip, const QString& inputs = {}) {
-    return tipKey(frame, "right", m_stand, tip, inputs);
-  }
-  QString left(int frame, const Vector3& tip, const QString& inputs = {}) {
-    return tipKey(frame, "left", m_stand, tip, inputs);
-  }
-  void brush(const char* shape, double radius, double temperature, bool held) {
-    BrushSettings settings = m_window->tools().brush();
-    settings.radius = radius;
-    settings.temperature = temperature;
-    settings.held = held;
-    m_window->tools().setBrush(settings);
-    m_window->tools().takeBrush(shape);
-  }
   /// The cube, and swings no more.
   void isCarriedTo(const Vector3& place) {
     const auto away = [&] { return (meanOf(m_ice) - place).norm(); };
-    [&] { QTRY_VERIFY2_WITH_TIMEOUT(away() < 0.02, qPrintable(QString::number(away())), kRun); }();
-    const double there = timeNow();
-    [&] { QTRY_VERIFY_WITH_TIMEOUT(timeNow() > there + 0.5, kRun); }();
+    QTRY_VERIFY2_WITH_TIMEOUT(away() < 0.02, qPrintable(QString::number(away())), kRun);
+    passes(0.5);
     QVERIFY2(away() < 0.02, qPrintable(QString::number(away())));
   }
-  int steps() { return document().undoStack().index(); }
-  QImage eye(bool isRight) {
-    const auto names = m_run->texts("picture");
-    for (auto name = names.rbegin(); name != names.rend(); ++name)
-      if (name->ends_with(isRight ? "-right.png" : "-left.png")) return QImage(QString::fromStdString(*name));
-    return {};
-  }
 
-  std::unique_ptr<ScriptedRun> m_run;
-  vr::Stand m_stand;
   Vector3 m_above{0, 0, 0};  ///< m, of the cup
 };
 
@@ -114,12 +87,7 @@ void VrCupTest::itIsMadeRigidAndFilled() {
   const size_t count = placesOf(m_water).size();
   QVERIFY2(count > 30, qPrintable(QString::number(count)));
   const double start = meanOf(m_cup).y();
-  // The left hand makes both real, and lets time pass.
-  next(left(0, {-0.4, 0.4, 0}) + right(0, away) +
-       left(10, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/y/click": true)")) +
-       left(20, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/y/click": false, "/input/x/click": true)")) +
-       left(30, {-0.4, 0.4, 0}, QStringLiteral(R"(, "/input/x/click": false)")));
-  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  makeRealAndPlay({-0.4, 0.4, 0}, right(0, away));  // both
   QTRY_VERIFY_WITH_TIMEOUT(timeNow() > 1.5, kRun);
   QVERIFY2(meanOf(m_cup).y() < start - 0.05, qPrintable(QString::number(meanOf(m_cup).y())));
   QVERIFY2(inCup(m_water) >= 0.95 * count, qPrintable(QString::number(inCup(m_water))));
@@ -140,15 +108,13 @@ void VrCupTest::anIceCubeIsTakenAndDroppedIn() {
   QTRY_VERIFY_WITH_TIMEOUT(timeNow() > drawn + 0.4, kRun);
   const Vector3 lies = meanOf(m_ice), cup = meanOf(m_cup);
   m_above = {cup.x(), 0.4, cup.z()};
-  const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
   // Up, and only then across: neither the hand nor time waits for the other on a busy machine.
   const Vector3 up(0.3, 0.4, 0);
-  next(right(0, {0.3, 0.3, 0}) + right(20, lies) + right(30, lies, held) + right(130, up));
+  next(right(0, {0.3, 0.3, 0}) + right(20, lies) + right(30, lies, kHolds) + right(130, up));
   isCarriedTo(up);
-  next(right(0, up, held) + right(130, m_above));
+  next(right(0, up, kHolds) + right(130, m_above));
   isCarriedTo(m_above);
-  next(right(0, m_above, held) + right(5, m_above, QStringLiteral(R"(, "/input/squeeze/value": 0)")) +
-       right(30, {0.4, 0.4, 0}));
+  next(right(0, m_above, kHolds) + right(5, m_above, kHoldsNothing) + right(30, {0.4, 0.4, 0}));
   const double dropped = timeNow();
   QTRY_VERIFY_WITH_TIMEOUT(timeNow() > dropped + 1, kRun);
   QVERIFY2(inCup(m_ice) == m_iceCount, qPrintable(QString::number(inCup(m_ice))));
@@ -192,15 +158,7 @@ void VrCupTest::twoUndos() {
 
 /// Both eyes see what the view draws from there, and the file holds it.
 void VrCupTest::theDesktopHasExactlyThat() {
-  QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().snapshot(), kLong);
-  const size_t pictures = m_run->lines("picture").size();
-  next(kHandsAway, QStringLiteral(R"(, "pictures": [20])"));
-  QTRY_VERIFY_WITH_TIMEOUT(m_run->lines("picture").size() == pictures + 2, kLong);
-  leave();
-  QVERIFY(m_run->lines("violation").empty());
-  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) eye(false).save(folder + "/vr-cup.png");
-  for (const bool isRight : {false, true}) seesWhatTheViewDraws(eye(isRight), isRight, m_stand);
+  leavesAsEyesSawIt(QStringLiteral("vr-cup.png"));
   savedIsWhatIsThere(2);  // cup and water
 }
 

@@ -39,12 +39,14 @@ inline const QString kPulledHeld = QStringLiteral(R"(, "/input/trigger/value": 1
 inline const QString kLetGoHeld = QStringLiteral(R"(, "/input/trigger/value": 0, "/input/squeeze/value": 0)");
 
 /// A key of the script: a hand whose tip is at a place in the scene, level and looking away from its wearer, with more
-/// of its inputs.
-inline QString tipKey(int frame, const char* hand, const vr::Stand& stand, const Vector3& tip, const QString& inputs) {
+/// of its inputs. `roll`: rad to the left, about the way it points, by which it is turned.
+inline QString tipKey(int frame, const char* hand, const vr::Stand& stand, const Vector3& tip, const QString& inputs,
+                      double roll = 0) {
   const Vector3 at = stand.toRoom(tip) + Vector3(0, 0, vr::kTip);
-  return QStringLiteral(R"(, {"frame": %1, "%2": {"grip": [%3, %4, %5], "aim": [%3, %4, %5]%6}})")
+  return QStringLiteral(
+             R"(, {"frame": %1, "%2": {"grip": [%3, %4, %5, 0, 0, %6, %7], "aim": [%3, %4, %5, 0, 0, %6, %7]%8}})")
       .arg(QString::number(frame), QString::fromLatin1(hand), QString::number(at.x()), QString::number(at.y()),
-           QString::number(at.z()), inputs);
+           QString::number(at.z()), QString::number(std::sin(roll / 2)), QString::number(std::cos(roll / 2)), inputs);
 }
 
 /// Frames as long as a headset's, so that the window has its share of the machine. `keys`: further ones, `more`: other

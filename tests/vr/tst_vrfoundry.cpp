@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// The story of the foundry in the headset, in one stay: a mould and a ladle of iron are sketched by hand, and a rope of
+// tin into the ladle; the tin is melted with the heat brush, poured by tilting the ladle in the hand, freezes in the
+// mould, and is taken by the grip and lifted out. What the desktop has then, and saves, is what is there, and both eyes
+// see it.
+#include "tests/vr/vrstory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+using namespace ps;
+
+namespace {
+
+constexpr double kMouldRadius = 0.13, kLadleRadius = 0.09, kHeight = 0.1;  // m
+constexpr double kMostOfIt = 0.8;                                          // of the tin: a drop may miss the mould
+const Vector3 kMould(0.2, 0.02, 0), kLadle(-0.2, 0.3, 0);                  // m, the feet of their walls
+const Vector3 kRest(-0.5, 0.4, 0.1), kAside(0.5, 0.4, 0.1);
+
+}  // namespace
+
+class VrFoundryTest : public VrStory<SceneStory<VrWindowTest>> {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { emptyScene(); }
+  void cleanupTestCase() {
+    leaveAtLast();
+    m_window.reset();
+  }
+
+  void aMouldAndALadleAreSketched();
+  void aRopeOfTinIsSketchedIntoTheLadle();
+  void itIsMelted();
+  void itIsPoured();
+  void itFreezesInTheMould();
+  void theCastingIsLiftedOut();
+  void theDesktopHasExactlyThat();
+
+ private:
+  /// A wall upwards from its foot, and a bottom.
+  void sketchVessel(const Vector3& foot, double radius);
+  /// The tin within a vessel's wall, or what of it moves so.
+  std::vector<Vector3> tinIn(const std::string& vessel, std::optional<api::Motion> motion = {}) {
+    const Vector3 middle = meanOf(vessel);
+    const double radius = vessel == m_mould ? kMouldRadius : kLadleRadius;
+    std::vector<Vector3> places = placesOf(m_tin, motion);
+    std::erase_if(places, [&](const Vector3& p) {
+      return std::hypot(p.x() - middle.x(), p.z() - middle.z()) > radius || std::abs(p.y() - middle.y()) > kHeight;
+    });
+    return places;
+  }
+  /// How much of the tin is above the mould.
+  size_t lifted() {
+    const double rim = meanOf(m_mould).y() + kHeight;
+    const std::vector<Vector3> places = placesOf(m_tin);
+    return static_cast<size_t>(
+        std::count_if(places.begin(), places.end(), [&](const Vector3& p) { return p.y() > rim; }));
+  }
+  /// The right hand leads the ladle by its lip, no faster than time passes.
+  void leads(const Vector3& lip, double roll);
+
+  std::string m_mould, m_ladle, m_tin;
+  size_t m_tinCount = 0, m_castCount = 0;
+  Vector3 m_lip{0, 0, 0}, m_ladleFromLip{0, 0, 0};  ///< m
+  double m_roll = 0;                                ///< rad
+};
+
+void VrFoundryTest::sketchVessel(const Vector3& foot, double radius) {
+  const int before = steps();
+  const Vector3 rim = foot + Vector3(0, kHeight, 0);
+  brush("tube", radius, 293.15, false);
+  const QString wall = right(0, foot, kLetGo) + right(20, foot, kPulled) + right(50, rim, kLetGo);
+  if (m_run) {
+    next(wall);
+  } else {
+    m_run = std::make_unique<ScriptedRun>(vrScript({}, left(0, kRest) + wall));
+    enter();
+  }
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  brush("disc", radius, 293.15, false);
+  const Vector3 bottom = foot - Vector3(0, m_window->tools().spacing() / 2, 0);
+  next(right(0, bottom, kLetGo) + right(20, bottom, kPulled) + right(30, bottom, kLetGo));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 2, kLong);
+}
+
+/// Both stand in the air, as the row Becomes of the brush says.
+void VrFoundryTest::aMouldAndALadleAreSketched() {
+  choose("iron");
+  m_window->tools().activate(kBrushTool);
+  BrushSettings settings = m_window->tools().brush();
+  settings.becomes = "fixed";
+  m_window->tools().setBrush(settings);
+  m_stand = stand();
+  sketchVessel(kMould, kMouldRadius);
+  m_mould = document().project().bodies.back().id;
+  sketchVessel(kLadle, kLadleRadius);
+  m_ladle = document().project().bodies.back().id;
+  QCOMPARE(document().project().bodies.size(), size_t{2});
+  for (const std::string& vessel : {m_mould, m_ladle}) {
+    const size_t count = placesOf(vessel).size();
+    QVERIFY2(count > 100, qPrintable(QString::number(count)));
+  }
+}
+
+/// In three turns, each above the one before.
+void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
+  choose("tin");
+  BrushSettings settings = m_window->tools().brush();
+  settings.becomes = kBecomesOfItself;
+  m_window->tools().setBrush(settings);
+  brush("sphere", 0.025, 293.15, false);
+  const int before = steps();
+  QString keys;
+  constexpr int kSteps = 36;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double angle = 6 * std::numbers::pi * k / kSteps;
+    const Vector3 at = kLadle + Vector3(0.045 * std::cos(angle), 0.02 + 0.06 * k / kSteps, 0.045 * std::sin(angle));
+    keys += k == 0 ? right(0, at, kLetGo) + right(19, at, kLetGo) : QString();
+    keys += right(20 + 3 * k, at, k < kSteps ? kPulled : kLetGo);
+  }
+  next(keys + right(40 + 3 * kSteps, kAside));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  m_tin = document().project().bodies.back().id;
+  m_tinCount = placesOf(m_tin).size();
+  QVERIFY(m_tin != m_ladle);
+  QVERIFY2(m_tinCount > 40, qPrintable(QString::number(m_tinCount)));
+  QCOMPARE(tinIn(m_ladle).size(), m_tinCount);
+}
+
+void VrFoundryTest::itIsMelted() {
+  makeRealAndPlay(kRest, right(0, kAside));
+  brush("heat", 0.1, 293.15, false);
+  BrushSettings settings = m_window->tools().brush();
+  settings.parameters["heat"].values = {{"power", 20000.0}, {"limit", 800.0}};
+  m_window->tools().setBrush(settings);
+  const int before = steps();
+  const Vector3 middle = meanOf(m_ladle);
+  next(right(0, kAside) + right(20, middle) + right(25, middle, kPulled));
+  QTRY_VERIFY2_WITH_TIMEOUT(liquidOf(m_tin) == m_tinCount, qPrintable(QString::number(liquidOf(m_tin))), kRun);
+  passes(0.5);  // the ladle gets warm too
+  next(right(0, middle, kPulled) + right(5, middle, kLetGo) + right(20, kAside));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+  QCOMPARE(tinIn(m_ladle).size(), m_tinCount);
+}
+
+void VrFoundryTest::leads(const Vector3& lip, double roll) {
+  const double way = std::max((lip - m_lip).norm() / 0.02, std::abs(roll - m_roll) / 0.06);
+  const int parts = std::max(1, static_cast<int>(std::ceil(way)));
+  const Vector3 from = m_lip;
+  const double rolled = m_roll;
+  for (int k = 1; k <= parts; ++k) {
+    const Vector3 before = m_lip;
+    const double rolledBefore = m_roll, share = static_cast<double>(k) / parts;
+    m_lip = from + share * (lip - from);
+    m_roll = rolled + share * (roll - rolled);
+    next(right(0, before, kHolds, rolledBefore) + right(3, m_lip, kHolds, m_roll));
+    const Vector3 wanted = m_lip + Eigen::AngleAxisd(m_roll, Vector3::UnitZ()) * m_ladleFromLip;
+    const auto away = [&] { return (meanOf(m_ladle) - wanted).norm(); };
+    const double until = timeNow() + 0.05;
+    QTRY_VERIFY2_WITH_TIMEOUT(away() < 0.02 && timeNow() > until, qPrintable(QString::number(away())), kRun);
+  }
+}
+
+/// The ladle goes over the mould, tips about the lip that the hand holds until it is empty, and is put aside.
+void VrFoundryTest::itIsPoured() {
+  const int before = steps();
+  const Vector3 ladle = meanOf(m_ladle), mould = meanOf(m_mould);
+  const std::vector<Vector3> places = placesOf(m_ladle);
+  m_lip = *std::max_element(places.begin(), places.end(), [](const Vector3& a, const Vector3& b) {
+    return a.x() + a.y() - std::abs(a.z()) < b.x() + b.y() - std::abs(b.z());
+  });
+  m_ladleFromLip = ladle - m_lip;
+  m_window->selection().clear();
+  next(right(0, kAside) + right(20, m_lip) + right(30, m_lip, kHolds));
+  QTRY_COMPARE_WITH_TIMEOUT(m_window->selection().body(), m_ladle, kLong);  // as one sees that it is taken
+  leads(mould + Vector3(-0.06, 0.19, 0), -0.05);
+  leads(m_lip, -2);
+  const auto poured = [&] { return tinIn(m_mould).size(); };
+  QTRY_VERIFY2_WITH_TIMEOUT(poured() > kMostOfIt * m_tinCount, qPrintable(QString::number(poured())), kRun);
+  passes(1);  // the last drops
+  leads(m_lip + Vector3(-0.2, 0.1, 0), -0.05);
+  next(right(0, m_lip, kHolds) + right(5, m_lip, kHoldsNothing) + right(20, kAside));
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
+}
+
+void VrFoundryTest::itFreezesInTheMould() {
+  const auto liquid = [&] { return tinIn(m_mould, api::Motion::Liquid).size(); };
+  QTRY_VERIFY2_WITH_TIMEOUT(liquid() == 0, qPrintable(QString::number(liquid())), kRun);
+  passes(0.2);
+  m_castCount = tinIn(m_mould).size();
+  QVERIFY2(m_castCount > kMostOfIt * m_tinCount, qPrintable(QString::number(m_castCount)));
+}
+
+/// The mould, which a grip could take as well, stays.
+void VrFoundryTest::theCastingIsLiftedOut() {
+  const int before = steps();
+  const std::vector<Vector3> cast = tinIn(m_mould);
+  const Vector3 sum = std::accumulate(cast.begin(), cast.end(), Vector3(0, 0, 0));
+  const Vector3 mould = meanOf(m_mould), lies = sum / static_cast<double>(m_castCount), up = lies + Vector3(0, 0.3, 0);
+  brush("cube", 0.03, 293.15, false);
+  next(right(0, kAside) + right(20, lies + Vector3(0, 0.2, 0)) + right(40, lies) + right(50, lies, kHolds) +
+       right(150, up, kHolds));
+  QTRY_VERIFY2_WITH_TIMEOUT(lifted() >= kMostOfIt * m_castCount, qPrintable(QString::number(lifted())), kRun);
+  passes(0.5);
+  QVERIFY2(lifted() >= kMostOfIt * m_castCount, qPrintable(QString::number(lifted())));  // in one piece
+  QVERIFY((meanOf(m_mould) - mould).norm() < 1e-9);
+  QCOMPARE(steps(), before);  // what is carried is no step: the timeline goes back
+  // The left hand stops time before the right one lets go.
+  next(right(0, up, kHolds) + left(0, kRest, QStringLiteral(R"(, "/input/x/click": false)")) +
+       left(5, kRest, QStringLiteral(R"(, "/input/x/click": true)")) +
+       left(10, kRest, QStringLiteral(R"(, "/input/x/click": false)")));
+  QTRY_VERIFY_WITH_TIMEOUT(!session().playing(), kLong);
+  QVERIFY(lifted() >= kMostOfIt * m_castCount);
+}
+
+void VrFoundryTest::theDesktopHasExactlyThat() {
+  leavesAsEyesSawIt(QStringLiteral("vr-foundry.png"));
+  savedIsWhatIsThere(3);  // mould, ladle, tin
+}
+
+QTEST_MAIN(VrFoundryTest)
+#include "tst_vrfoundry.moc"
