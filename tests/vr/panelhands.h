@@ -65,14 +65,15 @@ class PanelsTest : public VrWindowTest {
     m_window->action(QStringLiteral("simulation.tryVr"))->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
   }
-  /// A right hand that points at a place of a widget of a panel.
-  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0) {
+  /// A right hand that points at a place of a widget of a panel, by its beam or by its tip.
+  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0,
+          bool byTip = false) {
     QWidget* on = panels().widget(panel);
     const QPointF there = place + widget.mapTo(on, QPoint(0, 0));
     vr::HandsSeen seen;
     seen.seconds = m_seconds += 1;
     seen.hands[vr::kRight].panel =
-        vr::PanelPoint{panel, there.x() / on->width(), there.y() / on->height(), 1, false, pressed};
+        vr::PanelPoint{panel, there.x() / on->width(), there.y() / on->height(), 1, byTip, pressed};
     seen.hands[vr::kRight].input.steerY = steer;
     panels().act(seen);
   }

@@ -3,9 +3,12 @@
 #include "tests/ui/curvewindow.h"
 #include "tests/ui/recordhands.h"
 #include "tests/vr/panelhands.h"
+#include "ui/graphs/graphview.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/timeline.h"
 #include "ui/window/vrwithout.h"
+
+#include <QtGui/QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +38,8 @@ class VrPagesTest : public PanelsTest {
   void theTimelineIsScrubbed();
   void theTimelinesTargetsAreLargeEnough();
   void aPointOfACurveIsMoved();
+  void aGraphIsZoomed_data();
+  void aGraphIsZoomed();
 
  private:
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
@@ -189,6 +194,58 @@ void VrPagesTest::aPointOfACurveIsMoved() {
   QVERIFY(std::abs(view.at(moved.x, moved.y).y() - view.at(wanted.x, wanted.y).y()) <= 1);
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
   if (!folder.isEmpty()) panels().widget(vr::kBoard)->grab().save(folder + "/vr-curve.png");
+}
+
+void VrPagesTest::aGraphIsZoomed_data() {
+  QTest::addColumn<bool>("byTip");
+  QTest::newRow("by a beam") << false;
+  QTest::newRow("by a fingertip") << true;
+}
+
+/// Stick, drag and double press show what wheel, drag and double click of the mouse show.
+void VrPagesTest::aGraphIsZoomed() {
+  QFETCH(bool, byTip);
+  for (uint64_t frame = 1; frame <= kFrames; ++frame) hands::stepKept(session());
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
+  enterWithout();
+  panels().showPage(QStringLiteral("Graphs"));
+  QTest::qWait(100);
+  auto* graph = panels().widget(vr::kBoard)->findChild<GraphView*>();
+  QVERIFY(graph && graph->isVisible() && graph->isFitted());
+  const auto ends = [&] { return std::vector{graph->range().first, graph->range().second}; };
+  const auto areNear = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    const double pixel = (b[1] - b[0]) / graph->plotRect().width();
+    return std::abs(a[0] - b[0]) < 2 * pixel && std::abs(a[1] - b[1]) < 2 * pixel;
+  };
+  const QRectF plot = graph->plotRect();
+  const QPoint from(static_cast<int>(plot.left() + 0.7 * plot.width()), static_cast<int>(plot.center().y())),
+      way(-30, 0);
+  const auto hand = [&](const QPointF& place, bool pressed, double steer) {
+    at(vr::kBoard, *graph, place, pressed, steer, byTip);
+  };
+  const std::vector<double> whole = ends();
+  QWheelEvent wheel(from, graph->mapToGlobal(from), {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,
+                    false);
+  QApplication::sendEvent(graph, &wheel);
+  const std::vector<double> zoomed = ends();
+  hands::pull(*graph, from, way);
+  const std::vector<double> panned = ends();
+  QTest::mouseDClick(graph, Qt::LeftButton, {}, from);
+  QVERIFY(graph->isFitted() && zoomed[1] - zoomed[0] < 0.9 * (whole[1] - whole[0]) && !areNear(panned, zoomed));
+
+  hand(from, false, 0);
+  hand(from, false, 1);
+  QVERIFY(areNear(ends(), zoomed));
+  hand(from, true, 0);
+  for (const int k : {1, 2, 3}) hand(from + k * QPointF(way) / 3, true, 0);
+  hand(from + way, false, 0);
+  QVERIFY(areNear(ends(), panned));
+  hand(from + way, false, -1);
+  QVERIFY(ends()[1] - ends()[0] > 1.1 * (panned[1] - panned[0]));
+  const QPointF other = plot.center();
+  for (const bool pressed : {false, true, false, true, false}) hand(other, pressed, 0);
+  QVERIFY(graph->isFitted());
+  QCOMPARE(document().undoStack().index(), 0);  // as with the mouse, no step
 }
 
 QTEST_MAIN(VrPagesTest)
