@@ -456,6 +456,9 @@ bool Viewport::event(QEvent* event) {
 void Viewport::resizeEvent(QResizeEvent* event) {
   QOpenGLWidget::resizeEvent(event);
   m_navigator.setSize(event->size());
+  // The pointer rests where another part of the scene is now.
+  const QPoint at = mapFromGlobal(QCursor::pos());
+  if (isVisible() && m_drag == Drag::None && rect().contains(at)) hover(at, {});
 }
 
 }  // namespace ps

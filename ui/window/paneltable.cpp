@@ -14,6 +14,7 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
+#include "ui/panels/strokeslist.h"
 #include "ui/session/session.h"
 #include "ui/timeline/timeline.h"
 #include "ui/window/filmform.h"
@@ -54,6 +55,17 @@ QWidget* makeMaterials(const PanelContext& context) {
   return scroll;
 }
 
+/// The rows scroll; the strokes stay in sight below them.
+QWidget* makeBrush(const PanelContext& context) {
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(new BrushPanel(context.tools), 1);
+  column->addWidget(new StrokesList(context.session.document(), context.selection));
+  return page;
+}
+
 QWidget* makeFilm(const PanelContext& context) {
   auto* film = new FilmForm(context.session, context.view);
   film->followRun();
@@ -72,7 +84,7 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.inspector", "Material", [](Context c) -> QWidget* { return c.inspector.materialPanel(); }, "tuning"},
       {"dock.inspector", "Scene", [](Context c) -> QWidget* { return c.inspector.scenePanel(); }, "scene"},
       {"dock.inspector", "Solver", [](Context c) -> QWidget* { return c.inspector.solverPanel(); }, "numerics"},
-      {"dock.inspector", "Brush", [](Context c) -> QWidget* { return new BrushPanel(c.tools); }, "sketching"},
+      {"dock.inspector", "Brush", makeBrush, "sketching"},
       {"dock.graphs", "Graphs", [](Context c) -> QWidget* { return new GraphsPanel(c.session); }, "graphs"},
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }, "graphs"},
       {"dock.graphs", "Draw the result", [](Context c) -> QWidget* { return new FitPanel(c.session); }, "graphs"},

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/viewportpane.h"
 
-#include "core/plugin_host/registry.h"
-#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
-#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/gizmotool.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/brushbar.h"
 #include "ui/window/handleactions.h"
 #include "ui/window/noticebar.h"
 
-#include <QtGui/QAction>
-#include <QtGui/QActionGroup>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
@@ -35,8 +31,7 @@ namespace ps {
 namespace {
 
 constexpr int kBar = 34;
-constexpr int kGap = 6;                  // px, at most, between parts of the bar
-constexpr const char* kShape = "shape";  // property of a button: id of its brush
+constexpr int kGap = 6;  // px, at most, between parts of the bar
 
 bool canHaveContext() {
   // These platforms may offer contexts, but no widget can show what is drawn in them.
@@ -66,12 +61,9 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_tools(tools),
       m_notice(new NoticeBar),
       m_buttons(new QButtonGroup(this)),
-      m_shapes(new QButtonGroup(this)),
       m_brushBar(new QWidget),
       m_handleBar(new QWidget),
-      m_shapeBox(new QWidget),
       m_rareTools(new QWidget),
-      m_shapeMenu(new QToolButton),
       m_radius(new QLabel),
       m_sizeLabel(new QLabel),
       m_colourLabel(new QLabel(QStringLiteral("Colour"))),
@@ -80,9 +72,12 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(m_bar = makeBar());
+  auto* scene = new QHBoxLayout;
+  scene->setSpacing(0);
+  column->addLayout(scene, 1);
   if (canHaveContext()) {
     m_viewport = new Viewport(session, selection, tools);
-    column->addWidget(m_viewport, 1);
+    scene->addWidget(m_viewport, 1);
   } else {
     auto* none = new QLabel(QStringLiteral(
         "<b>No picture of the scene</b><br>This display offers no OpenGL. The simulation, the graphs and all values "
@@ -92,14 +87,14 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
     none->setWordWrap(true);
     none->setAlignment(Qt::AlignCenter);
     none->setMargin(40);
-    column->addWidget(none, 1);
+    scene->addWidget(none, 1);
   }
+  scene->insertWidget(0, m_brushes = new BrushBar(session, selection, tools, m_viewport));
   m_notice->setParent(this);
   m_notice->hide();
   m_notice->installEventFilter(this);
   connect(&tools, &Toolbox::toolChanged, this, &ViewportPane::showTool);
   connect(&tools, &Toolbox::brushChanged, this, &ViewportPane::showBrush);
-  connect(&session, &Session::ready, this, &ViewportPane::addShapes);
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<ViewChanged>(event)) showColour();
   });
@@ -167,13 +162,15 @@ QWidget* ViewportPane::makeBar() {
 void ViewportPane::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   share();
+  layout()->activate();  // at once: what is in hand stands under the pointer
   placeNotice();
 }
 
 /// Over the view's upper edge, so that the picture of the scene stays where it is.
 void ViewportPane::placeNotice() {
-  const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(width()) : m_notice->sizeHint().height();
-  m_notice->setGeometry(0, m_bar->height(), width(), tall);
+  const int left = m_brushes->isVisibleTo(this) ? BrushBar::kWidth : 0, wide = width() - left;
+  const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(wide) : m_notice->sizeHint().height();
+  m_notice->setGeometry(left, m_bar->height(), wide, tall);
   m_notice->raise();
   if (m_viewport) m_viewport->setCovered(m_notice->isVisible() ? tall : 0);
 }
@@ -185,51 +182,26 @@ bool ViewportPane::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-/// What there is not always room for comes as far as it does: tools that keys and menus have too, brushes side by side
-/// instead of in a menu, the label of the colours.
+/// What there is not always room for comes as far as it does: tools that keys and menus have too, the label of the
+/// colours.
 void ViewportPane::share() {
   // What shows counts as if it did not, and is not hidden for that: it may have the focus.
   int room = width() - m_bar->sizeHint().width();
-  for (QWidget* part : {m_rareTools, m_shapeBox, static_cast<QWidget*>(m_colourLabel)})
+  for (QWidget* part : {m_rareTools, static_cast<QWidget*>(m_colourLabel)})
     room += part->isVisibleTo(m_bar) ? part->sizeHint().width() : 0;
-  const bool draws = m_tools.tool().usesBrush();
-  if (draws && !m_shapeMenu->isVisibleTo(m_bar)) room -= m_shapeMenu->sizeHint().width();
-  const auto fits = [&](QWidget* part) {
+  for (QWidget* part : {m_rareTools, static_cast<QWidget*>(m_colourLabel)}) {
     const int needs = part->sizeHint().width() + kGap;
     const bool has = room >= needs;
     part->setVisible(has);
     if (has) room -= needs;
-    return has;
-  };
-  fits(m_rareTools);
-  if (draws) m_shapeMenu->setVisible(!fits(m_shapeBox));
-  fits(m_colourLabel);
+  }
 }
 
 void ViewportPane::makeBrushBar() {
   auto* brush = new QHBoxLayout(m_brushBar);
   brush->setContentsMargins(10, 0, 0, 0);
   brush->setSpacing(4);
-  auto* row = new QHBoxLayout(m_shapeBox);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  m_shapeBox->setMinimumWidth(1);  // see share()
-  brush->addWidget(m_shapeBox);
-  m_shapeMenu->setMenu(new QMenu(m_shapeMenu));
-  m_shapeActions = new QActionGroup(m_shapeMenu);
-  m_shapeMenu->setPopupMode(QToolButton::InstantPopup);
-  m_shapeMenu->setFocusPolicy(Qt::TabFocus);
-  brush->addWidget(m_shapeMenu);
-  connect(m_shapes, &QButtonGroup::buttonClicked, this, [this](const QAbstractButton* button) {
-    if (m_viewport && !button->hasFocus()) m_viewport->setFocus(Qt::OtherFocusReason);
-    chooseShape(button->property(kShape).toString());
-  });
-  connect(m_shapeActions, &QActionGroup::triggered, this, [this](const QAction* action) {
-    if (m_viewport) m_viewport->setFocus(Qt::OtherFocusReason);
-    chooseShape(action->data().toString());
-  });
   m_sizeLabel->setProperty("role", "muted");
-  brush->addSpacing(8);
   brush->addWidget(m_sizeLabel);
   for (const int direction : {-1, 1}) {
     auto* step = new QToolButton;
@@ -282,38 +254,6 @@ void ViewportPane::showHandles(const HandleActions& handles) {
   }
 }
 
-/// A brush has the icon of its id where the program carries one, and the brush's otherwise, with its name beside it.
-void ViewportPane::addShapes() {
-  const PluginRegistry* plugins = m_session.plugins();
-  for (const std::string& id : idsByLabel(*plugins, PluginKind::Brush)) {
-    const QString name = QString::fromStdString(id), label = pluginLabel(plugins, id);
-    const bool own = iconNames().contains(name);
-    QToolButton* button = checkable(own ? name : QStringLiteral("brush"), label);
-    if (!own) {
-      button->setText(asButtonText(label));
-      button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    }
-    button->setProperty(kShape, name);
-    // The menu gives keys out when it has all brushes too.
-    const auto showKey = [this, button, name, label] {
-      const auto* action = window()->findChild<QAction*>(QStringLiteral("sketch.shape.") + name);
-      if (!action || action->shortcut().isEmpty()) return;
-      button->setToolTip(QStringLiteral("%1 (%2)").arg(label, action->shortcut().toString(QKeySequence::NativeText)));
-    };
-    QMetaObject::invokeMethod(button, showKey, Qt::QueuedConnection);
-    m_shapes->addButton(button);
-    m_shapeBox->layout()->addWidget(button);
-    QAction* action = m_shapeMenu->menu()->addAction(button->icon(), asButtonText(label));
-    action->setData(name);
-    action->setCheckable(true);
-    m_shapeActions->addAction(action);
-  }
-  share();
-  showBrush();
-}
-
-void ViewportPane::chooseShape(const QString& shape) { m_tools.takeBrush(shape.toStdString()); }
-
 /// Matter itself, and the fields that particles have; those of plugins once they are known.
 void ViewportPane::addColours() {
   m_colour->clear();
@@ -335,21 +275,15 @@ void ViewportPane::showTool() {
   for (size_t i = 0; i < toolTable().size(); ++i) {
     if (m_tools.active() == toolTable()[i].id) m_buttons->button(static_cast<int>(i))->setChecked(true);
   }
+  m_brushes->setVisible(m_tools.tool().usesBrush());
   m_brushBar->setVisible(m_tools.tool().usesBrush());
   m_handleBar->setVisible(m_tools.tool().usesHandles());
   share();
+  layout()->activate();  // at once: what is in hand stands under the pointer
+  placeNotice();
 }
 
 void ViewportPane::showBrush() {
-  const QString shape = QString::fromStdString(m_tools.brush().shape);
-  for (QAbstractButton* button : m_shapes->buttons()) button->setChecked(button->property(kShape).toString() == shape);
-  for (QAction* action : m_shapeActions->actions()) {
-    action->setChecked(action->data().toString() == shape);
-    if (!action->isChecked()) continue;
-    m_shapeMenu->setIcon(action->icon());
-    m_shapeMenu->setToolTip(QStringLiteral("Brush: %1").arg(action->text()));
-    m_shapeMenu->setAccessibleName(m_shapeMenu->toolTip());
-  }
   m_sizeLabel->setText(m_tools.brushSizeName());
   m_radius->setText(m_tools.brushSizeText());
 }

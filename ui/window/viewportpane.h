@@ -4,7 +4,6 @@
 
 #include <QtWidgets/QWidget>
 
-class QActionGroup;
 class QButtonGroup;
 class QComboBox;
 class QLabel;
@@ -13,11 +12,12 @@ class QToolButton;
 
 namespace ps {
 
+class BrushBar;
 class HandleActions;
 class NoticeBar;
 
-/// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence stands in
-/// the viewport's place and everything else works. Buttons come from the tables of tools and of installed brushes.
+/// The middle of the window: tool bar, notices, brushes, the viewport. Where no OpenGL can be had at all, a sentence
+/// stands in the viewport's place and everything else works. Buttons come from the table of tools.
 class ViewportPane : public QWidget {
   Q_OBJECT
  public:
@@ -37,26 +37,22 @@ class ViewportPane : public QWidget {
  private:
   QWidget* makeBar();
   void makeBrushBar();
-  void addShapes();  ///< one button for each brush that is installed
   void addColours();
   void showColour();
   void showTool();
   void showBrush();
   void share();
   void placeNotice();
-  void chooseShape(const QString& shape);
 
   Session& m_session;
   Toolbox& m_tools;
   Viewport* m_viewport = nullptr;
   QWidget* m_bar = nullptr;
   NoticeBar* m_notice;
-  QButtonGroup *m_buttons, *m_shapes;
+  BrushBar* m_brushes;  ///< beside the view while something is drawn with
+  QButtonGroup* m_buttons;
   QWidget *m_brushBar, *m_handleBar;
-  QWidget* m_shapeBox;       ///< a button for each brush
-  QWidget* m_rareTools;      ///< those that there is not always room for
-  QToolButton* m_shapeMenu;  ///< in its place where there is no room
-  QActionGroup* m_shapeActions = nullptr;
+  QWidget* m_rareTools;  ///< those that there is not always room for
   QLabel* m_radius;
   QLabel* m_sizeLabel;  ///< what it says: the radius, or a scale
   QLabel* m_colourLabel;

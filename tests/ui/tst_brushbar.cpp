@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// The brush bar beside the view, and the list of strokes on the page Brush.
+#include "core/plugin_host/registry.h"
+#include "samplewindow.h"
+#include "ui/panels/strokeslist.h"
+#include "ui/session/selection.h"
+#include "ui/tools/tooltable.h"
+#include "ui/window/brushbar.h"
+
+#include <QtWidgets/QAbstractButton>
+
+using namespace ps;
+
+namespace {
+
+VoxelShape::Stroke strokeOf(const char* brush, bool erase, double length) {
+  VoxelShape::Stroke stroke;
+  stroke.brush = brush;
+  stroke.erase = erase;
+  stroke.samples = {{0, 0, 0, 1, 0, 0, 0, 0}, {length, 0, 0, 1, 1, 0, 0, 0}};
+  return stroke;
+}
+
+Body sketchOf(const char* id, const std::vector<VoxelShape::Stroke>& strokes) {
+  Body body;
+  body.id = id;
+  body.name = id;
+  body.material = "water";
+  VoxelShape shape;
+  shape.origin = {0, 0.3, 0};
+  shape.palette.push_back({"water", 262});
+  shape.runs = {{0, 0, 0, 4, 0}};
+  shape.strokes = strokes;
+  body.shape = shape;
+  return body;
+}
+
+}  // namespace
+
+class TestBrushBar : public SampleWindowTest {
+  Q_OBJECT
+ private Q_SLOTS:
+  void initTestCase() { open(); }
+  void init() { beginInTheView(); }
+  void cleanupTestCase() { m_window.reset(); }
+
+  void itStandsBesideTheViewWhileSomethingIsDrawnWith() {
+    QVERIFY(!bar()->isVisible());
+    const int wide = view()->width();
+    m_window->tools().activate(kBrushTool);
+    QVERIFY(bar()->isVisible());
+    QCOMPARE(bar()->width(), 98);
+    QTRY_COMPARE(view()->width(), wide - 98);
+    m_window->tools().activate(kSelectTool);
+    QVERIFY(!bar()->isVisible());
+  }
+
+  void itsButtonsStandInTwoColumns() {
+    m_window->tools().activate(kBrushTool);
+    std::set<int> columns;
+    for (const QAbstractButton* button : buttons()) {
+      QCOMPARE(button->size(), QSize(40, 40));
+      columns.insert(button->mapTo(bar(), QPoint()).x());
+    }
+    QCOMPARE(columns.size(), size_t{2});
+    QVERIFY(*columns.rbegin() + 40 <= 98 && *columns.rbegin() - *columns.begin() >= 40);
+    const auto brushes = session().plugins()->ids(PluginKind::Brush);
+    QCOMPARE(static_cast<size_t>(buttons().size()),
+             brushes.size() + 2 + std::min<size_t>(10, document().project().materials.size()));
+  }
+
+  void whatDrawsComesBeforeWhatChangesAndWhatTouches() {
+    m_window->tools().activate(kBrushTool);
+    const auto top = [this](const char* shape) { return of("shape", shape)->mapTo(bar(), QPoint()).y(); };
+    QVERIFY(top("sphere") < top("smooth"));
+    QVERIFY(top("smooth") < top("heat"));
+    QVERIFY(top("tint") < top("grab"));
+  }
+
+  void itsButtonsTakeBrushEraserMirrorAndMaterial() {
+    Toolbox& tools = m_window->tools();
+    tools.activate(kBrushTool);
+    of("shape", "cube")->click();
+    QCOMPARE(tools.brush().shape, std::string("cube"));
+    QVERIFY(of("shape", "cube")->isChecked() && !of("shape", "sphere")->isChecked());
+    QAbstractButton* erase = named("Erase matter (E)");
+    QVERIFY(erase);
+    erase->click();
+    QCOMPARE(tools.active(), std::string(kEraseTool));
+    QVERIFY(erase->isChecked());
+    erase->click();
+    QCOMPARE(tools.active(), std::string(kBrushTool));
+    QAbstractButton* mirror = named("Mirror what is drawn (M)");
+    QVERIFY(mirror);
+    mirror->click();
+    QCOMPARE(tools.brush().symmetry.mirror, std::string("x"));
+    QVERIFY(mirror->isChecked());
+    mirror->click();
+    QCOMPARE(tools.brush().symmetry.mirror, std::string("none"));
+    document().addMaterial("iron");
+    QAbstractButton* iron = of("material", "iron");
+    QVERIFY(iron);
+    iron->click();
+    QCOMPARE(tools.brush().material, std::string("iron"));
+    QVERIFY(iron->isChecked());
+    document().undoStack().undo();
+    QVERIFY(!of("material", "iron"));
+  }
+
+  void strokesOfTheSelectedSketchAreListed() {
+    const std::string cup =
+        document().addBody(sketchOf("cup", {strokeOf("sphere", false, 0.25), strokeOf("tube", true, 0.1)}));
+    const std::string bare = document().addBody(sketchOf("bare", {}));
+    m_window->selection().selectBody(cup);
+    QCOMPARE(list()->body(), cup);
+    QCOMPARE(list()->lines().size(), size_t{2});
+    const auto& [first, second] = std::tie(list()->lines()[0], list()->lines()[1]);
+    QCOMPARE(first.name, QStringLiteral("Sphere"));
+    QCOMPARE(first.icon, QStringLiteral("sphere"));
+    QCOMPARE(first.length, QStringLiteral("250 mm"));
+    QVERIFY(first.colour.isValid());
+    QCOMPARE(second.name, QStringLiteral("Tube, erased"));
+    QCOMPARE(second.icon, QStringLiteral("erase"));
+    QVERIFY(!second.colour.isValid());
+    m_window->selection().selectBody(bare);
+    QVERIFY(list()->lines().empty());
+    m_window->selection().clear();
+    QVERIFY(list()->body().empty());
+  }
+
+  void whatIsDrawnIsListedAndGoesWithUndo() {
+    m_window->tools().activate(kBrushTool);
+    of("shape", "sphere")->click();
+    m_window->selection().clear();
+    stroke(QPoint(view()->width() / 2 - 40, view()->height() / 2), {80, 0}, true);
+    QTRY_COMPARE(list()->lines().size(), size_t{1});
+    QCOMPARE(list()->lines().front().name, QStringLiteral("Sphere"));
+    document().undoStack().undo();
+    QVERIFY(list()->lines().empty());
+  }
+
+ private:
+  BrushBar* bar() const { return m_window->findChild<BrushBar*>(); }
+  StrokesList* list() const { return m_window->findChild<StrokesList*>(); }
+  QList<QAbstractButton*> buttons() const {
+    QList<QAbstractButton*> all;
+    for (QAbstractButton* button : bar()->findChildren<QAbstractButton*>(QStringLiteral("psBarButton"))) {
+      if (button->isVisibleTo(bar())) all << button;
+    }
+    return all;
+  }
+  QAbstractButton* of(const char* property, const char* id) const {
+    for (QAbstractButton* button : buttons())
+      if (button->property(property).toString() == QLatin1String(id)) return button;
+    return nullptr;
+  }
+  QAbstractButton* named(const char* tip) const {
+    for (QAbstractButton* button : buttons())
+      if (button->toolTip() == QLatin1String(tip)) return button;
+    return nullptr;
+  }
+};
+
+int main(int argc, char** argv) {
+  requestViewFormat();
+  QApplication application(argc, argv);
+  TestBrushBar test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "tst_brushbar.moc"

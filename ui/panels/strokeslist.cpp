@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/strokeslist.h"
+
+#include "core/plugin_host/registry.h"
+#include "ui/document/declared.h"
+#include "ui/document/document.h"
+#include "ui/rows/groupheading.h"
+#include "ui/session/selection.h"
+#include "ui/theme/icon.h"
+#include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/theme.h"
+#include "ui/tools/brushsettings.h"
+
+#include <QtGui/QKeyEvent>
+#include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QAccessibleWidget>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ps {
+namespace {
+
+constexpr int kMostShown = 8;
+const QString kNone = QStringLiteral("Strokes of the body that is selected are listed here");
+
+double lengthOf(const VoxelShape::Stroke& stroke) {
+  double length = 0;
+  for (size_t i = 1; i < stroke.samples.size(); ++i) {
+    double square = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const double step = stroke.samples[i][k] - stroke.samples[i - 1][k];
+      square += step * step;
+    }
+    length += std::sqrt(square);
+  }
+  return length;
+}
+
+QString nameOf(const VoxelShape::Stroke& stroke, const PluginRegistry* plugins) {
+  QString name = pluginLabel(plugins, stroke.brush);
+  if (stroke.erase) name += QStringLiteral(", erased");
+  if (!stroke.symmetry) return name;
+  if (stroke.symmetry->mirror != "none") name += QStringLiteral(", in a mirror");
+  if (stroke.symmetry->turns > 1) name += QStringLiteral(" ×%1").arg(stroke.symmetry->turns);
+  return name;
+}
+
+/// Of the matter that it leaves: one that erases, smooths or colours leaves none of its own.
+QColor matterOf(const VoxelShape::Stroke& stroke, const VoxelShape& shape, const Document& document) {
+  const PluginRegistry* plugins = document.plugins();
+  const auto needs = [&](const char* what) { return plugins && plugins->needs(stroke.brush, what); };
+  const auto entry = static_cast<size_t>(stroke.palette);
+  if (stroke.erase || needs(api::kSmoothsMatter) || needs(api::kColoursMatter) || entry >= shape.palette.size())
+    return {};
+  return colourOf(document.project(), plugins, shape.palette[entry].material);
+}
+
+}  // namespace
+
+/// What is painted; it holds the keys.
+class StrokesList::Rows : public QWidget {
+ public:
+  explicit Rows(StrokesList& list) : m_list(list) {
+    setFocusPolicy(Qt::TabFocus);
+    setAccessibleName(QStringLiteral("Strokes"));
+  }
+  QSize sizeHint() const override { return {120, kRow * std::max(1, static_cast<int>(m_list.m_lines.size())) + 4}; }
+  QSize minimumSizeHint() const override { return {80, sizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const Theme& theme = Theme::current();
+    painter.fillRect(rect(), theme[Token::Panel]);
+    if (m_list.m_lines.empty())
+      paintText(painter, QRectF(12, 0, width() - 20, kRow), Qt::AlignVCenter, kNone, Theme::font(TextRole::Small),
+                theme[Token::Muted]);
+    for (int i = 0; i < static_cast<int>(m_list.m_lines.size()); ++i) paintLine(painter, i);
+    if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
+  }
+  void mousePressEvent(QMouseEvent* event) override {
+    m_list.setCurrent(static_cast<int>(event->position().y()) / kRow);
+    setFocus(Qt::MouseFocusReason);
+  }
+  bool event(QEvent* event) override {
+    if (event->type() == QEvent::ShortcutOverride) {
+      const int key = static_cast<QKeyEvent*>(event)->key();
+      if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_Home || key == Qt::Key_End) {
+        event->accept();
+        return true;
+      }
+    }
+    return QWidget::event(event);
+  }
+  void keyPressEvent(QKeyEvent* event) override {
+    const int last = static_cast<int>(m_list.m_lines.size()) - 1;
+    switch (event->key()) {
+      case Qt::Key_Up:
+        return m_list.setCurrent(std::max(0, m_list.m_current - 1));
+      case Qt::Key_Down:
+        return m_list.setCurrent(std::min(last, m_list.m_current + 1));
+      case Qt::Key_Home:
+        return m_list.setCurrent(0);
+      case Qt::Key_End:
+        return m_list.setCurrent(last);
+      default:
+        return QWidget::keyPressEvent(event);
+    }
+  }
+
+ private:
+  void paintLine(QPainter& painter, int index) const {
+    const Theme& theme = Theme::current();
+    const Line& line = m_list.m_lines[static_cast<size_t>(index)];
+    const QRectF row(0, index * kRow, width(), kRow);
+    const bool current = index == m_list.m_current;
+    if (current) painter.fillRect(row, theme[Token::Selection]);
+    paintIcon(painter, QRectF(12, row.center().y() - 8, 16, 16), line.icon, theme[Token::Text2]);
+    double right = width() - 12;
+    if (line.colour.isValid())
+      paintBox(painter, QRectF(right - 11, row.center().y() - 5.5, 11, 11), line.colour, theme[Token::Line2], 5.5);
+    right -= 19;
+    const QFont small = Theme::font(TextRole::Small);
+    const double wide = textWidth(line.length, small) + 1;
+    paintText(painter, QRectF(right - wide, row.top(), wide, kRow), Qt::AlignVCenter | Qt::AlignRight, line.length,
+              small, theme[current ? Token::Text2 : Token::Muted]);
+    paintText(painter, QRectF(36, row.top(), right - wide - 44, kRow), Qt::AlignVCenter, line.name,
+              Theme::font(TextRole::Normal), theme[Token::Text]);
+  }
+
+  StrokesList& m_list;
+};
+
+StrokesList::StrokesList(Document& document, Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      m_document(document),
+      m_selection(selection),
+      m_heading(new GroupHeading(QStringLiteral("Strokes"))),
+      m_rows(new Rows(*this)) {
+  auto* scroll = new QScrollArea;
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(m_rows);
+  m_scroll = scroll;
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(m_heading);
+  column->addWidget(scroll);
+  connect(m_heading, &GroupHeading::foldedChanged, m_scroll, [this](bool folded) { m_scroll->setVisible(!folded); });
+  connect(&selection, &Selection::changed, this, &StrokesList::refresh);
+  connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
+    if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
+      if (!stroke->stroke->body.empty()) m_drawn = stroke->stroke->body;
+    } else if (std::holds_alternative<ProjectOpened>(event)) {
+      m_drawn.clear();
+    } else if (!std::holds_alternative<BodyChanged>(event) && !std::holds_alternative<MaterialsChanged>(event)) {
+      return;
+    }
+    refresh();
+  });
+  refresh();
+}
+
+const VoxelShape* StrokesList::sketch(const std::string& id) const {
+  const Body* body = m_document.body(id);
+  const auto* shape = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+  return shape && !shape->strokes.empty() ? shape : nullptr;
+}
+
+void StrokesList::refresh() {
+  const std::string selected = m_selection.body();
+  const std::string body = sketch(selected) ? selected : selected.empty() && sketch(m_drawn) ? m_drawn : "";
+  if (body != m_body) m_current = -1;
+  m_body = body;
+  m_lines.clear();
+  const PluginRegistry* plugins = m_document.plugins();
+  if (const VoxelShape* shape = sketch(body)) {
+    for (const VoxelShape::Stroke& stroke : shape->strokes) {
+      const QString brush = QString::fromStdString(stroke.brush);
+      const double length = lengthOf(stroke);
+      m_lines.push_back({stroke.erase                  ? QStringLiteral("erase")
+                         : iconNames().contains(brush) ? brush
+                                                       : QStringLiteral("brush"),
+                         nameOf(stroke, plugins), length > 0 ? lengthText(length) : QString(),
+                         matterOf(stroke, *shape, m_document)});
+    }
+  }
+  m_current = std::min(m_current, static_cast<int>(m_lines.size()) - 1);
+  m_heading->setCount(
+      m_lines.empty()
+          ? QString()
+          : QStringLiteral("%1 of %2").arg(m_lines.size()).arg(QString::fromStdString(m_document.body(m_body)->name)));
+  const int shown = std::clamp(static_cast<int>(m_lines.size()), 1, kMostShown);
+  m_scroll->setFixedHeight(shown * kRow + 4);
+  m_rows->updateGeometry();
+  m_rows->update();
+}
+
+void StrokesList::setCurrent(int line) {
+  m_current = line >= 0 && line < static_cast<int>(m_lines.size()) ? line : -1;
+  if (m_current >= 0) {
+    const Line& now = m_lines[static_cast<size_t>(m_current)];
+    m_rows->setAccessibleDescription(QStringLiteral("%1, %2").arg(now.name, now.length));
+    static_cast<QScrollArea*>(m_scroll)->ensureVisible(0, m_current * kRow + kRow / 2, 0, kRow / 2);
+  }
+  m_rows->update();
+}
+
+}  // namespace ps
