@@ -2,12 +2,16 @@
 // The brush bar beside the view, and the list of strokes on the page Brush.
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/panels/strokeslist.h"
+#include "ui/rows/colourpicker.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/selection.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/brushbar.h"
 
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QLineEdit>
 
 using namespace ps;
 
@@ -139,7 +143,56 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(list()->lines().empty());
   }
 
+  /// By hand, by keys and as text; the brush's own rows follow, and the swatch follows them.
+  void aColourIsPicked() {
+    m_window->tools().activate(kBrushTool);
+    auto* row = m_window->findChild<ColourRow*>();
+    of("shape", "sphere")->click();
+    QVERIFY(row && !row->isVisible());
+    of("shape", "tint")->click();
+    QVERIFY(row->isVisible() && row->isEnabled());
+    QCOMPARE(row->colour(), colourOfBrush());
+    row->click();
+    ColourPicker* picker = row->picker();
+    QTRY_VERIFY(picker->isVisible());
+    QTest::mouseClick(picker->hueBar(), Qt::LeftButton, {}, {picker->hueBar()->width() / 3, 8});
+    QTest::mouseClick(picker->plane(), Qt::LeftButton, {}, {picker->plane()->width() - 1, 0});
+    QVERIFY2(colourOfBrush().greenF() > 0.98F && colourOfBrush().redF() < 0.05F, qPrintable(colourOfBrush().name()));
+    QCOMPARE(row->colour().rgb(), colourOfBrush().rgb());
+    const double hue = picker->hue();
+    picker->choose(hue, 0, 0.5);  // grey has no hue, and keeps the one that it had
+    QTest::keyClick(picker->plane(), Qt::Key_Right);
+    QCOMPARE(picker->hue(), hue);
+    QVERIFY(picker->saturation() > 0.01);
+    picker->text()->setFocus();
+    picker->text()->selectAll();
+    QTest::keyClicks(picker->text(), QStringLiteral("#3366cc"));
+    QCOMPARE(colourOfBrush().name(), QStringLiteral("#3366cc"));
+    const ParameterRow* red = m_window->findChild<BrushPanel*>()->row(QStringLiteral("brush/red"));
+    QVERIFY(red && std::abs(red->number() - 0.2) < 1e-4);
+    QTest::keyClick(picker->plane(), Qt::Key_Escape);
+    QTRY_VERIFY(!picker->isVisible());
+    setOfTint("blue", 0.0);
+    QCOMPARE(row->colour().name(), QStringLiteral("#336600"));
+    setOfTint("bare", true);
+    QVERIFY(!row->isEnabled());
+    setOfTint("bare", false);
+  }
+
  private:
+  QColor colourOfBrush() {
+    const ParameterSet own = m_window->tools().brush().shapeParameters();
+    const api::ParameterList list = session().plugins()->parameters("tint");
+    const auto part = [&](const char* key) {
+      return static_cast<float>(std::get<double>(valueOf(own, *findDeclaration(list, key))));
+    };
+    return QColor::fromRgbF(part("red"), part("green"), part("blue"));
+  }
+  void setOfTint(const char* key, const Value& value) {
+    BrushSettings brush = m_window->tools().brush();
+    brush.parameters["tint"].values[key] = value;
+    m_window->tools().setBrush(brush);
+  }
   BrushBar* bar() const { return m_window->findChild<BrushBar*>(); }
   StrokesList* list() const { return m_window->findChild<StrokesList*>(); }
   QList<QAbstractButton*> buttons() const {

@@ -4,9 +4,14 @@
 #include "core/plugin_host/registry.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/rows/colourpicker.h"
 #include "ui/session/selection.h"
+#include "ui/theme/paint.h"
 #include "ui/tools/toolbox.h"
 
+#include <QtWidgets/QBoxLayout>
+
+#include <array>
 #include <iterator>
 
 namespace ps {
@@ -17,6 +22,8 @@ using api::ParameterKind;
 using api::Scale;
 
 const QString kShape = QStringLiteral("shape");
+/// By which a brush for colours declares its own, each from 0 to 1 (sRGB); plugins/examples/README.md says so.
+constexpr std::array kParts{"red", "green", "blue"};
 const QString kOwn = QStringLiteral("brush/");  // before the keys of the chosen brush's own parameters
 
 /// What the choices of a row are called.
@@ -42,7 +49,12 @@ QStringList labelsOf(const QString& key) {
 
 }  // namespace
 
-BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent) : ParameterPanel(parent), m_tools(tools) {
+BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent)
+    : ParameterPanel(parent), m_tools(tools), m_colour(new ColourRow(QStringLiteral("Colour"))) {
+  // Below the header, where its brush is named.
+  static_cast<QBoxLayout*>(layout())->insertWidget(1, m_colour);
+  m_colour->setToolTip(QStringLiteral("Choose the colour"));
+  connect(m_colour, &ColourRow::picked, this, &BrushPanel::takeColour);
   connect(this, &ParameterPanel::edited, this, &BrushPanel::onEdited);
   connect(&tools, &Toolbox::brushChanged, this, &BrushPanel::refresh);
   connect(&tools.document(), &Document::changed, this, [this](const ChangeEvent& event) {
@@ -136,7 +148,40 @@ void BrushPanel::refresh() {
     for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }
+  showColour();
   showMaterial();
+}
+
+/// It is disabled where its parts do not act, as their rows are.
+void BrushPanel::showColour() {
+  const std::vector<RowModel> own = rowModels(ownParameters(), m_tools.brush().shapeParameters());
+  std::array<float, 3> parts{};
+  size_t found = 0;
+  QString disabled;
+  for (size_t k = 0; k < kParts.size() && m_tools.colours(); ++k) {
+    const auto row = std::find_if(own.begin(), own.end(), [&](const RowModel& one) {
+      const auto& range = one.declaration;
+      return one.key == QLatin1String(kParts[k]) && range.hardMinimum == 0 && range.hardMaximum == 1;
+    });
+    if (row == own.end() || !std::holds_alternative<double>(row->value)) continue;
+    parts[k] = static_cast<float>(std::get<double>(row->value));
+    disabled = row->disabledReason;
+    ++found;
+  }
+  m_colour->setVisible(found == kParts.size());
+  if (found != kParts.size()) return;
+  m_colour->setColour(QColor::fromRgbF(parts[0], parts[1], parts[2]));
+  m_colour->alignTo(row(kShape));
+  m_colour->setEnabled(disabled.isEmpty());
+  m_colour->setToolTip(disabled.isEmpty() ? QStringLiteral("Choose the colour") : disabled);
+}
+
+void BrushPanel::takeColour(const QColor& colour) {
+  BrushSettings brush = m_tools.brush();
+  auto& values = brush.parameters[brush.shape].values;
+  const double parts[] = {colour.redF(), colour.greenF(), colour.blueF()};
+  for (size_t k = 0; k < kParts.size(); ++k) values[kParts[k]] = parts[k];
+  m_tools.setBrush(brush);
 }
 
 void BrushPanel::showMaterial() {

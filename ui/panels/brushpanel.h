@@ -7,6 +7,7 @@
 
 namespace ps {
 
+class ColourRow;
 class Selection;
 class Toolbox;
 
@@ -20,12 +21,15 @@ class BrushPanel : public ParameterPanel {
   void rebuild();  ///< other rows
   void refresh();  ///< other values
   void showMaterial();
+  void showColour();  ///< the swatch, of a brush that has one
+  void takeColour(const QColor& colour);
   RowModel shapeRow() const;
   api::ParameterList ownParameters() const;  ///< of the chosen brush; empty when it is not installed
   void onEdited(const QString& key, const Value& value, Edit edit);
   const char* keep(const QString& text) const;
 
   Toolbox& m_tools;
+  ColourRow* m_colour;                    ///< of a brush that declares a colour in parts
   QString m_shown;                        ///< the brushes to choose from and the chosen one, whose rows stand here
   mutable std::set<std::string> m_texts;  ///< that rows borrow; grows with what is installed only
 };
