@@ -12,12 +12,14 @@
 #include "tests/ui/tooltesting.h"
 #include "ui/document/stampof.h"
 #include "ui/tools/handbrush.h"
+#include "ui/tools/stampform.h"
 
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -27,6 +29,14 @@ using namespace ps;
 namespace {
 
 constexpr double kSpacing = 0.03;
+
+/// m3, of what its faces enclose: by the divergence of the place.
+double volumeOf(const StampForm& form) {
+  double volume = 0;
+  for (const StampForm::Face& face : form.faces)
+    volume += form.middle(face).dot(form.normal(face)) * form.spacing * form.spacing / 3;
+  return volume;
+}
 
 }  // namespace
 
@@ -73,6 +83,56 @@ class TestStampAndTint : public ToolTest {
     const FreeOf all = [](const SketchGrid&, const CellSet& some) { return some; };
     const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
     QVERIFY(redrawn(voxels, kSpacing, all, brushOf).runs == voxels.runs);
+  }
+
+  /// Its surface holds as much as is drawn, and is closed; a box shows its edges, a ball its circle.
+  void theCursorIsWhatIsStamped() {
+    Body corner;
+    corner.id = "corner", corner.material = m_document->project().materials[0].id;
+    VoxelShape shape;
+    shape.origin = {-0.4, 0.5, 0};
+    shape.spacing = kSpacing;
+    shape.palette.push_back({corner.material, 262});
+    shape.runs = {{0, 0, 0, 4, 0}, {0, 1, 0, 1, 0}, {0, 2, 0, 1, 0}};
+    corner.shape = shape;
+    m_document->addBody(corner);
+    take("stamp");
+    m_selection->selectBody("ice");
+    QVERIFY(!m_tools->form());
+    m_selection->selectBody("corner");
+    const auto form = m_tools->form();
+    QVERIFY(form);
+    QVERIFY2(std::abs(volumeOf(*form) / std::pow(kSpacing, 3) - 6) < 1e-9,
+             qPrintable(QString::number(volumeOf(*form))));
+    QCOMPARE(form->faces.size(), size_t{26});
+    for (const StampForm::Edge& edge : form->edges) QCOMPARE(edge.faces.size() % 2, size_t{0});
+    m_tools->tool().hover(at(kBeside));
+    QVERIFY(m_tools->tool().picture().cursor->form == form);
+    const size_t before = count();
+    press(kBeside);
+    QCOMPARE(count(), before + 6);
+    // From the front it is an L: as long around as 14 edges of cells.
+    QCOMPARE(form->outline({-1.5 * kSpacing, -kSpacing, 100}).size(), size_t{14});
+  }
+
+  void otherBrushesHaveTheirForms() {
+    const auto formOf = [this](const char* brush, const char* key, const Value& value) {
+      take(brush, 0.1);
+      BrushSettings settings = m_tools->brush();
+      if (key) settings.parameters[brush].values[key] = value;
+      m_tools->setBrush(settings);
+      return m_tools->form();
+    };
+    for (const char* round : {"sphere", "heat", "smooth"}) QVERIFY2(!formOf(round, nullptr, {}), round);
+    QVERIFY(!formOf("cube", nullptr, {}));
+    const auto disc = formOf("disc", nullptr, {});
+    QVERIFY(disc);  // flat, where it was drawn as a ball
+    for (const StampForm::Face& face : disc->faces) QVERIFY(std::abs(disc->middle(face).y()) < 0.51 * kSpacing);
+    const auto turned = formOf("plane", "rotation", 0.785398);
+    QVERIFY(turned);
+    QVERIFY(std::abs(volumeOf(*turned) / (0.2 * 0.2 * kSpacing) - 1) < 0.2);
+    take("disc", 0.5);
+    QVERIFY(m_tools->form()->faces.size() <= 4000);
   }
 
   /// Alt with a click takes the shape of what is there, and its material.

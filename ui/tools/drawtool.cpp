@@ -222,7 +222,9 @@ ToolPicture DrawTool::picture() const {
   ToolPicture picture;
   picture.pointer = PointerShape::Hidden;  // the brush itself is the pointer
   picture.cursor = m_cursor;
-  if (picture.cursor) std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp(m_plane.normal);
+  if (!picture.cursor) return picture;
+  std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp(m_plane.normal);
+  picture.cursor->form = box().form(m_plane.normal);
   return picture;
 }
 

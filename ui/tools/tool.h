@@ -7,6 +7,7 @@
 
 #include <QtCore/QString>
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 // should draw of it. It knows no widget, no picture and no headset: mouse, tablet and hands feed the same one.
 namespace ps {
 
+struct StampForm;
 class Toolbox;
 
 /// What Tool::type() gets of the keys Backspace and Enter.
@@ -43,6 +45,7 @@ struct BrushCursor {
   double floor = 0;         ///< m, height of what lies below
   double pressure = 1;      ///< 0 .. 1, of a hand that draws
   bool box = false, erase = false;
+  std::shared_ptr<const StampForm> form{};  ///< what it fills there; nullptr: the box, or the ball within it
 };
 
 /// Handles that move, turn or stretch what is selected.

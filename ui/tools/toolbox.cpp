@@ -11,14 +11,43 @@
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/livestroke.h"
+#include "ui/tools/stampform.h"
 #include "ui/tools/tooltable.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ps {
 namespace {
 /// Key by which a brush that stamps declares how large its copies are; plugins/examples/README.md says so.
 constexpr const char* kScale = "scale";
+
+/// What a brush says of its stamp.
+struct Said {
+  Vector3 half{0, 0, 0};  ///< m
+  bool box = false;
+  std::shared_ptr<const StampForm> form{};
+};
+
+/// The cells of one touch at the origin: on a lattice that lies as evenly about it as the stamp's box does. A ball of a
+/// box is a ball, whichever of its cells are filled.
+std::shared_ptr<const StampForm> formOf(const api::BrushPlugin& brush, StrokeSetup setup, const Said& said) {
+  const Vector3& half = said.half;
+  if (!said.box && (half - Vector3::Constant(half[0])).cwiseAbs().maxCoeff() < 1e-9) return nullptr;
+  const double edge = setup.grid.spacing;
+  for (int k = 0; k < 3; ++k) setup.grid.origin[k] = std::lround(2 * half[k] / edge) % 2 == 0 ? edge / 2 : 0;
+  setup.symmetry.reset();
+  api::StrokeSample sample{};
+  sample.pressure = 1;
+  try {
+    const api::EditKind kind = kindOf(brush, false);
+    StrokeEdits edits = applyBrush(brush, setup, kind, {&sample, 1});
+    auto form = stampForm(edits.of(kind), edge, setup.grid.origin);
+    return form ? std::make_shared<const StampForm>(std::move(*form)) : nullptr;
+  } catch (const Error&) {  // too many cells, or none that can be: the stroke itself will say so
+    return nullptr;
+  }
+}
 }  // namespace
 
 Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
@@ -220,23 +249,37 @@ double Toolbox::spacing() const {
 }
 
 std::pair<Vector3, bool> Toolbox::stamp(const Vector3& up) {
+  const Stamp& known = stampNow(up);
+  return {known.half, known.box};
+}
+
+std::shared_ptr<const StampForm> Toolbox::form(const Vector3& up) { return stampNow(up).form; }
+
+const Toolbox::Stamp& Toolbox::stampNow(const Vector3& up) {
   const PluginRegistry* plugins = m_document.plugins();
   const api::BrushPlugin* plugin = plugins ? plugins->brush(m_brush.shape) : nullptr;
-  if (!plugin) return {Vector3::Constant(m_brush.radius), false};
+  if (!plugin) {
+    m_stamp = {};
+    m_stamp.half = Vector3::Constant(m_brush.radius);
+    return m_stamp;
+  }
   StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing(), up);
   if (stampsShape()) setup.stamp = shapeCells();
   if (m_stamp.brush == m_brush.shape && m_stamp.spacing == setup.grid.spacing && m_stamp.radius == setup.radius &&
       m_stamp.parameters == setup.parameters && m_stamp.shape == setup.stamp && m_stamp.up == up)
-    return {m_stamp.half, m_stamp.box};
-  const auto asked = inTime(m_brush.shape, [plugin, setup]() -> std::pair<Vector3, bool> {
-    return {vectorOf(plugin->extent(contextOf(setup))), plugin->extension(api::kBoxStamp) != nullptr};
+    return m_stamp;
+  const auto asked = inTime(m_brush.shape, [plugin, setup, draws = !touchesMatter()]() -> Said {
+    Said said{vectorOf(plugin->extent(contextOf(setup))), plugin->extension(api::kBoxStamp) != nullptr};
+    if (draws) said.form = formOf(*plugin, setup, said);
+    return said;
   });
   if (!asked)
     QMetaObject::invokeMethod(
         this, [this, brush = m_brush.shape] { putAside(brush, kNotBack); }, Qt::QueuedConnection);
-  const auto [half, box] = asked.value_or(std::pair(Vector3(Vector3::Constant(m_brush.radius)), false));
-  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, setup.stamp, up, half, box};
-  return {half, box};
+  const Said said = asked.value_or(Said{Vector3(Vector3::Constant(m_brush.radius)), false});
+  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, setup.stamp, up,
+             said.half,     said.box,           said.form};
+  return m_stamp;
 }
 
 }  // namespace ps

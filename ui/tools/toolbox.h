@@ -20,6 +20,7 @@ namespace ps {
 
 class Document;
 struct StampCells;
+struct StampForm;
 class SceneLink;
 class Selection;
 
@@ -84,6 +85,8 @@ class Toolbox : public QObject {
   /// installed, or does not come back: it is then put aside in the next turn of the event loop.
   /// `up`: away from what it draws on.
   std::pair<Vector3, bool> stamp(const Vector3& up = {0, 1, 0});
+  /// What one stamp fills, likewise: nullptr of one that is the ball or the box that stamp() says, or touches matter.
+  std::shared_ptr<const StampForm> form(const Vector3& up = {0, 1, 0});
 
   // For tools
   Document& document() const { return m_document; }
@@ -113,7 +116,9 @@ class Toolbox : public QObject {
     Vector3 up{0, 0, 0};
     Vector3 half{0, 0, 0};  ///< m
     bool box = false;
+    std::shared_ptr<const StampForm> form{};
   };
+  const Stamp& stampNow(const Vector3& up);
   const Body* stampedBody() const;
   std::shared_ptr<const StampCells> shapeCells();
   void takeInstalled(const std::string& wanted);

@@ -7,6 +7,7 @@
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
 #include "ui/tools/brushsettings.h"
+#include "ui/tools/stampform.h"
 
 #include <QtCore/QStringList>
 #include <QtGui/QPainter>
@@ -226,15 +227,17 @@ class CursorPainter {
     const auto centre = at(cursor.centre);
     if (!centre) return;
     ring(cursor, colour);
-    QPainterPath shape;
-    if (cursor.box) {
+    QPainterPath shape, body;
+    if (cursor.form) {
+      form(cursor, shape, body);
+    } else if (cursor.box) {
       box(cursor, shape);
     } else {
       sphere(cursor, *centre, shape);
     }
     QColor fill = colour;
     fill.setAlphaF(0.16F);
-    if (!cursor.box) m_painter.fillPath(shape, fill);
+    if (cursor.form || !cursor.box) m_painter.fillPath(cursor.form ? body : shape, fill);
     stroke(shape, colour);
     for (const QPointF& arm : {QPointF(6, 0), QPointF(0, 6)}) {
       m_painter.setPen(QPen(theme[Token::Text], 1));
@@ -262,6 +265,26 @@ class CursorPainter {
     const double r =
         cursor.extent.maxCoeff() / pixelSize(m_state.camera, static_cast<int>(m_state.size.height()), depth);
     path.addEllipse(centre, r, r);
+  }
+  /// Its outline, and what is seen of its surface: all of that is turned the same way, so that it fills as one.
+  void form(const BrushCursor& cursor, QPainterPath& outline, QPainterPath& body) const {
+    const Vector3 eye = frameOf(m_state.camera).eye - cursor.centre;
+    for (const auto& [from, to] : cursor.form->outline(eye)) {
+      const auto a = at(cursor.centre + from), b = at(cursor.centre + to);
+      if (!a || !b) continue;
+      outline.moveTo(*a);
+      outline.lineTo(*b);
+    }
+    body.setFillRule(Qt::WindingFill);
+    for (const StampForm::Face& face : cursor.form->faces) {
+      if (!cursor.form->isSeen(face, eye)) continue;
+      QPolygonF around;
+      for (const Vector3& corner : cursor.form->corners(face))
+        if (const auto pixel = at(cursor.centre + corner)) around << *pixel;
+      if (around.size() < 4) continue;
+      body.addPolygon(around);
+      body.closeSubpath();
+    }
   }
   void box(const BrushCursor& cursor, QPainterPath& path) const {
     const auto corner = [&](int k) {
@@ -304,7 +327,11 @@ class CursorPainter {
     // A mouse always presses fully: that is no news.
     if (cursor.pressure < 1) text += QStringLiteral("   pressure %1 %").arg(formatFixed(100 * cursor.pressure, 0));
     const QFont font = Theme::font(TextRole::Small);
-    const QRectF rect(bounds.right() + 8, bounds.top(), textWidth(text, font) + 2 * kPadding, 20);
+    QRectF rect(bounds.right() + 8, bounds.top(), textWidth(text, font) + 2 * kPadding, 20);
+    // Whole, also beside what reaches out of the view.
+    rect.moveRight(std::min(rect.right(), m_state.size.width() - kMargin));
+    rect.moveTop(
+        std::max(m_state.top + kMargin, std::min(rect.top(), m_state.size.height() - kMargin - rect.height())));
     paintGround(m_painter, rect);
     paintText(m_painter, rect, Qt::AlignCenter, text, font, Theme::current()[Token::Text]);
   }
