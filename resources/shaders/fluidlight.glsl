@@ -67,8 +67,11 @@ bool shade(ivec2 here, vec2 uv, vec3 worldRay, out vec4 colour) {
   float height = (world.y - ground.x) / matter.w;
   vec3 warm = glowTint.rgb * ground.z * ground.w * decay(max(height, 0.0) * 14.0);
 
+  float clear = oneClearness;
+  if (clear < 0.0) clear = clamp(textureLod(fluidClear, part, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
   vec3 c;
   if (matter.z > 0.5) {
+    base *= patternAt(int(floor(15.0 * clear + 0.5)), world, 2.0);  // data are not seen through: it says which pattern
     c = base * (0.46 + 0.62 * diffuse * mix(0.62, 1.0, key)) + reflected * fresnel * 0.45 + shine * 0.6;
   } else {
     float reach = clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y;
@@ -80,8 +83,6 @@ bool shade(ivec2 here, vec2 uv, vec3 worldRay, out vec4 colour) {
     vec3 body = (base * 0.6 + 0.08) * (0.22 + 0.55 * diffuse * mix(0.5, 1.0, key)) + warm * 0.12;
     c = mix(behind * clearness, body, veil * 0.50);
     c = mix(c, reflected, min(fresnel + 0.06, 1.0)) + shine;
-    float clear = oneClearness;
-    if (clear < 0.0) clear = clamp(textureLod(fluidClear, part, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
     if (clear < 0.99) {
       vec3 sky = mix(vec3(0.20, 0.21, 0.24), vec3(0.44, 0.47, 0.53), 0.5 + 0.5 * n.y);
       float direct = max(dot(n, light.xyz), 0.0) * key;

@@ -52,6 +52,27 @@ float nearestShown() { return lens.w / (lens.z - 1.0); }  // distances of the pl
 float farthestShown() { return lens.w / (lens.z + 1.0); }
 float windowDepth(float distance) { return 0.5 - 0.5 * (lens.z - lens.w / distance); }
 
+// By how much a place of matter is darkened so that classes are told apart without their colours: 1 stripes, 2 dots,
+// 3 checks. In the scene and not on the picture, so that both eyes see it where the matter is; seen along a slanted
+// line, so that it shows on level, upright and facing surfaces alike. A fortieth of the picture's height to a twentieth
+// in the middle of the scene, twelve pixels and so many radii of a particle at least: between balls it is dark as well.
+float patternAt(int pattern, vec3 world, float least) {
+  if (pattern < 1) return 1.0;
+  float height = 2.0 * lens.y * max(distance(eye.xyz, vec3(plate.x, ground.x, plate.y)), 1e-3);  // of the picture, m
+  float period = matter.x * exp2(ceil(log2(max(max(0.025, 12.0 * size.w) * height / matter.x, least))));
+  vec2 at = (world.xy + vec2(0.6, 0.8) * world.z) / period, cell = abs(fract(at) - 0.5);
+  float soft = 0.03 + 0.5 * height * size.w / period, mark;
+  if (pattern == 1) {
+    mark = 1.0 - smoothstep(0.22 - soft, 0.22 + soft, abs(fract(at.x + at.y) - 0.5));
+  } else if (pattern == 2) {
+    mark = 1.0 - smoothstep(0.3 - soft, 0.3 + soft, length(cell));
+  } else {
+    vec2 side = smoothstep(vec2(0.25 - soft), vec2(0.25 + soft), cell);
+    mark = side.x + side.y - 2.0 * side.x * side.y;
+  }
+  return mix(1.0, 0.32, mark);
+}
+
 // The studio around the scene as surfaces mirror it, linear: a soft gradient and a large box around the key light.
 vec3 softStudio(vec3 d) {
   float up = d.y * 0.5 + 0.5, box = max(dot(d, light.xyz), 0.0);

@@ -33,6 +33,7 @@ vec3 shadeMatter(vec3 n, vec3 v, vec3 base, float kind, float key, float open) {
 
 vec4 litMatter(ivec2 here, vec2 uv, vec3 ray) {
   Surface s = surfaceAt(here, uv, ray);
+  if (s.kind > 8.0 && s.kind < 12.0) s.base *= patternAt(int(s.kind) - 8, s.position, 8.0);
   vec3 c = shadeMatter(s.normal, s.toEye, s.base, s.kind, s.key, s.open);
   float height = max((s.position.y - ground.x) / matter.w, 0.0);
   float near = decay(height * 11.0) * (0.5 - 0.5 * s.normal.y) + 0.25 * decay(height * 30.0);

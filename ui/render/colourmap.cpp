@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -26,9 +27,17 @@ struct Stop {
 };
 struct Maps {
   std::map<std::string, std::vector<Stop>> byName;
-  std::map<std::string, std::map<std::string, Colour>> scene;  // by theme
+  std::map<std::string, std::map<std::string, Colour>> scene;    // by theme
+  std::map<std::string, std::vector<render::Pattern>> patterns;  // by map, of its classes
   double temperaturePivot = 0.36;
 };
+
+render::Pattern parsePattern(const std::string& name) {
+  constexpr std::array kNames{"plain", "stripes", "dots", "checks"};
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) throw Error("maps.json: there is no pattern '" + name + "'");
+  return static_cast<render::Pattern>(found - kNames.begin());
+}
 
 Colour parseColour(const std::string& text) {
   unsigned value = 0;
@@ -47,6 +56,8 @@ Maps readMaps() {
       maps.byName[name].push_back({stop.at(0).get<double>(), parseColour(stop.at(1).get<std::string>())});
   for (const auto& [theme, colours] : json.at("scene").items())
     for (const auto& [name, colour] : colours.items()) maps.scene[theme][name] = parseColour(colour.get<std::string>());
+  for (const auto& [name, patterns] : json.at("patterns").items())
+    for (const auto& pattern : patterns) maps.patterns[name].push_back(parsePattern(pattern.get<std::string>()));
   maps.temperaturePivot = json.at("pivots").at("temperature").get<double>();
   return maps;
 }
@@ -135,6 +146,13 @@ Colour sceneColour(bool dark, const std::string& name) {
   const auto found = colours.find(name);
   if (found == colours.end()) throw Error("maps.json: the scene has no colour '" + name + "'");
   return found->second;
+}
+
+Pattern patternOf(const std::string& colour, float value) {
+  const auto found = maps().patterns.find(colour);
+  if (found == maps().patterns.end() || !(value >= 0)) return Pattern::Plain;
+  const auto index = static_cast<size_t>(value + 0.5f);
+  return index < found->second.size() ? found->second[index] : Pattern::Plain;
 }
 
 ColourTable::ColourTable(const std::string& colour, double minimum, double maximum, double meltingPoint)

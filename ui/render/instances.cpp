@@ -63,9 +63,12 @@ Colour materialColour(const Snapshot& s, size_t i) {
   return own;
 }
 
-/// As shaders read it: a Kind, and for solids and liquids its clearness in steps above it.
-float kindOf(const InstanceRequest& request, size_t i) {
+/// As shaders read it: a Kind, and for solids and liquids its clearness in steps above it. `surface`: it is part of a
+/// liquid's.
+float kindOf(const InstanceRequest& request, size_t i, Pattern pattern, bool surface) {
   const Snapshot& s = *request.now;
+  if (pattern != Pattern::Plain)
+    return static_cast<float>(surface ? Kind::Wet : Kind::Patterned) + static_cast<float>(pattern);
   if (s.motion[i] == api::Motion::Static) return static_cast<float>(Kind::Matte);
   if (request.colour != kMatterColour) return static_cast<float>(Kind::Plain);
   const bool flows = s.motion[i] == api::Motion::Liquid;
@@ -86,6 +89,9 @@ class Evaluator {
     m_match = matchById(*request.now, *m_previous);
     if (m_field && !m_field.field().classes) m_before.emplace(*m_previous, request.colour);
   }
+
+  /// Of the class that it is in, where the colours are of classes.
+  Pattern patternAt(size_t i) const { return m_field ? patternOf(m_request.colour, m_field[i]) : Pattern::Plain; }
 
   Instance at(size_t i) const {
     const Snapshot& s = *m_request.now;
@@ -241,8 +247,8 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
       radii += static_cast<double>(p.radius);
       ++counted;
     }
-    p.extra = kindOf(request, i);
     const bool surface = motion == api::Motion::Liquid && request.surfaces;
+    p.extra = kindOf(request, i, evaluator.patternAt(i), surface);
     (surface ? liquids : spheres).push_back(p);
     if (s.body[i] >= request.outlined.size() || request.outlined[s.body[i]] == 0) continue;
     out.outline.push_back(p);

@@ -13,8 +13,19 @@ namespace ps::render {
 class Projector;
 
 /// How a surface answers light; the shaders know the same numbers. A mote is plain and casts no shadow. Solid and wet
-/// matter add their clearness, from 0 to kClearest.
-enum class Kind { Plain = 0, Matte = 3, PlateTop = 4, PlateSide = 5, Dark = 6, Mote = 7, Solid = 16, Wet = 32 };
+/// matter add their clearness, from 0 to kClearest; patterned matter adds its Pattern, and so do surfaces of liquids in
+/// colours of data, which are not clear.
+enum class Kind {
+  Plain = 0,
+  Matte = 3,
+  PlateTop = 4,
+  PlateSide = 5,
+  Dark = 6,
+  Mote = 7,
+  Patterned = 8,
+  Solid = 16,
+  Wet = 32
+};
 inline constexpr float kClearest = 15;
 
 /// One particle as the shaders read it: two texels.

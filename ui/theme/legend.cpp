@@ -22,6 +22,8 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kTitle = 24, kBarWidth = 12, kBarHeight = 192, kClassRow = 20;
+constexpr double kPattern = 18;             // right of a class's letter: how it looks without its colour
+constexpr double kDarker = 0.58;            // of sRGB: about 0.3 of the light
 constexpr double kFoot = 16;                // room for a pivot that lies outside of the range
 constexpr double kMark = 12, kMarkGap = 5;  // right of the bar: the number, and what is said of it
 constexpr double kTick = 9;                 // right of the bar: the number of a tick
@@ -43,11 +45,13 @@ ColourMap parseMap(const QString& name, const QJsonArray& stops, const QJsonArra
 std::map<QString, ColourMap> readMaps() {
   const QJsonObject all = QJsonDocument::fromJson(themeResource(QStringLiteral("theme/maps.json"))).object();
   const QJsonObject stops = all[QStringLiteral("maps")].toObject(), classes = all[QStringLiteral("classes")].toObject(),
-                    pivots = all[QStringLiteral("pivots")].toObject();
+                    pivots = all[QStringLiteral("pivots")].toObject(),
+                    patterns = all[QStringLiteral("patterns")].toObject();
   std::map<QString, ColourMap> maps;
   for (auto it = stops.begin(); it != stops.end(); ++it) {
     ColourMap map = parseMap(it.key(), it.value().toArray(), classes[it.key()].toArray());
     map.pivot = pivots[it.key()].toDouble(-1);
+    for (const QJsonValue& pattern : patterns[it.key()].toArray()) map.patterns << pattern.toString();
     maps[it.key()] = std::move(map);
   }
   return maps;
@@ -67,6 +71,29 @@ double tickStep(double span, int most) {
   return decade * 10;
 }
 
+/// As the view darkens matter of a class, see patternAt() of frame.glsl.
+void paintPattern(QPainter& painter, const QRectF& rect, const QString& pattern, const QColor& colour) {
+  const QColor dark = QColor::fromRgbF(colour.redF() * kDarker, colour.greenF() * kDarker, colour.blueF() * kDarker);
+  const double period = rect.height() / 2;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  QPainterPath inside;
+  inside.addRoundedRect(rect, 3, 3);
+  painter.setClipPath(inside);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(dark);
+  for (int i = 0; i < 2 && pattern == QLatin1String("dots"); ++i)
+    for (int j = 0; j < 2; ++j)
+      painter.drawEllipse(rect.topLeft() + period * QPointF(i + 0.5, j + 0.5), 0.3 * period, 0.3 * period);
+  for (int i = 0; i < 4 && pattern == QLatin1String("checks"); ++i)
+    for (int j = i % 2; j < 4; j += 2)
+      painter.drawRect(QRectF(rect.topLeft() + period / 2 * QPointF(i, j), QSizeF(period / 2, period / 2)));
+  painter.setPen(QPen(dark, 0.44 * period / std::sqrt(2.0)));
+  for (int i = 1; i < 4 && pattern == QLatin1String("stripes"); ++i)
+    painter.drawLine(rect.topLeft() + QPointF(i * period, 0), rect.topLeft() + QPointF(0, i * period));
+  painter.restore();
+}
+
 void paintClasses(QPainter& painter, const QRectF& rect, const ColourMap& map) {
   const Theme& theme = Theme::current();
   double y = rect.top() + kTitle + 4;
@@ -78,9 +105,15 @@ void paintClasses(QPainter& painter, const QRectF& rect, const ColourMap& map) {
     const QColor light = theme[theme.dark() ? Token::Text : Token::Panel];
     paintText(painter, swatch, Qt::AlignCenter, map.classes[i].first, Theme::font(TextRole::Small),
               contrast(colour, dark) > contrast(colour, light) ? dark : light);
-    paintText(painter, QRectF(swatch.right() + 8, y, rect.right() - swatch.right() - 12, kClassRow),
-              Qt::AlignLeft | Qt::AlignVCenter, map.classes[i].second, Theme::font(TextRole::Normal),
-              theme[Token::Text2]);
+    double left = swatch.right();
+    if (!map.patterns.isEmpty()) {
+      const QRectF pattern = swatch.translated(kPattern, 0);
+      paintBox(painter, pattern, colour, theme[Token::Line2], 3);
+      paintPattern(painter, pattern, map.patterns.value(static_cast<qsizetype>(i)), colour);
+      left += kPattern;
+    }
+    paintText(painter, QRectF(left + 8, y, rect.right() - left - 12, kClassRow), Qt::AlignLeft | Qt::AlignVCenter,
+              map.classes[i].second, Theme::font(TextRole::Normal), theme[Token::Text2]);
   }
 }
 
@@ -242,7 +275,8 @@ QSizeF legendSize(const ColourMap& map, const LegendText& text, const std::vecto
   const QFont font = Theme::font(TextRole::Small);
   double width = std::max(kLeast, std::ceil(textWidth(text.title, titleFont())) + 2 * kMargin);
   for (const auto& [letter, name] : map.classes)
-    width = std::max(width, std::ceil(textWidth(name, Theme::font(TextRole::Normal))) + 36 + kMargin);
+    width = std::max(width, std::ceil(textWidth(name, Theme::font(TextRole::Normal))) + 36 + kMargin +
+                                (map.patterns.isEmpty() ? 0 : kPattern));
   // For the widest number that marks have, so that the legend stays as wide as it is while they move.
   const double number = textWidth(QStringLiteral("−000.0"), font);
   if (map.classes.empty() && !text.unit.isEmpty())

@@ -3,6 +3,7 @@
 #include <QtCore/QRectF>
 #include <QtCore/QSizeF>
 #include <QtCore/QString>
+#include <QtCore/QStringList>
 #include <QtGui/QColor>
 
 #include <utility>
@@ -18,6 +19,7 @@ struct ColourMap {
   std::vector<std::pair<double, QColor>> stops;      ///< position 0..1, ascending
   double pivot = -1;                                 ///< position that sits on the melting point; below 0: none
   std::vector<std::pair<QString, QString>> classes;  ///< letter and name of each stop where colours are classes
+  QStringList patterns;  ///< of classes: "plain", "stripes", "dots", "checks", as the view draws them; may be empty
   /// Colour at a position of 0..1; `classes` are not mixed.
   QColor at(double position) const;
 };
