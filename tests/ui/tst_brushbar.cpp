@@ -9,7 +9,10 @@
 #include "ui/session/selection.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/brushbar.h"
+#include "ui/window/dock.h"
+#include "ui/window/windowlayout.h"
 
+#include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QLineEdit>
 
@@ -109,6 +112,15 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(iron->isChecked());
     document().undoStack().undo();
     QVERIFY(!of("material", "iron"));
+  }
+
+  /// Also where somebody looks at a body while the brush is in hand already: Ctrl+K triggers the same action.
+  void aBrushThatIsChosenByItsNameShowsItsPage() {
+    m_window->tools().activate(kBrushTool);
+    Dock* inspector = m_window->layoutOfDocks().dock(QStringLiteral("dock.inspector"));
+    inspector->showPage(QStringLiteral("Body"));
+    m_window->action(QStringLiteral("sketch.shape.stamp"))->trigger();
+    QCOMPARE(inspector->currentPage(), QStringLiteral("Brush"));
   }
 
   void strokesOfTheSelectedSketchAreListed() {

@@ -51,6 +51,30 @@ class TestStampAndTint : public ToolTest {
   }
   void cleanup() { close(); }
 
+  /// A straight way of the pointer is one of the brush, from where it was pressed on: on the floor, and in the air.
+  void aStraightDragIsStraight_data() {
+    QTest::addColumn<Vector3>("from");
+    QTest::newRow("on the floor") << Vector3(-0.2, 0, 0.1);
+    QTest::newRow("in the air") << Vector3(-0.2, 0.4, -0.3);
+    QTest::newRow("far up") << Vector3(-0.4, 0.8, -0.3);
+  }
+  void aStraightDragIsStraight() {
+    QFETCH(Vector3, from);
+    take("tube", 0.04);
+    Tool& tool = m_tools->tool();
+    tool.hover(at(from));
+    const Vector3 first = tool.picture().cursor->centre;
+    tool.press(at(from));
+    for (int k = 1; k <= 6; ++k) tool.drag(at(from + Vector3(0.06 * k, 0, 0)));
+    tool.release(at(from + Vector3(0.36, 0, 0)));
+    const auto& samples = std::get<VoxelShape>(m_document->project().bodies.back().shape).strokes.back().samples;
+    QVERIFY(samples.size() > 5);
+    for (const auto& sample : samples) {
+      const Vector3 off = Vector3(sample[0], sample[1], sample[2]) - first;
+      QVERIFY2(std::hypot(off.y(), off.z()) < 1e-9, qPrintable(QString::number(std::hypot(off.y(), off.z()))));
+    }
+  }
+
   /// The one that is selected, beside it; with undo, redo, its file, and drawn again without the body.
   void theSelectedBodyIsStamped() {
     take("stamp");

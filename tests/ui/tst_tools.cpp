@@ -295,7 +295,7 @@ class TestTools : public ToolTest {
     const SnapshotPtr now = m_engine->snapshot();
     Pointer pointer = aimed({0.15, 0, 0.15}, now);
     m_tools->tool().press(pointer);
-    pointer = aimed(m_tools->tool().picture().cursor->centre + Vector3(1e-4, 0, 0), now);  // less than a sample's way
+    pointer = aimed({0.15 + 1e-4, 0, 0.15}, now);  // less than a sample's way
     pointer.seconds = 0.1;
     m_tools->tool().drag(pointer);
     QVERIFY2(refused.isEmpty(), qPrintable(refused.value(0).value(1).toString()));

@@ -31,6 +31,7 @@ bool DrawTool::meetsMatter() const { return touches() || box().reworks(); }
 void DrawTool::hover(const Pointer& pointer) {
   if (m_stroke.active() || m_touch.active()) return;
   m_cursor.reset();
+  m_lift = {0, 0, 0};
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
   cursor.erase = !touches() && erases(pointer);
@@ -48,7 +49,8 @@ void DrawTool::hover(const Pointer& pointer) {
   std::tie(cursor.extent, cursor.box) = box().stamp(m_plane.normal);
   if (!cursor.erase && !meetsMatter() && box().brush().drawOn == DrawOn::Surface) {
     // A brush stands on the surface instead of half inside it.
-    cursor.centre += m_plane.normal.cwiseProduct(cursor.extent);
+    m_lift = m_plane.normal.cwiseProduct(cursor.extent);
+    cursor.centre += m_lift;
     m_plane.point = cursor.centre;
   }
   cursor.floor = heightBelow(pointer, cursor.centre, environment);
@@ -80,6 +82,7 @@ void DrawTool::beginTouch(const Pointer& pointer) {
   const QString problem = m_touch.begin(box().brush(), erases(pointer), m_cursor->centre, m_plane.normal,
                                         pointer.ray.direction.normalized(), heldBy(pointer));
   if (!problem.isEmpty()) return refuse(problem);
+  m_lift = {0, 0, 0};
   if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
   m_hand = pointer;
   m_hand.scene = nullptr;
@@ -122,8 +125,10 @@ void DrawTool::touchAt(const Vector3& point) {
 
 /// Along a ray that misses the stroke's plane, or meets it far outside of the scene, nothing is drawn.
 std::optional<Vector3> DrawTool::placeOf(const Pointer& pointer) const {
-  const auto point = meet(pointer.ray, m_plane, kFarthest);
+  // What stands on a surface does so above the place that is pointed at, as where it began: it would leap aside else.
+  auto point = meet(pointer.ray, {m_plane.point - m_lift, m_plane.normal}, kFarthest);
   if (!point) return point;
+  *point += m_lift;
   const Environment& e = box().document().project().environment;
   const double radius = box().brush().radius;
   const bool outside =
@@ -159,6 +164,7 @@ void DrawTool::drag(const Pointer& pointer) {
     if (const auto matter = matterUnder(pointer)) {
       if (!isJoined(*matter, pointer)) m_stroke.lift();
       m_plane = drawingPlaneFor(*matter, pointer.forward);
+      m_lift = {0, 0, 0};
       m_straight.stop();  // the guides go on from where it leaves the matter
       m_trail.start(*matter);
       draw(*matter, pointer);

@@ -51,7 +51,8 @@ class DrawTool : public Tool {
   LiveStroke m_stroke;
   LiveTouch m_touch;
   DrawingPlane m_plane;
-  SnapshotPtr m_before;  ///< the scene when an eraser was pressed
+  Vector3 m_lift{0, 0, 0};  ///< m, by which the plane stands off what is pointed at
+  SnapshotPtr m_before;     ///< the scene when an eraser was pressed
   Straightener m_straight;
   Trailing m_trail;
   double m_began = 0;  ///< s, on the pointer's clock

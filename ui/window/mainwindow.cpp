@@ -359,6 +359,7 @@ void MainWindow::connectParts() {
     m_layout->setPageTitle(QStringLiteral("Messages"),
                            unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
   });
+  connect(m_sketch.get(), &SketchActions::shapeTaken, this, [this] { m_layout->showPage(QStringLiteral("Brush")); });
   Viewport* view = viewport();
   if (!view) return;
   connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });
