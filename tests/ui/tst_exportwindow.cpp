@@ -212,6 +212,37 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(m_window->inspectorDock()->isVisible());
   }
 
+  /// What was not recorded is said before it is missed in the film, and times beyond the record are too.
+  void whatIsNotRecordedIsSaid() {
+    QVERIFY(openDialog<FilmForm>("file.film"));
+    const auto says = [this](const char* words) {
+      const auto labels = m_form->findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(),
+                         [&](const QLabel* label) { return label->text().contains(QLatin1String(words)); });
+    };
+    const auto type = [this](const char* name, const char* text) { field<QLineEdit>(name)->setText(text); };
+    document().setColour("temperature");
+    type("To, in s", "0.3");
+    QVERIFY(says("in the colours of now."));
+    QVERIFY(!says("Only"));
+    document().setColour("pressure");
+    type("To, in s", "0.29");
+    QVERIFY(says("in the colours of matter: "));
+    QVERIFY(says("Pressure was not recorded then"));
+    document().setColour("material");
+    type("To, in s", "99");
+    QVERIFY(says("Only 0 to 0.4"));
+    type("From, in s", "-3");
+    QVERIFY(says("Only 0 to 0.4"));
+    type("From, in s", "98");
+    QVERIFY(says("Nothing was recorded then"));
+    QVERIFY(!button("Export")->isEnabled());
+    type("From, in s", "0.1");
+    type("To, in s", "0.2");
+    QVERIFY(!says("Only") && button("Export")->isEnabled());
+    m_form->window()->close();
+  }
+
   /// Esc in the view ends it within 0.2 s; what was written is whole, and listed.
   void escGivesItUp() {
     QVERIFY(openDialog<ExportForm>("file.export"));

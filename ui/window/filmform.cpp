@@ -3,7 +3,9 @@
 
 #include "core/base/progress.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/enginethread.h"
 #include "core/simulation/packedframe.h"
+#include "core/simulation/particlefield.h"
 #include "ui/document/document.h"
 #include "ui/film/filmpainter.h"
 #include "ui/film/projectlook.h"
@@ -79,14 +81,38 @@ QString FilmForm::summary() const {
   const QString pictures = countText(frames(), QStringLiteral("picture"), QStringLiteral("pictures"));
   if (!film()) {
     const bool replaces = !QDir(place()).entryList({QStringLiteral("frame-*.png")}, QDir::Files).isEmpty();
-    return QStringLiteral("%1, from the view and in the colours of now.").arg(pictures) +
+    return QStringLiteral("%1, from the view and %2").arg(pictures, colours()) +
            (replaces ? QStringLiteral(" The folder has some of these names: they are replaced.") : QString());
   }
   if (!m_hasFfmpeg)
     return QStringLiteral("Films need the program ffmpeg, which is not installed. Install it, or choose pictures.");
   const double seconds = static_cast<double>(frames()) / framesPerSecond();
-  return QStringLiteral("%1, %2 s, from the view and in the colours of now.").arg(pictures, formatShort(seconds, 3)) +
+  return QStringLiteral("%1, %2 s, from the view and %3").arg(pictures, formatShort(seconds, 3), colours()) +
          (QFileInfo::exists(place()) ? QStringLiteral(" The file there is replaced.") : QString());
+}
+
+bool FilmForm::holds(uint64_t frame, const std::string& colour, Looked& known) const {
+  const RunRecord& record = session().engine()->recording();
+  if (known.revision == record.begun() + 1 && known.frame == frame && known.colour == colour) return known.has;
+  const SnapshotPtr snapshot = record.frame(frame);
+  known = {record.begun() + 1, frame, colour, snapshot && ShownField(*snapshot, colour)};
+  return known.has;
+}
+
+/// A frame without the field is drawn in the colours of matter: nobody shall find that out from the film.
+QString FilmForm::colours() const {
+  const std::string& colour = session().document().project().view.colour;
+  const FrameRange asked = range();
+  if (colour == kMatterColour || !session().isReady()) return QStringLiteral("in the colours of now.");
+  const FieldPtr field = session().fields().find(colour);
+  const QString label = QString::fromStdString(field ? field->label : colour);
+  const bool first = holds(asked.first, colour, m_first), last = holds(asked.last, colour, m_last);
+  if (first && last) return QStringLiteral("in the colours of now.");
+  return (first || last
+              ? QStringLiteral("in the colours of now where %1 was recorded, elsewhere in those of matter.")
+              : QStringLiteral("in the colours of matter: %1 was not recorded then. Go back to the start and run again "
+                               "with this colour in the view to have it."))
+      .arg(label);
 }
 
 bool FilmForm::isPossible() const { return !film() || m_hasFfmpeg; }

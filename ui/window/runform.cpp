@@ -150,6 +150,10 @@ FrameRange RunForm::range() const {
   if (!m_session.isReady()) return {1, 0, 1};
   const auto from = timeIn(*m_from, m_shownFrom), to = timeIn(*m_to, m_shownTo);
   const RunRecord& record = m_session.engine()->recording();
+  // A time has the frame next to it: one that is far off has none.
+  const RunRecord::Extent extent = m_session.recorded().extent();
+  const double slack = frameLength(m_session.document().project());
+  if ((from && *from > extent.to + slack) || (to && *to < extent.from - slack)) return {1, 0, 1};
   const auto first = from ? record.frameAt(*from) : std::nullopt, last = to ? record.frameAt(*to) : std::nullopt;
   if (!first || !last || *to < *from) return {1, 0, 1};
   return {*first, *last, static_cast<uint64_t>(m_every->currentData().toInt())};
@@ -158,6 +162,15 @@ FrameRange RunForm::range() const {
 size_t RunForm::frames() const {
   const FrameRange asked = range();
   return asked.last < asked.first ? 0 : static_cast<size_t>((asked.last - asked.first) / asked.every + 1);
+}
+
+QString RunForm::limits() const {
+  const auto from = timeIn(*m_from, m_shownFrom), to = timeIn(*m_to, m_shownTo);
+  const RunRecord::Extent extent = m_session.recorded().extent();
+  const double slack = frameLength(m_session.document().project());
+  if (!from || !to || (*from >= extent.from - slack && *to <= extent.to + slack)) return {};
+  return QStringLiteral("Only %1 to %2 s are recorded, and written.")
+      .arg(formatShort(extent.from), formatShort(extent.to));
 }
 
 double RunForm::framesPerSecond() const {
@@ -182,9 +195,11 @@ void RunForm::refresh() {
   if (!m_chosen) m_place = suggestedPlace();
   showPlace();
   const size_t count = frames();
-  m_summary->setText(count > 0 ? summary()
-                               : QStringLiteral("Nothing was recorded then: both times are numbers of seconds, the "
-                                                "second not before the first."));
+  const QString limited = count > 0 ? limits() : QString();
+  m_summary->setText(count == 0 ? QStringLiteral("Nothing was recorded then: both times are numbers of seconds, the "
+                                                 "second not before the first.")
+                     : limited.isEmpty() ? summary()
+                                         : summary() + QLatin1Char(' ') + limited);
   m_begin->setEnabled(count > 0 && isPossible() && !m_session.work().isBusy());
 }
 

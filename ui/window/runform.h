@@ -43,6 +43,8 @@ class RunForm : public QWidget {
   FrameRange range() const;  ///< of frames by their numbers
   size_t frames() const;     ///< that are kept in it
   double framesPerSecond() const;
+  /// "Only 0 to 4 s are recorded, and written." where more was typed; "" elsewhere.
+  QString limits() const;
   const QString& place() const { return m_place; }
   void refresh();
   /// Where the files go unless somebody chooses: beside the project where it has a file of its own.
