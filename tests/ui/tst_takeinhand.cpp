@@ -5,6 +5,8 @@
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
+#include "ui/tools/handbrush.h"
+#include "ui/tools/handtool.h"
 #include "ui/tools/surface.h"
 
 #include <QtTest/QTest>
@@ -12,8 +14,10 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <ranges>
 
 using namespace ps;
 
@@ -50,6 +54,31 @@ class TestTakeInHand : public ToolTest {
     m_grip.reset();
   }
   void cleanup() { close(); }
+
+  /// A casting lies at the wall of its mould: the hand that closes at it does not take the mould.
+  void aHandLeavesToOthersWhatIsNearerAndFree() {
+    auto scene = std::make_shared<Snapshot>(*m_engine->snapshot());
+    const auto is = [&](const char* body) {
+      return [&scene, body](size_t i) { return (*scene->bodyIds)[scene->body[i]] == body; };
+    };
+    const auto indices = std::views::iota(size_t{0}, scene->position.size());
+    const size_t wall = *std::ranges::find_if(indices, is("plate")), lump = *std::ranges::find_if(indices, is("water"));
+    HandInScene hand;
+    hand.place = vectorOf(scene->position[wall]) + Vector3(0, 0.3 * kSpacing, 0);
+    const auto taken = [&](bool leavesFree) {
+      HandTool tool(*m_tools);
+      const bool takes = tool.take(hand, scene, leavesFree);
+      tool.letGo();
+      return takes;
+    };
+    QVERIFY(taken(true) && taken(false));
+    scene->position[lump] = float4Of(*hand.place, 0);
+    QVERIFY(taken(true));  // liquid is in the way of nothing
+    scene->motion[lump] = api::Motion::Solid;
+    QVERIFY(!taken(true) && taken(false));
+    hand.place = vectorOf(scene->position[wall]);
+    QVERIFY(taken(true));
+  }
 
   void itIsLedThroughWaterInOneStepOfUndo() {
     const Vector3 before = pivotOf(*m_document->body("plate"));

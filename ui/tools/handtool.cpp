@@ -21,14 +21,15 @@ Matrix3 frameOf(const HandInScene& hand) {
 
 }  // namespace
 
-bool HandTool::take(const HandInScene& hand, const SnapshotPtr& scene) {
+bool HandTool::take(const HandInScene& hand, const SnapshotPtr& scene, bool leavesFree) {
   if (m_grip || !hand.place || !scene) return false;
   const Body* nearest = nullptr;
   double least = kReach * m_box.spacing();
   for (size_t i = 0; i < scene->position.size(); ++i) {
     const double away = (vectorOf(scene->position[i]) - *hand.place).norm();
     if (!(away < least)) continue;
-    if (const Body* body = leadable(m_box.document(), *scene, i)) least = away, nearest = body;
+    const Body* body = leadable(m_box.document(), *scene, i);
+    if (body || (leavesFree && scene->motion[i] == api::Motion::Solid)) least = away, nearest = body;
   }
   if (!nearest) return false;
   m_grip = Grip{*nearest, *hand.place, frameOf(hand), m_box.document().changeCount(), hand.seconds};

@@ -17,7 +17,8 @@ class HandTool {
  public:
   explicit HandTool(Toolbox& box) : m_box(box) {}
   /// Whether there is something at the hand to be taken; then it is. `scene`: as it is shown; nullptr: nothing yet.
-  bool take(const HandInScene& hand, const SnapshotPtr& scene);
+  /// `leavesFree`: solid matter that is nearer, and free, is meant for another way of holding it.
+  bool take(const HandInScene& hand, const SnapshotPtr& scene, bool leavesFree);
   /// Where nobody knows the hand's place the body stays meanwhile. It is let go by itself where it is gone.
   void follow(const HandInScene& hand);
   void letGo();

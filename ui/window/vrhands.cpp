@@ -77,7 +77,7 @@ bool VrHands::lead(size_t hand, const HandInScene& there, const SnapshotPtr& sce
   } else if (held.active()) {
     held.follow(there);
     m_changed = true;
-  } else if (there.opposite && !holds && !pulls && held.take(there, scene)) {
+  } else if (there.opposite && !holds && !pulls && held.take(there, scene, m_session.playing())) {
     ++m_taken[hand];
   }
   return held.active();

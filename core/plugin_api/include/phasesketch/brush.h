@@ -152,6 +152,7 @@ class ColourBrush {
   ~ColourBrush() = default;
 };
 
+/// Called from any thread, also from several at once: each hand has a stroke of its own.
 class BrushPlugin : public Plugin {
  public:
   /// Turns samples into edits. Samples are dense: neighbours lie at most one spacing apart. A stroke may come in
