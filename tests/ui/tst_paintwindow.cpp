@@ -2,6 +2,7 @@
 // Matter painted by hand in the window: the brush is taken by its key or its button, and undo gives the matter back.
 #include "samplewindow.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/statusline.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
@@ -48,6 +49,8 @@ class TestPaintWindow : public SampleWindowTest {
     QVERIFY(painted > 20);
     QCOMPARE(idsNow(session()), before);
     picture(QStringLiteral("painted.png"));
+    // A block has become a sketch by that, which has other rows.
+    QVERIFY(m_window->findChild<StatusLine*>()->state().note.contains(QStringLiteral("is a sketch now")));
     document().undoStack().undo();
     QCOMPARE(iron(), size_t{0});
     document().undoStack().redo();

@@ -5,12 +5,25 @@
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/theme/numbers.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace ps {
 namespace {
+
+/// "must be at least −272.2 °C, not −280 °C": in the units in which people see it; "" where it is in range.
+std::string outOfRange(double value, const api::ParameterDeclaration& declaration) {
+  const std::string problem = rangeProblem(value, declaration.hardMinimum, declaration.hardMaximum, declaration.unit);
+  if (problem.empty() || !std::isfinite(value)) return problem;
+  const bool low = value < declaration.hardMinimum;
+  return QStringLiteral("must be at %1 %2, not %3")
+      .arg(low ? QStringLiteral("least") : QStringLiteral("most"),
+           formatBound(declaration, low ? declaration.hardMinimum : declaration.hardMaximum),
+           formatBound(declaration, value))
+      .toStdString();
+}
 
 /// "" or what people read of a key that cannot be. What was there before is nobody's fault who edits another key.
 QString problemWithKeys(const std::vector<TrackKey>& keys, const Track* old,
@@ -19,7 +32,8 @@ QString problemWithKeys(const std::vector<TrackKey>& keys, const Track* old,
     return QStringLiteral("A key %1.").arg(QString::fromStdString(problem->what));
   for (const TrackKey& key : keys) {
     if (old && std::find(old->keys.begin(), old->keys.end(), key) != old->keys.end()) continue;
-    const std::string problem = problemOfKey(key, declaration);
+    const std::string outside = outOfRange(key.value, declaration);
+    const std::string problem = outside.empty() ? problemOfKey(key, declaration) : outside;
     if (!problem.empty())
       return QStringLiteral("%1 at %2 s %3.")
           .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(key.time)),
@@ -28,8 +42,7 @@ QString problemWithKeys(const std::vector<TrackKey>& keys, const Track* old,
   const std::vector<CurvePoint> before = old ? turnsOf(old->keys) : std::vector<CurvePoint>{};
   for (const CurvePoint& turn : turnsOf(keys)) {
     if (std::find(before.begin(), before.end(), turn) != before.end()) continue;
-    const std::string problem =
-        rangeProblem(turn.y, declaration.hardMinimum, declaration.hardMaximum, declaration.unit);
+    const std::string problem = outOfRange(turn.y, declaration);
     if (!problem.empty())
       return QStringLiteral("%1 at %2 s, where the slopes of its keys lead, %3.")
           .arg(QString::fromUtf8(declaration.label), QString::fromStdString(numberText(turn.x)),

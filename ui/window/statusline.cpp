@@ -86,7 +86,24 @@ void StatusLine::say(const QString& sentence, MessageLevel level) {
   refresh();
 }
 
+/// Who paints a block makes it a sketch, with the values that a sketch has: no word would make them look lost.
+void StatusLine::tellOfSketches(const StrokeChanged& event) {
+  if (!event.done) return;
+  for (const SceneEdit& edit : event.stroke->edits) {
+    const auto* body = std::get_if<BodyEdit>(&edit);
+    if (!body || !body->before || !body->after) continue;
+    if (std::holds_alternative<VoxelShape>(body->before->shape) ||
+        !std::holds_alternative<VoxelShape>(body->after->shape))
+      continue;
+    say(QStringLiteral("“%1” is a sketch now, of cells: it has no measures and angles any more. Undo brings them back.")
+            .arg(QString::fromStdString(body->after->name)));
+  }
+}
+
 void StatusLine::follow() {
+  connect(&m_session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (const auto* stroke = std::get_if<StrokeChanged>(&event)) tellOfSketches(*stroke);
+  });
   for (const auto signal : {&Session::ready, &Session::valuesDue, &Session::playingChanged})
     connect(&m_session, signal, this, &StatusLine::refresh);
   for (const auto signal : {&Session::valuesDue, &Session::madeOrNot})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/snapshot.h"
+#include "ui/document/changeevent.h"
 #include "ui/session/messagelog.h"
 
 #include <QtCore/QElapsedTimer>
@@ -66,6 +67,7 @@ class StatusLine : public QWidget {
   void follow();
   void refresh();
   void addNote(State& state);
+  void tellOfSketches(const StrokeChanged& event);
   std::vector<Part> leftParts() const;
   void followTool();
   Part toolPart() const;
