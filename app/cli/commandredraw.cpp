@@ -4,11 +4,8 @@
 #include "core/base/error.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
-#include "core/scene/pose.h"
 #include "core/simulation/declared.h"
-#include "core/sketch/redraw.h"
-#include "core/sketch/stroke.h"
-#include "ui/document/strokerecord.h"
+#include "ui/document/redrawing.h"
 
 #include <cstdio>
 
@@ -20,16 +17,9 @@ constexpr OptionSpec kOptions[] = {
     {"--spacing", "M", "particle spacing in m; without it the project's own"},
 };
 
-size_t countOf(const VoxelShape& shape) {
-  size_t cells = 0;
-  for (const VoxelShape::Run& run : shape.runs) cells += static_cast<size_t>(run.length);
-  return cells;
-}
-
 /// In the order of the bodies: as in the editor, a stroke leaves free what others hold, those that are still to be
 /// drawn left out.
 void redraw(Project& project, const std::string& path, double spacing, const PluginRegistry& plugins) {
-  const auto brushOf = [&](const std::string& id) { return plugins.brush(id); };
   std::vector<VoxelShape> sketches;
   for (Body& body : project.bodies) {
     auto* sketch = std::get_if<VoxelShape>(&body.shape);
@@ -39,24 +29,12 @@ void redraw(Project& project, const std::string& path, double spacing, const Plu
   for (size_t i = 0; i < project.bodies.size(); ++i) {
     if (sketches[i].strokes.empty()) continue;
     Body& body = project.bodies[i];
-    const auto freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
-      std::vector<api::Cell> inside;
-      for (const api::Cell& cell : cells.cells()) {
-        if (isInScene(project.environment, grid, cell)) inside.push_back(cell);
-      }
-      VoxelShape lattice = latticeOf(sketches[i]);
-      lattice.origin = grid.origin, lattice.spacing = grid.spacing;
-      std::vector<api::Cell> free;
-      for (const auto& [x, y, z] : freeAtStart(project, body.id, lattice, CellSet(inside).indices()))
-        free.push_back({x, y, z});
-      return CellSet(free);
-    };
     try {
-      body.shape = redrawn(sketches[i], spacing, freeOf, brushOf, project.environment.gravity);
+      body.shape = redrawnIn(project, body.id, sketches[i], spacing, plugins);
     } catch (const Error& error) {
       throw InputError(path + ":/bodies/" + std::to_string(i) + ": " + error.what());
     }
-    const size_t cells = countOf(std::get<VoxelShape>(body.shape));
+    const size_t cells = cellCount(std::get<VoxelShape>(body.shape));
     std::printf("%s: %zu strokes, %zu cells%s\n", body.id.c_str(), sketches[i].strokes.size(), cells,
                 cells == 0 ? ": they lie where others are, or outside of the scene" : "");
   }

@@ -2,7 +2,9 @@
 // The brush bar beside the view, and the list of strokes on the page Brush.
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "ui/document/redrawing.h"
 #include "ui/panels/brushpanel.h"
+#include "ui/panels/strokeedits.h"
 #include "ui/panels/strokeslist.h"
 #include "ui/rows/colourpicker.h"
 #include "ui/rows/parameterrow.h"
@@ -15,6 +17,8 @@
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollArea>
 
 using namespace ps;
 
@@ -155,6 +159,70 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(list()->lines().empty());
   }
 
+  void strokesAreRemovedMovedAndOfAnotherMaterial() {
+    const std::string cup = document().addBody(threeStrokes());
+    const VoxelShape before = shapeOf(cup);
+    m_window->selection().selectBody(cup);
+    QCOMPARE(list()->lines().size(), size_t{3});
+    auto* rows = list()->findChild<QScrollArea*>()->widget();
+    rows->setFocus();
+    list()->setCurrent(1);  // the one that erases
+    QTest::keyClick(rows, Qt::Key_Delete);
+    QVERIFY(list()->edits().busy());
+    QTRY_COMPARE(list()->lines().size(), size_t{2});
+    QVERIFY(!list()->edits().busy());
+    const size_t whole = cellCount(shapeOf(cup));
+    QVERIFY2(whole > cellCount(before), qPrintable(QString::number(whole)));
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("removal of a stroke of cup"));
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup), before);
+    // Before there is anything it erases nothing.
+    list()->setCurrent(1);
+    QTest::keyClick(rows, Qt::Key_Up, Qt::AltModifier);
+    QTRY_COMPARE(cellCount(shapeOf(cup)), whole);
+    QCOMPARE(list()->current(), 0);
+    QVERIFY(shapeOf(cup).strokes[0].erase && !shapeOf(cup).strokes[1].erase);
+    QTest::keyClick(rows, Qt::Key_Down, Qt::AltModifier);
+    QTRY_COMPARE(shapeOf(cup), before);
+    QCOMPARE(list()->current(), 1);
+    // The last one in iron, by the menu.
+    const std::string iron = document().addMaterial("iron");
+    const std::unique_ptr<QMenu> menu(list()->menuOf(2));
+    QVERIFY(!menu->actions()[2]->isEnabled());  // there is none behind it
+    QMenu* materials = menu->actions().last()->menu();
+    const QList<QAction*> names = materials->actions();
+    const auto wanted = std::find_if(names.begin(), names.end(), [](QAction* a) { return a->text() == "Iron"; });
+    QVERIFY(wanted != names.end());
+    (*wanted)->trigger();
+    QTRY_COMPARE(shapeOf(cup).palette.back().material, iron);
+    const std::vector<VoxelShape::Run> runs = shapeOf(cup).runs;
+    QVERIFY(std::any_of(runs.begin(), runs.end(), [](const VoxelShape::Run& run) { return run.palette == 1; }));
+    QCOMPARE(cellCount(shapeOf(cup)), cellCount(before));
+  }
+
+  /// Of what no stroke has drawn, of a body that is locked, and of the only stroke.
+  void whatRedrawingLosesIsTold() {
+    Body body = threeStrokes();
+    std::get<VoxelShape>(body.shape).runs.push_back({0, 60, 0, 5, 0});
+    const std::string cup = document().addBody(body);
+    m_window->selection().selectBody(cup);
+    QSignalSpy told(&list()->edits(), &StrokeEdits::told);
+    list()->edits().remove(cup, 1);
+    QTRY_COMPARE(told.count(), 1);
+    QVERIFY2(told[0][1].toString().startsWith(QStringLiteral("5 particles")), qPrintable(told[0][1].toString()));
+    document().setLocked({{Owner::Body, cup, ""}}, true);
+    list()->edits().remove(cup, 0);
+    QCOMPARE(told.count(), 2);
+    QCOMPARE(shapeOf(cup).strokes.size(), size_t{2});
+    document().setLocked({{Owner::Body, cup, ""}}, false);
+    list()->edits().remove(cup, 0);
+    QTRY_COMPARE(shapeOf(cup).strokes.size(), size_t{1});
+    list()->edits().remove(cup, 0);
+    QVERIFY(!document().body(cup));
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup).strokes.size(), size_t{1});
+  }
+
   /// By hand, by keys and as text; the brush's own rows follow, and the swatch follows them.
   void aColourIsPicked() {
     m_window->tools().activate(kBrushTool);
@@ -192,6 +260,21 @@ class TestBrushBar : public SampleWindowTest {
   }
 
  private:
+  const VoxelShape& shapeOf(const std::string& id) { return std::get<VoxelShape>(document().body(id)->shape); }
+  /// High above the sample: a ball, another one that takes a part of it, and a third one beside them.
+  Body threeStrokes() {
+    Body body = sketchOf("cup", {});
+    auto& shape = std::get<VoxelShape>(body.shape);
+    shape.spacing = m_window->tools().spacing();
+    shape.origin = Vector3::Constant(shape.spacing / 2);
+    for (const auto& [x, erase] : {std::pair{0.0, false}, {0.04, true}, {0.2, false}}) {
+      VoxelShape::Stroke stroke = strokeOf("sphere", erase, 0);
+      stroke.samples = {{x, 0.6, 0, 1, 0, 0, 0, 0}};
+      shape.strokes.push_back(stroke);
+    }
+    shape = redrawnIn(document().project(), body.id, shape, shape.spacing, *session().plugins());
+    return body;
+  }
   QColor colourOfBrush() {
     const ParameterSet own = m_window->tools().brush().shapeParameters();
     const api::ParameterList list = session().plugins()->parameters("tint");

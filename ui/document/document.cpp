@@ -253,6 +253,10 @@ void Document::addStroke(std::shared_ptr<StrokeRecord> stroke, const std::string
   m_undo.endMacro();
 }
 
+void Document::setSketch(const std::string& id, const VoxelShape& sketch, const QString& title) {
+  editBody(id, title, [&](Body& b) { b.shape = sketch; });
+}
+
 void Document::addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text) {
   if (parts.size() > 1) m_undo.beginMacro(text);
   for (const std::shared_ptr<StrokeRecord>& part : parts) m_undo.push(new StrokeCommand(*this, part, text));

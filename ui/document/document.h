@@ -102,6 +102,8 @@ class Document : public QObject {
   /// Notes a stroke whose particles are in the engine already. A body that it begins joins a group, in the same step;
   /// "": none.
   void addStroke(std::shared_ptr<StrokeRecord> stroke, const std::string& group = {});
+  /// What a sketched body is from now on, as its strokes draw it. Acts at the next reset.
+  void setSketch(const std::string& id, const VoxelShape& sketch, const QString& title);
   /// Parts of one stroke, as one step; at least one.
   void addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text);
 

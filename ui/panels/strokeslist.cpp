@@ -2,20 +2,25 @@
 #include "ui/panels/strokeslist.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/strokeedits.h"
 #include "ui/rows/groupheading.h"
 #include "ui/session/selection.h"
+#include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/brushsettings.h"
 
+#include <QtGui/QContextMenuEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QAccessibleWidget>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
 
@@ -26,6 +31,9 @@ namespace ps {
 namespace {
 
 constexpr int kMostShown = 8;
+const QString kKeys = QStringLiteral(
+    "Del removes the stroke, Alt+Up and Alt+Down draw it earlier or later; the other "
+    "mouse button gives it another material. The sketch is drawn again from them.");
 const QString kNone = QStringLiteral("Strokes of the body that is selected are listed here");
 
 double lengthOf(const VoxelShape::Stroke& stroke) {
@@ -68,6 +76,7 @@ class StrokesList::Rows : public QWidget {
   explicit Rows(StrokesList& list) : m_list(list) {
     setFocusPolicy(Qt::TabFocus);
     setAccessibleName(QStringLiteral("Strokes"));
+    setToolTip(kKeys);
   }
   QSize sizeHint() const override { return {120, kRow * std::max(1, static_cast<int>(m_list.m_lines.size())) + 4}; }
   QSize minimumSizeHint() const override { return {80, sizeHint().height()}; }
@@ -88,33 +97,32 @@ class StrokesList::Rows : public QWidget {
     m_list.setCurrent(static_cast<int>(event->position().y()) / kRow);
     setFocus(Qt::MouseFocusReason);
   }
+  void contextMenuEvent(QContextMenuEvent* event) override {
+    const bool byKey = event->reason() == QContextMenuEvent::Keyboard;
+    if (!byKey) m_list.setCurrent(event->pos().y() / kRow);
+    if (m_list.m_current < 0) return;
+    QMenu* menu = m_list.menuOf(m_list.m_current);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->popup(byKey ? mapToGlobal(QPoint(36, (m_list.m_current + 1) * kRow)) : event->globalPos());
+  }
   bool event(QEvent* event) override {
-    if (event->type() == QEvent::ShortcutOverride) {
-      const int key = static_cast<QKeyEvent*>(event)->key();
-      if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_Home || key == Qt::Key_End) {
-        event->accept();
-        return true;
-      }
+    if (event->type() == QEvent::ShortcutOverride && isOwn(*static_cast<QKeyEvent*>(event))) {
+      event->accept();
+      return true;
     }
     return QWidget::event(event);
   }
   void keyPressEvent(QKeyEvent* event) override {
-    const int last = static_cast<int>(m_list.m_lines.size()) - 1;
-    switch (event->key()) {
-      case Qt::Key_Up:
-        return m_list.setCurrent(std::max(0, m_list.m_current - 1));
-      case Qt::Key_Down:
-        return m_list.setCurrent(std::min(last, m_list.m_current + 1));
-      case Qt::Key_Home:
-        return m_list.setCurrent(0);
-      case Qt::Key_End:
-        return m_list.setCurrent(last);
-      default:
-        return QWidget::keyPressEvent(event);
-    }
+    if (!isOwn(*event) || !m_list.act(*event)) QWidget::keyPressEvent(event);
   }
 
  private:
+  static bool isOwn(const QKeyEvent& event) {
+    const bool plain = event.modifiers() == Qt::NoModifier || event.modifiers() == Qt::KeypadModifier;
+    const int key = event.key();
+    if (key == Qt::Key_Up || key == Qt::Key_Down) return plain || event.modifiers() == Qt::AltModifier;
+    return plain && (key == Qt::Key_Home || key == Qt::Key_End || key == Qt::Key_Delete);
+  }
   void paintLine(QPainter& painter, int index) const {
     const Theme& theme = Theme::current();
     const Line& line = m_list.m_lines[static_cast<size_t>(index)];
@@ -137,10 +145,11 @@ class StrokesList::Rows : public QWidget {
   StrokesList& m_list;
 };
 
-StrokesList::StrokesList(Document& document, Selection& selection, QWidget* parent)
+StrokesList::StrokesList(Session& session, Selection& selection, QWidget* parent)
     : QWidget(parent),
-      m_document(document),
+      m_document(session.document()),
       m_selection(selection),
+      m_edits(new StrokeEdits(session, this)),
       m_heading(new GroupHeading(QStringLiteral("Strokes"))),
       m_rows(new Rows(*this)) {
   auto* scroll = new QScrollArea;
@@ -157,7 +166,7 @@ StrokesList::StrokesList(Document& document, Selection& selection, QWidget* pare
   column->addWidget(scroll);
   connect(m_heading, &GroupHeading::foldedChanged, m_scroll, [this](bool folded) { m_scroll->setVisible(!folded); });
   connect(&selection, &Selection::changed, this, &StrokesList::refresh);
-  connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
+  connect(&m_document, &Document::changed, this, [this](const ChangeEvent& event) {
     if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
       if (!stroke->stroke->body.empty()) m_drawn = stroke->stroke->body;
     } else if (std::holds_alternative<ProjectOpened>(event)) {
@@ -167,7 +176,54 @@ StrokesList::StrokesList(Document& document, Selection& selection, QWidget* pare
     }
     refresh();
   });
+  connect(m_edits, &StrokeEdits::busyChanged, this, &StrokesList::refresh);
+  connect(m_edits, &StrokeEdits::edited, this, [this](size_t stroke) { setCurrent(static_cast<int>(stroke)); });
   refresh();
+}
+
+bool StrokesList::act(const QKeyEvent& event) {
+  const int last = static_cast<int>(m_lines.size()) - 1, step = event.key() == Qt::Key_Up ? -1 : 1;
+  switch (event.key()) {
+    case Qt::Key_Home:
+      setCurrent(0);
+      return true;
+    case Qt::Key_End:
+      setCurrent(last);
+      return true;
+    case Qt::Key_Delete:
+      if (m_current >= 0) m_edits->remove(m_body, static_cast<size_t>(m_current));
+      return true;
+    default:
+      const int to = std::clamp(m_current + step, 0, std::max(0, last));
+      if (event.modifiers() != Qt::AltModifier)
+        setCurrent(to);
+      else if (m_current >= 0)
+        m_edits->move(m_body, static_cast<size_t>(m_current), static_cast<size_t>(to));
+      return true;
+  }
+}
+
+QMenu* StrokesList::menuOf(int line) {
+  auto* menu = new QMenu(this);
+  const auto at = static_cast<size_t>(line);
+  const auto add = [&](QMenu* to, const QString& text, auto&& what) {
+    QAction* action = to->addAction(text);
+    connect(action, &QAction::triggered, this, what);
+    return action;
+  };
+  add(menu, QStringLiteral("Remove\tDel"), [this, at] { m_edits->remove(m_body, at); });
+  add(menu, QStringLiteral("Draw earlier\tAlt+Up"), [this, at] {
+    m_edits->move(m_body, at, at - 1);
+  })->setEnabled(line > 0);
+  add(menu, QStringLiteral("Draw later\tAlt+Down"), [this, at] {
+    m_edits->move(m_body, at, at + 1);
+  })->setEnabled(at + 1 < m_lines.size());
+  QMenu* materials = menu->addMenu(QStringLiteral("Material"));
+  materials->setEnabled(m_lines[at].colour.isValid());  // it leaves matter
+  for (const SceneMaterial& material : m_document.project().materials)
+    add(materials, QString::fromStdString(shownName(material)),
+        [this, at, id = material.id] { m_edits->setMaterial(m_body, at, id); });
+  return menu;
 }
 
 const VoxelShape* StrokesList::sketch(const std::string& id) const {
@@ -196,8 +252,9 @@ void StrokesList::refresh() {
   }
   m_current = std::min(m_current, static_cast<int>(m_lines.size()) - 1);
   m_heading->setCount(
-      m_lines.empty()
-          ? QString()
+      m_lines.empty() ? QString()
+      : m_edits->busy()
+          ? QStringLiteral("drawing again …")
           : QStringLiteral("%1 of %2").arg(m_lines.size()).arg(QString::fromStdString(m_document.body(m_body)->name)));
   const int shown = std::clamp(static_cast<int>(m_lines.size()), 1, kMostShown);
   m_scroll->setFixedHeight(shown * kRow + 4);

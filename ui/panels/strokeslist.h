@@ -9,19 +9,25 @@
 #include <string>
 #include <vector>
 
+class QKeyEvent;
+class QMenu;
+
 namespace ps {
 
 class Document;
 class GroupHeading;
 class Selection;
+class Session;
+class StrokeEdits;
 
 /// The strokes of one sketched body, in the order in which they were drawn: with which brush, how far it went, and of
 /// what. The body is the one that is selected or, while none is, the one that was drawn at last. Without one that has
-/// strokes there is a sentence.
+/// strokes there is a sentence. The keys, and a menu, remove a stroke, move it earlier or later and give it another
+/// material (see StrokeEdits).
 class StrokesList : public QWidget {
   Q_OBJECT
  public:
-  StrokesList(Document& document, Selection& selection, QWidget* parent = nullptr);
+  StrokesList(Session& session, Selection& selection, QWidget* parent = nullptr);
 
   /// A line as it is painted.
   struct Line {
@@ -31,6 +37,9 @@ class StrokesList : public QWidget {
   const std::vector<Line>& lines() const { return m_lines; }
   const std::string& body() const { return m_body; }  ///< whose strokes these are; "": of none
   int current() const { return m_current; }           ///< the line that the keys are on; -1: none
+  void setCurrent(int line);
+  StrokeEdits& edits() { return *m_edits; }
+  QMenu* menuOf(int line);  ///< of what can be done with it; its parent is the list
 
   static constexpr int kRow = 26;  ///< px
 
@@ -38,10 +47,11 @@ class StrokesList : public QWidget {
   class Rows;
   void refresh();
   const VoxelShape* sketch(const std::string& body) const;  ///< nullptr: it has no strokes
-  void setCurrent(int line);
+  bool act(const QKeyEvent& event);                         ///< whether a key is one of the list's, and done
 
   Document& m_document;
   Selection& m_selection;
+  StrokeEdits* m_edits;
   std::string m_body, m_drawn;
   std::vector<Line> m_lines;
   int m_current = -1;

@@ -14,9 +14,11 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
+#include "ui/panels/strokeedits.h"
 #include "ui/panels/strokeslist.h"
 #include "ui/session/session.h"
 #include "ui/timeline/timeline.h"
+#include "ui/tools/toolbox.h"
 #include "ui/window/filmform.h"
 
 #include <QtWidgets/QScrollArea>
@@ -62,7 +64,9 @@ QWidget* makeBrush(const PanelContext& context) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(new BrushPanel(context.tools), 1);
-  column->addWidget(new StrokesList(context.session.document(), context.selection));
+  auto* strokes = new StrokesList(context.session, context.selection);
+  QObject::connect(&strokes->edits(), &StrokeEdits::told, &context.tools, &Toolbox::refuse);
+  column->addWidget(strokes);
   return page;
 }
 
