@@ -249,7 +249,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   forChunks(n, grain::kNeighbours, search);
   progress = nullptr;
   all = false;
-  if (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);
+  while (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);  // laid out anew, some may know too little again
   m_built.resize(n);
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),

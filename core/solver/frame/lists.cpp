@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// When neighbour lists are made anew, and what follows from them.
+#include "core/base/parallel.h"
+#include "core/solver/frame/solverimpl.h"
+
+#include <algorithm>
+
+namespace ps {
+namespace {
+
+/// Frames after which particles are sorted by cell again although the lists still hold.
+constexpr uint64_t kSortInterval = 60;
+
+}  // namespace
+
+void Solver::Impl::freshLists() {
+  if (store.period().any() && strayed()) reordered = true;
+  const bool newLists = reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval;
+  if (newLists) {
+    if (store.period().any()) wrapIntoPeriod();
+    neighbours.sortAndBuild(store);
+    constraints.remap(neighbours.lastOrder());
+    heat.reordered(store);
+    lastSort = frame;
+    reordered = false;
+    structureChanged = true;
+  }
+  shapes.refresh(store);
+  shapes.refreshLists(store, neighbours, newLists);
+  density.refresh(store, neighbours);
+  swept.refresh(store, motion.movesWithin(time, settings.dt));
+  if (structureChanged) return listsChanged(true);
+  refreshLiquidContact();  // liquid may have become vapour, or vapour liquid
+}
+
+void Solver::Impl::refreshLiquidContact() {
+  wet.refresh(store, neighbours, density.wetSolids());
+  sheets.refresh(store, neighbours, thinSolids);
+}
+
+/// Makes everything anew that follows from lists and structure, and from nothing else: whatever is kept there may be
+/// dropped at any time, and a state needs none of it.
+void Solver::Impl::listsChanged(bool newStructure) {
+  if (newStructure) {
+    rigid.refreshBodies(store, constraints);
+    constraints.findGroupMembers(store, grouped);
+    constraints.findHanging(store, hanging);
+    constraints.findPieces(store.size(), pieceOf);
+    rebound.refresh();
+    pieceSpin.refresh(store, constraints.graph(store.size()), pieceOf);
+    constraints.findHeld(store);
+    anchorsKnown = false;
+    findThinSolids();
+    structureChanged = false;
+  } else {
+    shapes.refreshLists(store, neighbours, true);
+    density.refreshLists(store, neighbours);  // of a new structure it has just been refreshed
+  }
+  refreshLiquidContact();
+  wallStage.refreshLists(store, neighbours, rigid.members());
+  swept.refreshLists(store, neighbours);
+  rigid.refreshContacts(store, neighbours, constraints);
+  viscosity.listsChanged();
+  contact.refresh(store, neighbours, constraints, pieceOf, rigid.members());
+}
+
+/// All is fluid, and something goes farther in the next substep than lists allow. Contact of solids counts on lists
+/// that reach farther than the support does.
+bool Solver::Impl::outrunsLists(double dt) const {
+  if (density.fluid().size() != store.size()) return false;
+  const double most = 0.5 * kSkinSpacings * settings.spacing / dt;
+  const api::Float4* velocity = store.velocity();
+  return anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    float fastest = 0;
+    for (size_t i = first; i < last; ++i) {
+      const api::Float4& v = velocity[i];
+      fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
+    }
+    return double{fastest} > most * most;
+  });
+}
+
+}  // namespace ps
