@@ -71,7 +71,9 @@ bool shade(ivec2 here, vec2 uv, vec3 worldRay, out vec4 colour) {
   if (clear < 0.0) clear = clamp(textureLod(fluidClear, part, 0.0).r / max(thickness, 1e-4), 0.0, 1.0);
   vec3 c;
   if (matter.z > 0.5) {
-    base *= patternAt(int(floor(15.0 * clear + 0.5)), world, 2.0);  // data are not seen through: it says which pattern
+    // Data are not seen through: it says which pattern. Where classes mix, their mean would be that of a third one.
+    float pattern = floor(15.0 * clear + 0.5);
+    if (abs(15.0 * clear - pattern) < 0.2) base *= patternAt(int(pattern), world, 2.0);
     c = base * (0.46 + 0.62 * diffuse * mix(0.62, 1.0, key)) + reflected * fresnel * 0.45 + shine * 0.6;
   } else {
     float reach = clamp(thickness * 0.09, 0.0, 0.55) * matter.x / centre.x / lens.y;

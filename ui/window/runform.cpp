@@ -169,8 +169,7 @@ QString RunForm::limits() const {
   const RunRecord::Extent extent = m_session.recorded().extent();
   const double slack = frameLength(m_session.document().project());
   if (!from || !to || (*from >= extent.from - slack && *to <= extent.to + slack)) return {};
-  return QStringLiteral("Only %1 to %2 s are recorded, and written.")
-      .arg(formatShort(extent.from), formatShort(extent.to));
+  return QStringLiteral("Only %1 to %2 s are recorded.").arg(formatShort(extent.from), formatShort(extent.to));
 }
 
 double RunForm::framesPerSecond() const {

@@ -43,7 +43,7 @@ class RunForm : public QWidget {
   FrameRange range() const;  ///< of frames by their numbers
   size_t frames() const;     ///< that are kept in it
   double framesPerSecond() const;
-  /// "Only 0 to 4 s are recorded, and written." where more was typed; "" elsewhere.
+  /// "Only 0 to 4 s are recorded." where more was typed; "" elsewhere.
   QString limits() const;
   const QString& place() const { return m_place; }
   void refresh();
