@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sketch/strokemaker.h"
 
+#include "core/base/callee.h"
 #include "core/sketch/flooding.h"
 
 #include <algorithm>
@@ -9,14 +10,23 @@
 
 namespace ps {
 
-StrokeMaker::StrokeMaker(const api::BrushPlugin& brush, StrokeSetup setup, bool erases, StrokeScene scene)
-    : m_brush(brush),
+StrokeMaker::StrokeMaker(std::string id, const api::BrushPlugin& brush, StrokeSetup setup, bool erases,
+                         StrokeScene scene)
+    : m_id(std::move(id)),
+      m_brush(brush),
       m_setup(std::move(setup)),
       m_scene(std::move(scene)),
       m_kind(kindOf(brush, erases)),
       m_resampler(m_setup.grid.spacing) {}
 
-std::vector<api::Cell> StrokeMaker::add(const api::StrokeSample& raw) { return feed(m_resampler.add(raw)); }
+std::vector<api::Cell> StrokeMaker::add(std::span<const api::StrokeSample> raw) {
+  std::vector<api::StrokeSample> dense;
+  for (const api::StrokeSample& sample : raw) {
+    const std::vector<api::StrokeSample> more = m_resampler.add(sample);
+    dense.insert(dense.end(), more.begin(), more.end());
+  }
+  return feed(std::move(dense));
+}
 
 std::vector<api::Cell> StrokeMaker::lift() {
   std::vector<api::Cell> cells = feed(m_resampler.finish());
@@ -28,7 +38,7 @@ std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples)
   if (samples.empty()) return {};
   if (m_fed) samples.insert(samples.begin(), *m_fed);
   m_fed = samples.back();
-  StrokeEdits edits = applyBrush(m_brush, m_setup, m_kind, samples);
+  StrokeEdits edits = ask(samples);
   const bool fills = m_kind == api::EditKind::Fill, draws = fills || m_kind == api::EditKind::Add;
   if (fills) edits.filled = floodedFrom(edits.filled);
   std::vector<api::Cell> fresh;
@@ -38,6 +48,17 @@ std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples)
   }
   m_cells.add(fresh);
   return fresh;
+}
+
+StrokeEdits StrokeMaker::ask(std::span<const api::StrokeSample> samples) {
+  struct Asking {
+    explicit Asking(std::atomic<bool>& flag) : asks(flag) { asks = true; }
+    ~Asking() { asks = false; }
+    std::atomic<bool>& asks;
+  };
+  const Asking asking(m_asks);
+  const CalleeScope callee(m_id.c_str());
+  return applyBrush(m_brush, m_setup, m_kind, samples);
 }
 
 CellSet StrokeMaker::floodedFrom(const CellSet& seeds) const {

@@ -2,8 +2,11 @@
 #pragma once
 #include "core/sketch/stroke.h"
 
+#include <atomic>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace ps {
@@ -11,7 +14,7 @@ namespace ps {
 /// What a stroke is drawn in.
 struct StrokeScene {
   Environment environment;
-  /// Whether a place, in m, is free: asked of brushes that fill. Of its own, as the stroke began.
+  /// Whether a place, in m, was free when the stroke began: asked where a brush fills.
   std::function<bool(const Vector3&)> isFree{};
 };
 
@@ -20,20 +23,23 @@ struct StrokeScene {
 /// it. What it gives does not depend on how often the way was sampled.
 class StrokeMaker {
  public:
-  /// The brush must live longer. Throws InputError for a spacing that is not above 0.
-  StrokeMaker(const api::BrushPlugin& brush, StrokeSetup setup, bool erases, StrokeScene scene);
+  /// The brush, of that id, must live longer. Throws InputError for a spacing that is not above 0.
+  StrokeMaker(std::string id, const api::BrushPlugin& brush, StrokeSetup setup, bool erases, StrokeScene scene);
 
   /// Places in m, as the setup's grid stands. Throws BrushFault for what the brush throws, and InputError where it asks
   /// for more than a stroke may hold; what has come so far stands, and no more may be asked for.
-  std::vector<api::Cell> add(const api::StrokeSample& raw);
+  std::vector<api::Cell> add(std::span<const api::StrokeSample> raw);
   /// The next place is not joined to the last one: cells that the rest of the way brings.
   std::vector<api::Cell> lift();
   api::EditKind kind() const { return m_kind; }
+  bool asksBrush() const noexcept { return m_asks; }  ///< now; from any thread
 
  private:
+  StrokeEdits ask(std::span<const api::StrokeSample> samples);
   std::vector<api::Cell> feed(std::vector<api::StrokeSample> samples);
   CellSet floodedFrom(const CellSet& seeds) const;
 
+  std::string m_id;
   const api::BrushPlugin& m_brush;
   StrokeSetup m_setup;
   StrokeScene m_scene;
@@ -41,6 +47,7 @@ class StrokeMaker {
   StrokeResampler m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   CellSet m_cells;                         ///< that have come so far
+  std::atomic<bool> m_asks = false;
 };
 
 }  // namespace ps

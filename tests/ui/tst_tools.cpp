@@ -257,10 +257,10 @@ class TestTools : public ToolTest {
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
     const SnapshotPtr now = m_engine->snapshot();
-    Pointer pointer = aimed({0.15, 0, 0.15}, now);
+    Pointer pointer = aimed({0.16, 0, 0.16}, now);
     m_tools->tool().press(pointer);
     for (const double way : {0.05, 0.1, 0.15}) {
-      pointer = aimed({0.15 + way, 0, 0.15}, now);
+      pointer = aimed({0.16 + way, 0, 0.16}, now);
       pointer.seconds = way;
       m_tools->tool().drag(pointer);  // while the brush has not come back
     }

@@ -181,12 +181,13 @@ class TestSketch : public QObject {
     environment.boundsMinimum = {-1, -1, -1};
     environment.boundsMaximum = {1, 1, 1};
     const auto draw = [&](int pieces, bool lifts) {
-      StrokeMaker maker(brush, setup, false, {environment, {}});
+      StrokeMaker maker("ball", brush, setup, false, {environment, {}});
       std::vector<Cell> all;
       const auto take = [&](const std::vector<Cell>& fresh) { all.insert(all.end(), fresh.begin(), fresh.end()); };
       for (int i = 0; i <= pieces; ++i) {
         const double t = static_cast<double>(i) / pieces;
-        take(maker.add(at(-0.3 + 1.5 * t, 0.1, 0.05, 1, 0.15 * t)));
+        const StrokeSample place = at(-0.3 + 1.5 * t, 0.1, 0.05, 1, 0.15 * t);
+        take(maker.add({&place, 1}));
         if (lifts && 2 * i == pieces) take(maker.lift());
       }
       take(maker.lift());
@@ -208,12 +209,14 @@ class TestSketch : public QObject {
 
   void whatFailsIsThrownByTheStroke() {
     BallBrush brush;
-    StrokeMaker maker(brush, {{{0, 0, 0}, 0.02}, 0.03, {0, 1, 0}, {}}, true, {});
+    StrokeMaker maker("ball", brush, {{{0, 0, 0}, 0.02}, 0.03, {0, 1, 0}, {}}, true, {});
     QCOMPARE(maker.kind(), EditKind::Remove);
-    QVERIFY(!maker.add(at(0, 0, 0)).empty());
-    QVERIFY(maker.add(at(0, 0, 0)).empty());
+    const std::vector<StrokeSample> way{at(0, 0, 0), at(0, 0, 0), at(0.5, 0, 0)};
+    QVERIFY(!maker.add(std::span(way).first(1)).empty());
+    QVERIFY(maker.add(std::span(way).subspan(1, 1)).empty());
     brush.fails = true;
-    QVERIFY_EXCEPTION_THROWN(maker.add(at(0.5, 0, 0)), BrushFault);
+    QVERIFY_EXCEPTION_THROWN(maker.add(std::span(way).last(1)), BrushFault);
+    QVERIFY(!maker.asksBrush());
   }
 
   void resamplerStreamsLikeTheWhole() {

@@ -14,7 +14,7 @@
 
 namespace ps {
 
-/// How long a brush may take for what the pointer did between two events; it takes some microseconds. Counted in looks,
+/// How long a brush may take for what a hand did since it was asked last; it takes some microseconds. Counted in looks,
 /// so that a program that was stopped accuses nobody.
 inline constexpr std::chrono::milliseconds kBrushLook{100};
 inline constexpr int kBrushLooks = 20;

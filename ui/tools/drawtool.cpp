@@ -16,7 +16,9 @@ namespace {
 constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes on
 }
 
-DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {}
+DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {
+  m_stroke.onTrouble([this] { endStroke(); });
+}
 
 /// A pen that is rolled about itself turns what it draws about the normal of what it draws on, and then it leans.
 Held DrawTool::heldBy(const Pointer& pointer) const {
@@ -188,10 +190,15 @@ void DrawTool::draw(const Vector3& point, const Pointer& pointer) {
   m_stroke.move(point, pointer.seconds - m_began, heldBy(pointer));
 }
 
+/// What goes wrong ends it where it came to.
+void DrawTool::endStroke() {
+  if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem, m_stroke.kept());
+}
+
 void DrawTool::release(const Pointer&) {
   m_before.reset();
   if (const QString problem = m_touch.finish(); !problem.isEmpty()) refuse(problem);
-  if (const QString problem = m_stroke.finish(); !problem.isEmpty()) refuse(problem);
+  endStroke();
 }
 
 /// With Alt the matter that is there says what is drawn from now on, and its body what is stamped.
@@ -213,8 +220,10 @@ bool DrawTool::cancel() {
   return busy;
 }
 
-void DrawTool::refuse(const QString& why) {
-  box().refuse(meetsMatter() ? QStringLiteral("The matter stays as it is.") : QStringLiteral("Nothing was drawn."),
+void DrawTool::refuse(const QString& why, bool kept) {
+  box().refuse(kept            ? QStringLiteral("The stroke ends here.")
+               : meetsMatter() ? QStringLiteral("The matter stays as it is.")
+                               : QStringLiteral("Nothing was drawn."),
                why);
 }
 

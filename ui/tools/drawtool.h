@@ -45,7 +45,8 @@ class DrawTool : public Tool {
   bool erases(const Pointer& pointer) const { return pointer.eraser || m_erases != pointer.control; }
   bool meetsMatter() const;  ///< instead of standing on it
   QString brushLabel() const;
-  void refuse(const QString& why);
+  void refuse(const QString& why, bool kept = false);
+  void endStroke();
 
   const bool m_erases;
   LiveStroke m_stroke;

@@ -14,6 +14,7 @@ constexpr double kWay = 0.125;                       // spacings that a hand goe
 }  // namespace
 
 void HandBrush::follow(const HandInScene& hand, const SnapshotPtr& scene) {
+  if (m_stroke.troubled()) endStroke();
   if (!hand.place || hand.pressure < (m_pressed ? kReleased : kPressed)) {
     m_pressed = false;
     end();
@@ -73,7 +74,12 @@ void HandBrush::move(const HandInScene& hand) {
 
 void HandBrush::end() {
   say(m_touch.finish());
-  say(m_stroke.finish());
+  endStroke();
+}
+
+void HandBrush::endStroke() {
+  const QString problem = m_stroke.finish();
+  say(problem, m_stroke.kept());
 }
 
 void HandBrush::cancel() {
@@ -81,8 +87,9 @@ void HandBrush::cancel() {
   m_touch.cancel();
 }
 
-void HandBrush::say(const QString& problem) {
+void HandBrush::say(const QString& problem, bool kept) {
   if (problem.isEmpty()) return;
+  if (kept) return m_box.refuse(QStringLiteral("The stroke ends here."), problem);
   const bool draws = m_always.empty() && !m_box.touchesMatter() && !m_box.reworks();
   m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
 }

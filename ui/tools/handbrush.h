@@ -40,7 +40,8 @@ class HandBrush {
   void move(const HandInScene& hand);
   BrushSettings brush() const;
   Held heldBy(const HandInScene& hand) const;
-  void say(const QString& problem);
+  void endStroke();
+  void say(const QString& problem, bool kept = false);
 
   Toolbox& m_box;
   std::string m_always;

@@ -180,6 +180,7 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_setup = strokeSetup(m_brush, *m_box.document().plugins(), m_box.spacing(), up);
   m_up = up;
   m_cells = {};
+  m_problem.clear();
   m_filled.clear();
   m_smooths = false;
   m_record = std::make_shared<StrokeRecord>();
@@ -229,17 +230,16 @@ void LiveStroke::start() {
   // Called from the stroke's thread, which may have been left by the time that this one looks.
   const auto thread = std::make_shared<std::weak_ptr<StrokeThread>>();
   m_thread = std::make_shared<StrokeThread>(
-      m_brush.shape, std::make_unique<StrokeMaker>(plugin, m_setup, m_stroke.erase, std::move(scene)), [this, thread] {
+      std::make_unique<StrokeMaker>(m_brush.shape, plugin, m_setup, m_stroke.erase, std::move(scene)), [this, thread] {
         QMetaObject::invokeMethod(
             &m_looks,
             [this, thread] {
-              if (m_thread && m_thread == thread->lock()) tell(guarded([this] { take(); }));
+              if (m_thread && m_thread == thread->lock()) note(guarded([this] { take(); }));
             },
             Qt::QueuedConnection);
       });
   *thread = m_thread;
   m_idleLooks = 0;
-  m_done = 0;
   m_looks.start(kBrushLook);
 }
 
@@ -266,26 +266,31 @@ void LiveStroke::move(const Vector3& point, double seconds, const Held& held) {
   m_thread->add({double3Of(own), held.pressure, seconds, {}, {}, double3Of(turn)});
 }
 
+/// What is said of it.
+QString LiveStroke::putAside(const char* why) {
+  m_box.putAside(m_brush.shape, why);
+  return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
+      .arg(QString::fromStdString(m_brush.shape), QString::fromUtf8(why));
+}
+
 QString LiveStroke::guarded(const std::function<void()>& work) {
   try {
     work();
     return {};
   } catch (const BrushFault& fault) {
+    if (m_thread) m_thread->leave();
     cancel();
-    m_box.putAside(m_brush.shape, fault.what());
-    return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
-        .arg(QString::fromStdString(m_brush.shape), QString::fromUtf8(fault.what()));
+    return putAside(fault.what());
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
   }
 }
 
-/// What went wrong while it is being drawn ends it where it came to.
-void LiveStroke::tell(const QString& problem) {
-  if (problem.isEmpty()) return;
-  finish();
-  const bool draws = m_kind == api::EditKind::Add || m_kind == api::EditKind::Fill;
-  m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
+/// What goes wrong while it is being drawn: whoever draws ends it, where it came to.
+void LiveStroke::note(const QString& problem) {
+  if (problem.isEmpty() || !m_problem.isEmpty()) return;
+  m_problem = problem;
+  if (m_onTrouble) m_onTrouble();
 }
 
 /// Cells that have come go to the engine.
@@ -304,14 +309,14 @@ void LiveStroke::take() {
   }
 }
 
-/// A brush that has something to do and has done nothing for too many looks is given up.
+/// A brush that has been at it for too many looks is given up.
 void LiveStroke::watch() {
   if (!m_thread) return m_looks.stop();
-  const auto [open, done] = m_thread->progress();
-  m_idleLooks = open > 0 && done == std::exchange(m_done, done) ? m_idleLooks + 1 : 0;
+  m_idleLooks = m_thread->asksBrush() && m_waits == m_thread->places() ? m_idleLooks + 1 : 0;
+  m_waits = m_thread->places();
   if (m_idleLooks < kBrushLooks) return;
   m_thread->leave();
-  tell(guarded([] { throw BrushFault(kNotBack); }));
+  note(guarded([] { throw BrushFault(kNotBack); }));
 }
 
 std::vector<VoxelShape::Stroke> LiveStroke::pieces() const {
@@ -347,16 +352,31 @@ void LiveStroke::lift() {
 }
 
 QString LiveStroke::finish() {
-  if (!m_record) return {};
+  m_kept = false;
+  if (!m_record) return std::exchange(m_problem, {});
   m_thread->lift();
   const QString problem = guarded([this] {
     if (!m_thread->wait()) throw BrushFault(kNotBack);
     take();
     take();  // what went wrong after that
   });
+  if (!problem.isEmpty()) m_problem = problem;
+  if (m_record && !m_problem.isEmpty()) forgetBeyond(m_thread->places());
   m_thread.reset();
+  m_kept = m_record && !m_cells.empty();
   if (m_record) keep();  // what came so far stays, unless the brush failed
-  return problem;
+  return std::exchange(m_problem, {});
+}
+
+/// Places that nothing has been drawn from are none of the stroke's: it would be drawn farther again.
+void LiveStroke::forgetBeyond(size_t places) {
+  const auto cut = [&](VoxelShape::Stroke& stroke) {
+    stroke.samples.resize(std::min(places, stroke.samples.size()));
+    places -= stroke.samples.size();
+  };
+  std::for_each(m_pieces.begin(), m_pieces.end(), cut);
+  std::erase_if(m_pieces, [](const VoxelShape::Stroke& piece) { return piece.samples.empty(); });
+  cut(m_stroke);
 }
 
 void LiveStroke::keep() {
@@ -395,7 +415,9 @@ std::string LiveStroke::groupOfSelection() const {
 }
 
 void LiveStroke::cancel() {
+  const bool isBack = !m_thread || m_thread->drop();
   m_thread.reset();
+  if (!isBack) m_box.refuse(QStringLiteral("Nothing was drawn."), putAside(kNotBack));
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();

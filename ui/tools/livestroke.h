@@ -29,8 +29,7 @@ StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugin
                         const Vector3& up = {0, 1, 0});
 
 /// A stroke in the making: takes places along it, lets the brush plugin turn them into cells on another thread, sends
-/// new cells to the engine as they come, and hands the document one command at the end. What goes wrong meanwhile is
-/// told by the toolbox.
+/// new cells to the engine as they come, and hands the document one command at the end.
 class LiveStroke {
  public:
   explicit LiveStroke(Toolbox& box);
@@ -46,6 +45,10 @@ class LiveStroke {
   /// Waits for what the brush still gives. "" or what went wrong: the stroke then ends as far as it came, or is given
   /// up where the brush failed.
   QString finish();
+  bool kept() const { return m_kept; }  ///< finish() has left something of it
+  /// Something has gone wrong since, and nothing more is drawn: finish() says what. `call` is called when it does.
+  bool troubled() const { return !m_problem.isEmpty(); }
+  void onTrouble(std::function<void()> call) { m_onTrouble = std::move(call); }
   void cancel();
   bool active() const { return m_record != nullptr; }
   const Vector3& up() const { return m_up; }  ///< away from what it is drawn on
@@ -66,7 +69,9 @@ class LiveStroke {
   void take();
   void watch();
   QString guarded(const std::function<void()>& work);  ///< "" or what went wrong; a brush that failed is put aside
-  void tell(const QString& problem);
+  void note(const QString& problem);
+  void forgetBeyond(size_t places);
+  QString putAside(const char* why);
   std::vector<VoxelShape::Stroke> pieces() const;
   std::string groupOfSelection() const;
   void collectErasure(StrokeRecord& record) const;
@@ -81,7 +86,10 @@ class LiveStroke {
   QTimer m_looks;                          ///< whether the brush comes back
   std::shared_ptr<StrokeThread> m_thread;  ///< goes before what it tells
   int m_idleLooks = 0;
-  size_t m_done = 0;
+  size_t m_waits = 0;  ///< places that had been drawn by then
+  QString m_problem;
+  std::function<void()> m_onTrouble;
+  bool m_kept = false;
   StrokeSetup m_setup;
   Vector3 m_up{0, 1, 0};  ///< in the scene, away from what is drawn on
   CellSet m_cells;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/strokethread.h"
 
-#include "core/base/callee.h"
 #include "ui/tools/brushcall.h"
 
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -15,58 +15,62 @@
 namespace ps {
 
 struct StrokeThread::Shared {
-  using Job = std::function<std::vector<api::Cell>(StrokeMaker&)>;
-
-  std::string brush;
-  std::unique_ptr<StrokeMaker> maker;  // of the thread alone
-  bool alone = false;                  // no thread was to be had: jobs are done where they are asked for
+  std::unique_ptr<StrokeMaker> maker;  // of the thread alone, but for asksBrush()
+  bool alone = false;                  // no thread was to be had: all is done where it is asked for
   std::mutex mutex;
   std::condition_variable asked, came;
   std::function<void()> ready;
-  std::deque<Job> jobs;
+  std::deque<std::optional<api::StrokeSample>> waiting;  // nothing: the way is lifted there
   std::vector<api::Cell> cells;
   std::exception_ptr problem;
-  size_t done = 0;
+  size_t places = 0;  // that have been drawn
   bool busy = false, ends = false;
 
-  size_t open() const { return jobs.size() + (busy ? 1 : 0); }
+  bool idle() const { return waiting.empty() && !busy; }
+  /// All that waits up to where the way is lifted, at once: a brush that is slower than the hand catches up so.
   void doNext(std::unique_lock<std::mutex>& lock) {
-    const Job job = std::move(jobs.front());
-    jobs.pop_front();
+    std::vector<api::StrokeSample> way;
+    bool lifts = false;
+    while (!waiting.empty() && !lifts) {
+      lifts = !waiting.front();
+      if (!lifts) way.push_back(*waiting.front());
+      waiting.pop_front();
+    }
     busy = true;
     lock.unlock();
-    std::vector<api::Cell> fresh;
+    std::vector<api::Cell> fresh, rest;
     std::exception_ptr failed;
     try {
-      const CalleeScope callee(brush.c_str());
-      fresh = job(*maker);
+      fresh = maker->add(way);
+      if (lifts) rest = maker->lift();
     } catch (...) {
       failed = std::current_exception();
     }
     lock.lock();
     busy = false;
-    ++done;
     cells.insert(cells.end(), fresh.begin(), fresh.end());
+    cells.insert(cells.end(), rest.begin(), rest.end());
     if (failed) {
       problem = failed;
       ends = true;
-      jobs.clear();
+      waiting.clear();
+    } else {
+      places += way.size();
     }
     came.notify_all();
-    if (ready && (failed || !fresh.empty())) ready();
+    if (ready && (failed || !fresh.empty() || !rest.empty())) ready();
   }
   void work() {
     std::unique_lock lock(mutex);
     while (!ends) {
-      asked.wait(lock, [this] { return ends || !jobs.empty(); });
+      asked.wait(lock, [this] { return ends || !waiting.empty(); });
       if (!ends) doNext(lock);
     }
   }
 };
 
-StrokeThread::StrokeThread(std::string brush, std::unique_ptr<StrokeMaker> maker, std::function<void()> ready)
+StrokeThread::StrokeThread(std::unique_ptr<StrokeMaker> maker, std::function<void()> ready)
     : m_shared(std::make_shared<Shared>()) {
-  m_shared->brush = std::move(brush);
   m_shared->maker = std::move(maker);
   m_shared->ready = std::move(ready);
   try {
@@ -76,33 +80,31 @@ StrokeThread::StrokeThread(std::string brush, std::unique_ptr<StrokeMaker> maker
   }
 }
 
-StrokeThread::~StrokeThread() {
+StrokeThread::~StrokeThread() { drop(); }
+
+bool StrokeThread::drop() {
   {
     const std::lock_guard lock(m_shared->mutex);
     m_shared->ready = nullptr;
     m_shared->ends = true;
-    m_shared->jobs.clear();
+    m_shared->waiting.clear();
   }
   m_shared->asked.notify_all();
-  if (!m_left) wait();
+  return m_left || wait();
 }
 
-void StrokeThread::ask(std::function<std::vector<api::Cell>(StrokeMaker&)> job) {
+void StrokeThread::ask(const std::optional<api::StrokeSample>& place) {
   std::unique_lock lock(m_shared->mutex);
   if (m_shared->ends) return;
-  m_shared->jobs.push_back(std::move(job));
+  m_shared->waiting.push_back(place);
   if (m_shared->alone) return m_shared->doNext(lock);
   lock.unlock();
   m_shared->asked.notify_all();
 }
 
-void StrokeThread::add(const api::StrokeSample& raw) {
-  ask([raw](StrokeMaker& maker) { return maker.add(raw); });
-}
+void StrokeThread::add(const api::StrokeSample& raw) { ask(raw); }
 
-void StrokeThread::lift() {
-  ask([](StrokeMaker& maker) { return maker.lift(); });
-}
+void StrokeThread::lift() { ask(std::nullopt); }
 
 std::vector<api::Cell> StrokeThread::take() {
   const std::lock_guard lock(m_shared->mutex);
@@ -112,18 +114,19 @@ std::vector<api::Cell> StrokeThread::take() {
 
 bool StrokeThread::wait() {
   std::unique_lock lock(m_shared->mutex);
-  size_t before = m_shared->done;
   for (int look = 0; look < kBrushLooks; ++look) {
-    if (m_shared->came.wait_for(lock, kBrushLook, [this] { return m_shared->open() == 0; })) return true;
-    if (std::exchange(before, m_shared->done) != m_shared->done) look = 0;
+    if (m_shared->came.wait_for(lock, kBrushLook, [this] { return m_shared->idle(); })) return true;
+    if (!m_shared->maker->asksBrush()) look = 0;  // what takes long is not the brush
   }
   leave();
   return false;
 }
 
-std::pair<size_t, size_t> StrokeThread::progress() const {
+bool StrokeThread::asksBrush() const { return m_shared->maker->asksBrush(); }
+
+size_t StrokeThread::places() const {
   const std::lock_guard lock(m_shared->mutex);
-  return {m_shared->open(), m_shared->done};
+  return m_shared->places;
 }
 
 }  // namespace ps

@@ -4,8 +4,7 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <utility>
+#include <optional>
 #include <vector>
 
 namespace ps {
@@ -14,9 +13,8 @@ namespace ps {
 /// back does not take the window along.
 class StrokeThread {
  public:
-  /// `brush`: its id. `ready` is called on that thread whenever something has come that take() would give.
-  StrokeThread(std::string brush, std::unique_ptr<StrokeMaker> maker, std::function<void()> ready);
-  /// Drops what has not been taken, and waits for the brush unless it was left: what it gives then is dropped too.
+  /// `ready` is called on that thread whenever something has come that take() would give.
+  StrokeThread(std::unique_ptr<StrokeMaker> maker, std::function<void()> ready);
   ~StrokeThread();
   StrokeThread(const StrokeThread&) = delete;
   StrokeThread& operator=(const StrokeThread&) = delete;
@@ -28,13 +26,16 @@ class StrokeThread {
   std::vector<api::Cell> take();
   /// Until all that was asked for has come. False: the brush does not come back, and is left.
   bool wait();
+  /// Nothing more is drawn. Waits for the brush, unless it was left: what it gives then is dropped. False: it does not
+  /// come back.
+  bool drop();
   void leave() { m_left = true; }
-  /// What has been asked for and has not come, and how much has come in all.
-  std::pair<size_t, size_t> progress() const;
+  bool asksBrush() const;  ///< it is the brush that works now
+  size_t places() const;   ///< of those that were added: how many have been drawn
 
  private:
   struct Shared;
-  void ask(std::function<std::vector<api::Cell>(StrokeMaker&)> job);
+  void ask(const std::optional<api::StrokeSample>& place);
   std::shared_ptr<Shared> m_shared;
   bool m_left = false;
 };
