@@ -31,7 +31,6 @@ constexpr uint32_t kLongestRenewed = 1024;
 constexpr double kLeastStanding = 0.25;
 
 constexpr const char* kBuiltBlock = "neighbours/built";
-constexpr const char* kCloseBlock = "neighbours/close";
 
 std::span<const api::Float4> placesOf(const ParticleStore& store) { return {store.position(), store.size()}; }
 
@@ -44,13 +43,12 @@ void Neighbours::configure(double support, double skin) {
 }
 
 void Neighbours::assignCells(std::span<const api::Float4> position, const Period& period) {
-  m_grid.sort(position.size(), searchRadius() * kCellMargin, period, [&](size_t i) {
+  m_grid.sort(position.size(), (m_support + m_skin) * kCellMargin, period, [&](size_t i) {
     return period.wrapped({position[i].x, position[i].y, position[i].z});
   });
 }
 
 void Neighbours::sortAndBuild(ParticleStore& store) {
-  m_close = false;
   assignCells(placesOf(store), store.period());
   m_lastOrder.assign(m_grid.order().begin(), m_grid.order().end());
   if (!m_grid.sorted()) {
@@ -61,8 +59,7 @@ void Neighbours::sortAndBuild(ParticleStore& store) {
   makeLists(placesOf(store), store.period());
 }
 
-void Neighbours::build(const ParticleStore& store, bool close) {
-  m_close = close;
+void Neighbours::build(const ParticleStore& store) {
   assignCells(placesOf(store), store.period());
   makeLists(placesOf(store), store.period());
 }
@@ -72,12 +69,10 @@ void Neighbours::save(StateWriter& writer, bool valid) const {
   writer.open(kBuiltBlock, StateType::Float4, built.size());
   writer.put(built.data(), built.size_bytes());
   writer.close();
-  writer.value(kCloseBlock, static_cast<uint8_t>(valid && m_close ? 1 : 0));
 }
 
 void Neighbours::restore(const StateReader& reader, const ParticleStore& store) {
   m_built.clear();
-  m_close = reader.has(kCloseBlock) && reader.value<uint8_t>(kCloseBlock) != 0;  // older states have none that are
   const size_t count = reader.count(kBuiltBlock);
   if (count == 0) return;
   std::vector<api::Float4> built(store.size());
@@ -129,28 +124,18 @@ void Neighbours::makeRoom() {
   m_index.resize(size);
 }
 
-/// What has found too little room gets as much as it has turned out to need. False where all have found enough. The
-/// rooms that it leaves stay empty: where they would be many, as after close lists, all are laid out anew.
+/// What has found too little room gets as much as it has turned out to need. False where all have found enough.
 bool Neighbours::giveMoreRoom() {
-  const size_t chunks = m_rooms.size();
-  m_short.assign(chunks, 0);
-  size_t wanted = 0, left = 0;
-  for (size_t c = 0; c < chunks; ++c) {
+  m_short.assign(m_rooms.size(), 0);
+  bool any = false;
+  for (size_t c = 0; c < m_rooms.size(); ++c) {
     if (m_needs[c] <= m_rooms[c].count) continue;
+    giveRoom(c, m_needs[c]);
     m_short[c] = 1;
-    wanted += m_needs[c], left += m_rooms[c].count;
+    any = true;
   }
-  if (wanted == 0) return false;
-  if (left > m_slots / kMostEmpty) {
-    m_short.assign(chunks, 1);
-    layOut(chunks);
-    return true;
-  }
-  for (size_t c = 0; c < chunks; ++c) {
-    if (m_short[c] != 0) giveRoom(c, m_needs[c]);
-  }
-  makeRoom();
-  return true;
+  if (any) makeRoom();
+  return any;
 }
 
 /// Lists are of indices in order of cells: where all around stand as they stood, and cells meet where they met, they
@@ -218,7 +203,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   m_built.clear();  // there are no lists until all are whole
   loadSlots(position, period);
   advance(n);
-  const double radius = searchRadius();
+  const double radius = m_support + m_skin;
   const SearchGrid grid{m_x.data(),
                         m_y.data(),
                         m_z.data(),
@@ -249,7 +234,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   forChunks(n, grain::kNeighbours, search);
   progress = nullptr;
   all = false;
-  while (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);  // laid out anew, some may know too little again
+  if (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);
   m_built.resize(n);
   forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
@@ -273,7 +258,7 @@ bool Neighbours::stale(const ParticleStore& store) const {
 }
 
 api::NeighbourView Neighbours::view() const {
-  return {m_begin.data(), m_last.data(), m_end.data(), m_index.data(), static_cast<float>(searchRadius()), m_slots};
+  return {m_begin.data(), m_last.data(), m_end.data(), m_index.data(), static_cast<float>(m_support + m_skin), m_slots};
 }
 
 }  // namespace ps

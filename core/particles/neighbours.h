@@ -13,10 +13,9 @@ struct SearchGrid;
 /// Lists hold all other particles within search radius = support + skin, in order of cell, padded to kListPad with
 /// the dummy index size(). Lists of particles that follow each other lie together, but between them there are entries
 /// that belong to no list: view() says how many there are in all. Where nobody has moved since the last build, nor
-/// anybody around, lists stay as they are. They are valid until a particle has moved half the skin. Where particles go
-/// so far in a substep that no lists outlast it, close ones will do: they have a skin of their own, which covers what
-/// is moved within the substep, and are shorter and found sooner. Along a periodic axis of the store pairs are found
-/// across the faces of the box; it must be three times as long as the search radius (see leastPeriod()).
+/// anybody around, lists stay as they are. They are valid until a particle has moved half the skin. Along a periodic
+/// axis of the store pairs are found across the faces of the box; it must be three times as long as the search radius
+/// (see leastPeriod()).
 class Neighbours {
  public:
   static constexpr size_t kListPad = 16;
@@ -25,11 +24,9 @@ class Neighbours {
   void configure(double support, double skin);
   /// Sorts the store by cell (all fields permuted) and rebuilds the lists. The order it applied is in lastOrder().
   void sortAndBuild(ParticleStore& store);
-  /// Rebuilds the lists in the present order; close ones are for this substep alone.
-  void build(const ParticleStore& store, bool close = false);
-  bool close() const { return m_close; }
-  /// True when a particle has moved more than half the skin since the last build, or their number has changed. Of close
-  /// lists, too: what goes that far within the substep that they were made for is looked for anew.
+  /// Rebuilds the lists in the present order.
+  void build(const ParticleStore& store);
+  /// True when a particle has moved more than half the skin since the last build, or their number has changed.
   bool stale(const ParticleStore& store) const;
   std::span<const uint32_t> lastOrder() const { return m_lastOrder; }
 
@@ -37,8 +34,6 @@ class Neighbours {
   double support() const { return m_support; }
   /// Whom a list may name lies in the cells around the particle's own.
   const CellGrid& grid() const { return m_grid; }
-  /// m, of the present lists.
-  double searchRadius() const { return m_support + (m_close ? kCloseSkin * m_support : m_skin); }
   /// m, the shortest box that may repeat itself: no particle then meets another one twice.
   static double leastPeriod(double searchRadius) { return 3 * kCellMargin * searchRadius; }
   /// Positions that the present lists were made for.
@@ -63,10 +58,7 @@ class Neighbours {
   /// Puts places where the search reads them.
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
-  /// Of the support: its own kernel weighs a ten-thousandth there.
-  static constexpr double kCloseSkin = 0.02;
   double m_support = 0, m_skin = 0;
-  bool m_close = false;
   std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_lastOrder;
   /// Entries of the index.
   struct Room {

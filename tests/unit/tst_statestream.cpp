@@ -252,27 +252,20 @@ class TestStateStream : public QObject {
   }
 
   /// Lists made from some moved places follow from those, not from where particles are by now.
-  void listsAreMadeAgain_data() {
-    QTest::addColumn<bool>("close");
-    QTest::newRow("lasting") << false;
-    QTest::newRow("close") << true;
-  }
   void listsAreMadeAgain() {
-    QFETCH(bool, close);
     ps::ParticleStore store;
     fill(store);
     ps::Neighbours neighbours, again;
     for (ps::Neighbours* n : {&neighbours, &again}) n->configure(0.04, 0.01);
     neighbours.sortAndBuild(store);
     for (size_t i = 0; i < store.size(); ++i) store.position()[i].x += i % 2 == 0 ? 0.004f : -0.004f;
-    neighbours.build(store, close);
+    neighbours.build(store);
     for (size_t i = 0; i < store.size(); ++i) store.position()[i].x -= i % 2 == 0 ? 0.004f : -0.004f;
     StateBuffer buffer;
     StateWriter writer(buffer);
     neighbours.save(writer, true);
     writer.finish();
     again.restore(StateReader(buffer.bytes()), store);
-    QCOMPARE(again.close(), close);
     const ps::api::NeighbourView a = neighbours.view(), b = again.view();
     for (size_t i = 0; i < store.size(); ++i)
       QVERIFY(std::equal(a.index + a.begin[i], a.index + a.end[i], b.index + b.begin[i], b.index + b.end[i]));

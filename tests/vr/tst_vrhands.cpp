@@ -251,7 +251,7 @@ void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
     QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 195, kLong);
     leave();
     session().pause();
-    QCOMPARE(steps(), before + 1);
+    QVERIFY2(steps() == before + 1, qPrintable(QString::number(steps()) + document().undoStack().undoText()));
     QVERIFY2((middle() - to).norm() < 0.005, qPrintable(QString::number(middle().y())));
     // A tick is none of it: that has no frequency of its own.
     const auto felt = run.lines("haptic");

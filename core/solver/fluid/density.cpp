@@ -285,14 +285,12 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t fir
 }
 
 /// For fluids, whose near lists are yet to be found, and wet solids; both are `m_some` from now on.
-void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs, bool close) {
+void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs) {
   m_some.assign(m_fluid.begin(), m_fluid.end());
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
-  if (!close) {
-    m_near.start(pairs, store.size());
-    m_near.find(pairs, m_points.data(), m_wet);
-  }
-  makeRoomFor(m_slopes, pairs.slots);
+  m_near.start(pairs, store.size());
+  m_near.find(pairs, m_points.data(), m_wet);
+  makeRoomFor(m_slopes, m_near.slots());
   m_nearKnown = true;
 }
 
@@ -303,9 +301,8 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   const float relaxation =
       static_cast<float>(m_settings.iterations == 1 ? std::min(wanted, kSingleStepRelaxation) : wanted);
   loadPoints(store);
-  const bool findNear = iteration == 0 && !neighbours.close();
-  if (iteration == 0) startNear(store, pairs, neighbours.close());
-  const PairLists near = nearLists(store, neighbours);
+  if (iteration == 0) startNear(store, pairs);
+  const PairLists near = m_near.lists(pairs);
   // x_k+1 = x_k-1 + w (x_k + jacobi - x_k-1), with w = 1 for two steps, then 2/(2 - rho^2), then 4/(4 - rho^2 w).
   const float rho2 = static_cast<float>(m_settings.chebyshevRadius * m_settings.chebyshevRadius);
   if (iteration < 2 || m_settings.densitySolver == DensitySolver::Jacobi)
@@ -317,7 +314,7 @@ void DensityStage::project(ParticleStore& store, const Neighbours& neighbours, i
   m_moves.resize(moving);
   m_movesInFilm.resize(m_film.any() ? moving : 0);
   forChunks(fluids, grain::kPairs, [&](size_t first, size_t last) {
-    multipliers(store, findNear ? pairs : near, relaxation, findNear, first, last);
+    multipliers(store, iteration == 0 ? pairs : near, relaxation, iteration == 0, first, last);
   });
   m_moved.start(chunkCount(moving, grain::kPairs));
   forChunks(moving, grain::kPairs, [&](size_t first, size_t last) {
@@ -378,10 +375,10 @@ DensityError DensityStage::measure(ParticleStore& store, const Neighbours& neigh
   loadPoints(store);
   const PairLists pairs = lists(store, neighbours);
   if (!m_nearKnown) {  // else those of the last substep
-    startNear(store, pairs, neighbours.close());
-    if (!neighbours.close()) m_near.find(pairs, m_points.data(), m_fluid);
+    startNear(store, pairs);
+    m_near.find(pairs, m_points.data(), m_fluid);
   }
-  const PairLists near = nearLists(store, neighbours);
+  const PairLists near = m_near.lists(pairs);
   m_multiplierSum.resize(store.size() + kSpare);
   forChunks(fluids, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) m_multipliers[m_fluid[k]].w = m_multiplierSum[m_fluid[k]];

@@ -65,7 +65,7 @@ class DensityStage {
   /// lists.
   PairLists nearLists(const ParticleStore& store, const Neighbours& neighbours) const {
     const PairLists all = lists(store, neighbours);
-    return m_nearKnown && !neighbours.close() ? m_near.lists(all) : all;
+    return m_nearKnown ? m_near.lists(all) : all;
   }
   /// Volumes as the density sum counts them, times kernelScale(); by particle, with the dummy's 0 at the end.
   std::span<const float> volumes() const { return m_volume; }
@@ -78,7 +78,7 @@ class DensityStage {
   void multipliers(const ParticleStore& store, const PairLists& lists, float relaxation, bool findNear, size_t first,
                    size_t last);
   void makeRoom();
-  void startNear(const ParticleStore& store, const PairLists& lists, bool close);
+  void startNear(const ParticleStore& store, const PairLists& lists);
   void sumMoves(const PairLists& near, size_t first, size_t last);
   Vector3 inFilm(const ParticleStore& store, const PairLists& lists, uint32_t i, float lambda) const;
   const api::Float4* movesInFilm(const ParticleStore& store, const PairLists& lists, size_t first, size_t last);

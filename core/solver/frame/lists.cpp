@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // When neighbour lists are made anew, and what follows from them.
-#include "core/base/parallel.h"
 #include "core/solver/frame/solverimpl.h"
-
-#include <algorithm>
 
 namespace ps {
 namespace {
@@ -62,22 +59,6 @@ void Solver::Impl::listsChanged(bool newStructure) {
   rigid.refreshContacts(store, neighbours, constraints);
   viscosity.listsChanged();
   contact.refresh(store, neighbours, constraints, pieceOf, rigid.members());
-}
-
-/// All is fluid, and something goes farther in the next substep than lists allow. Contact of solids counts on lists
-/// that reach farther than the support does.
-bool Solver::Impl::outrunsLists(double dt) const {
-  if (density.fluid().size() != store.size()) return false;
-  const double most = 0.5 * kSkinSpacings * settings.spacing / dt;
-  const api::Float4* velocity = store.velocity();
-  return anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    float fastest = 0;
-    for (size_t i = first; i < last; ++i) {
-      const api::Float4& v = velocity[i];
-      fastest = std::max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
-    }
-    return double{fastest} > most * most;
-  });
 }
 
 }  // namespace ps

@@ -136,7 +136,6 @@ struct Solver::Impl {
   void backToLastGood();
   void listsChanged(bool newStructure);
   void refreshLiquidContact();
-  bool outrunsLists(double dt) const;
   void substep(uint32_t index);
   void changeVelocities(uint32_t index, double dt);  ///< once they follow from places
   int structurePasses() const;

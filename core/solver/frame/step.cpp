@@ -288,8 +288,8 @@ void Solver::Impl::substep(uint32_t index) {
   });
   balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
-    if (neighbours.close() || neighbours.stale(store)) {
-      neighbours.build(store, outrunsLists(dt));
+    if (neighbours.stale(store)) {
+      neighbours.build(store);
       listsChanged(false);
     }
   });
