@@ -237,6 +237,11 @@ double StoredField::operator[](size_t i) const {
   return 0;
 }
 
+bool everySnapshotHas(std::string_view name) {
+  const auto own = named(ownFields(), name);
+  return own != ownFields().end() && (*own)->inSnapshot;
+}
+
 ShownField::ShownField(const Snapshot& snapshot, std::string_view name) : m_snapshot(snapshot) {
   for (const FieldValues& shown : snapshot.fields) {
     if (shown.field->name != name) continue;
@@ -244,8 +249,7 @@ ShownField::ShownField(const Snapshot& snapshot, std::string_view name) : m_snap
     m_values = shown.values.data();
     return;
   }
-  const auto own = named(ownFields(), name);
-  if (own != ownFields().end() && (*own)->inSnapshot) m_field = own->get();
+  if (everySnapshotHas(name)) m_field = named(ownFields(), name)->get();
 }
 
 }  // namespace ps

@@ -95,6 +95,9 @@ class StoredField {
   const void* m_data;
 };
 
+/// By name: one that no snapshot is without.
+bool everySnapshotHas(std::string_view name);
+
 /// A field in a snapshot, by name. Good as long as the snapshot is.
 class ShownField {
  public:

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -120,6 +121,8 @@ class RunRecord {
   std::optional<uint64_t> neighbour(uint64_t frame, int steps) const;
   /// Unpacks one that is kept; nullptr where it is not.
   SnapshotPtr frame(uint64_t number) const;
+  /// Whether one that is kept has values of a field, ParticleField::name; nothing is unpacked for that.
+  bool keepsField(uint64_t frame, std::string_view name) const;
   /// How a frame can be made again, from the nearest state; nothing where no state before it is kept.
   std::optional<RestorePoint> restorePoint(uint64_t frame) const;
   struct EarlierRun {

@@ -8,6 +8,7 @@
 #include "core/base/storedfile.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/namedmatter.h"
+#include "core/simulation/particlefield.h"
 #include "core/simulation/runrecordimpl.h"
 #include "core/simulation/sceneneed.h"
 #include "core/solver/solver.h"
@@ -278,6 +279,15 @@ SnapshotPtr RunRecord::frame(uint64_t number) const {
     revision = m->revision;
   }
   return m->unpacker.snapshot(*packed, revision);
+}
+
+bool RunRecord::keepsField(uint64_t frame, std::string_view name) const {
+  const std::lock_guard lock(m->mutex);
+  const auto found = m->frames.find(frame);
+  if (found == m->frames.end()) return false;
+  const auto& fields = found->second->part->key->fields;
+  return everySnapshotHas(name) ||
+         std::any_of(fields.begin(), fields.end(), [&](const FieldPtr& field) { return field->name == name; });
 }
 
 std::optional<RestorePoint> RunRecord::restorePoint(uint64_t frame) const {

@@ -5,7 +5,6 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
 #include "core/simulation/packedframe.h"
-#include "core/simulation/particlefield.h"
 #include "ui/document/document.h"
 #include "ui/film/filmpainter.h"
 #include "ui/film/projectlook.h"
@@ -91,14 +90,6 @@ QString FilmForm::summary() const {
          (QFileInfo::exists(place()) ? QStringLiteral(" The file there is replaced.") : QString());
 }
 
-bool FilmForm::holds(uint64_t frame, const std::string& colour, Looked& known) const {
-  const RunRecord& record = session().engine()->recording();
-  if (known.revision == record.begun() + 1 && known.frame == frame && known.colour == colour) return known.has;
-  const SnapshotPtr snapshot = record.frame(frame);
-  known = {record.begun() + 1, frame, colour, snapshot && ShownField(*snapshot, colour)};
-  return known.has;
-}
-
 /// A frame without the field is drawn in the colours of matter: nobody shall find that out from the film.
 QString FilmForm::colours() const {
   const std::string& colour = session().document().project().view.colour;
@@ -106,7 +97,8 @@ QString FilmForm::colours() const {
   if (colour == kMatterColour || !session().isReady()) return QStringLiteral("in the colours of now.");
   const FieldPtr field = session().fields().find(colour);
   const QString label = QString::fromStdString(field ? field->label : colour);
-  const bool first = holds(asked.first, colour, m_first), last = holds(asked.last, colour, m_last);
+  const RunRecord& record = session().engine()->recording();
+  const bool first = record.keepsField(asked.first, colour), last = record.keepsField(asked.last, colour);
   if (first && last) return QStringLiteral("in the colours of now.");
   return (first || last
               ? QStringLiteral("in the colours of now where %1 was recorded, elsewhere in those of matter.")

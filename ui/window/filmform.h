@@ -30,14 +30,6 @@ class FilmForm : public RunForm {
   const Viewport* m_view;
   QComboBox *m_format, *m_size;
   bool m_hasFfmpeg;
-  /// What was found out of a frame, which is unpacked for that: forms look twice a second.
-  struct Looked {
-    uint64_t revision = 0, frame = 0;
-    std::string colour;
-    bool has = false;
-  };
-  bool holds(uint64_t frame, const std::string& colour, Looked& known) const;
-  mutable Looked m_first, m_last;
 };
 
 }  // namespace ps
