@@ -6,13 +6,13 @@
 #include "core/scene/coat.h"
 #include "core/simulation/projectstate.h"
 #include "core/sketch/redraw.h"
+#include "core/sketch/stampform.h"
 #include "core/solver/solver.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
 #include "ui/document/stampof.h"
 #include "ui/tools/handbrush.h"
-#include "ui/tools/stampform.h"
 
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>

@@ -7,6 +7,7 @@
 #include "ui/rows/colourpicker.h"
 #include "ui/session/selection.h"
 #include "ui/theme/paint.h"
+#include "ui/tools/becoming.h"
 #include "ui/tools/toolbox.h"
 
 #include <QtWidgets/QBoxLayout>
@@ -28,17 +29,11 @@ const QString kOwn = QStringLiteral("brush/");  // before the keys of the chosen
 
 /// What the choices of a row are called.
 QStringList labelsOf(const QString& key) {
-  if (key == QLatin1String("becomes"))
-    return {QStringLiteral("As the material is"),
-            QStringLiteral("Rigid"),
-            QStringLiteral("Bonded"),
-            QStringLiteral("Soft"),
-            QStringLiteral("Cloth"),
-            QStringLiteral("Rope"),
-            QStringLiteral("Loose grains"),
-            QStringLiteral("Liquid"),
-            QStringLiteral("Gas"),
-            QStringLiteral("Fixed ground")};
+  if (key == QLatin1String("becomes")) {
+    QStringList labels;
+    for (const auto& [name, label] : becomings()) labels << label;
+    return labels;
+  }
   if (key == QLatin1String("draw_on"))
     return {QStringLiteral("Surfaces"), QStringLiteral("A level plane"), QStringLiteral("An upright plane across x"),
             QStringLiteral("An upright plane across z"), QStringLiteral("A plane that faces the view")};

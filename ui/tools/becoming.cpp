@@ -84,6 +84,22 @@ bool isForThin(const Project& project, const PluginRegistry& plugins, const std:
 
 }  // namespace
 
+std::vector<std::pair<std::string, QString>> becomings() {
+  const QString labels[] = {QStringLiteral("As the material is"),
+                            QStringLiteral("Rigid"),
+                            QStringLiteral("Bonded"),
+                            QStringLiteral("Soft"),
+                            QStringLiteral("Cloth"),
+                            QStringLiteral("Rope"),
+                            QStringLiteral("Loose grains"),
+                            QStringLiteral("Liquid"),
+                            QStringLiteral("Gas"),
+                            QStringLiteral("Fixed ground")};
+  std::vector<std::pair<std::string, QString>> all;
+  for (size_t k = 0; k < std::size(labels); ++k) all.emplace_back(nameOf(static_cast<Choice>(k)), labels[k]);
+  return all;
+}
+
 std::string ownBecoming(const Project& project, const PluginRegistry& plugins, const std::string& material,
                         double temperature) {
   if (!isSolid(project, plugins, material, temperature)) return "loose";

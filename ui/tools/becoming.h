@@ -5,6 +5,8 @@
 #include <QtCore/QString>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ps {
 
@@ -14,6 +16,9 @@ class PluginRegistry;
 /// held so by the first plugin that can, whatever its name.
 inline constexpr const char* kBecomesOfItself = "automatic";
 inline constexpr const char* kBecomings = "automatic|rigid|bonded|soft|cloth|rope|loose|liquid|gas|fixed";
+
+/// Those of kBecomings, and what the editor calls them.
+std::vector<std::pair<std::string, QString>> becomings();
 
 /// Pa, and K below its melting point: from where on matter that is drawn stands as a rigid body of itself. What is
 /// less stiff bends as it should; what melts sooner is there to be melted and broken.

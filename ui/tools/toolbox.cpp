@@ -3,6 +3,7 @@
 
 #include "core/parameters/condition.h"
 #include "core/plugin_host/registry.h"
+#include "core/sketch/stampform.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -11,7 +12,6 @@
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/livestroke.h"
-#include "ui/tools/stampform.h"
 #include "ui/tools/tooltable.h"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/viewport/overlays.h"
 
+#include "core/sketch/stampform.h"
 #include "ui/theme/legend.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
 #include "ui/tools/brushsettings.h"
-#include "ui/tools/stampform.h"
 
 #include <QtCore/QStringList>
 #include <QtGui/QPainter>

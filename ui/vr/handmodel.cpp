@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/handmodel.h"
 
+#include "core/sketch/stampform.h"
 #include "ui/render/colourmap.h"
 #include "ui/render/uniforms.h"
 #include "ui/vr/barehand.h"
@@ -79,6 +80,14 @@ void addBox(std::vector<MeshVertex>& out, const Vector3& centre, const Vector3& 
     }
 }
 
+void addForm(std::vector<MeshVertex>& out, const Vector3& centre, const StampForm& form, const Colour& colour) {
+  for (const StampForm::Face& face : form.faces) {
+    const std::array<Vector3, 4> around = form.corners(face);
+    for (const size_t i : {0, 1, 2, 0, 2, 3})
+      out.push_back(corner(centre + around[i], form.normal(face), colour, kOpacity));
+  }
+}
+
 }  // namespace
 
 void addWand(Props& props, const HandPose& hand, double scale, const Colour& colour, bool dark) {
@@ -117,7 +126,9 @@ void addBeam(Props& props, const HandPose& hand, double scale, double length, co
 
 void addVolume(Props& props, const Vector3& centre, const BrushVolume& brush) {
   if ((brush.half.array() <= 0).any()) return;
-  if (brush.box)
+  if (brush.form)
+    addForm(props.clear, centre, *brush.form, brush.colour);
+  else if (brush.box)
     addBox(props.clear, centre, brush.half, brush.colour);
   else
     addBall(props.clear, centre, brush.half, brush.colour, 12, kOpacity);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/sketch/stampform.h"
 #include "ui/render/framing.h"
 #include "ui/render/renderer.h"
 #include "ui/vr/handinput.h"
@@ -15,9 +16,10 @@ namespace ps::vr {
 
 /// What a dab of a brush fills about its middle, along the scene's axes.
 struct BrushVolume {
-  Vector3 half{0, 0, 0};          ///< m
-  bool box = false;               ///< all of that, or the ball in it
-  std::array<float, 3> colour{};  ///< sRGB
+  Vector3 half{0, 0, 0};                    ///< m
+  bool box = false;                         ///< all of that, or the ball in it
+  std::array<float, 3> colour{};            ///< sRGB
+  std::shared_ptr<const StampForm> form{};  ///< what it fills of it; nullptr: the box or the ball
 };
 
 /// Panels of the interface: the later ones lie over the earlier ones.

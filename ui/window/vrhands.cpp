@@ -193,6 +193,7 @@ void VrHands::describe(vr::HeadsetView& view) {
     m_described[hand] = m_seen.hands[hand].up;
     vr::BrushVolume& brush = view.brushes[hand];
     std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
+    brush.form = m_tools.form(m_described[hand]);
     brush.colour = colour(hand, view.matter.get());
     view.ticks[hand] = m_brushes[hand].begun() + m_taken[hand];
     view.felt[hand] = feeling(hand, view.matter.get());

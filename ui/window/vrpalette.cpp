@@ -12,6 +12,7 @@
 #include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
+#include "ui/tools/becoming.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/actions.h"
 
@@ -67,6 +68,8 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
   addChoice(
       *grid, QStringLiteral("Temperature"), [this] { return temperatureText(m_tools.brush().temperature, 0); },
       [this](int by) { stepTemperature(by); });
+  addChoice(
+      *grid, QStringLiteral("Becomes"), [this] { return becomes(); }, [this](int by) { stepBecomes(by); });
   addChoice(
       *grid, QStringLiteral("Colour"), [this] { return colour(); }, [this](int by) { stepColour(by); });
   addActions(*grid, {{"simulation.gravity", "gravity"},
@@ -178,6 +181,20 @@ QString VrPalette::material() const {
 void VrPalette::stepTemperature(int by) {
   BrushSettings brush = m_tools.brush();
   setValueOf(brush, "temperature", std::max(0.0, brush.temperature + kDegrees * by));
+  m_tools.setBrush(brush);
+}
+
+QString VrPalette::becomes() const {
+  for (const auto& [name, label] : becomings())
+    if (name == m_tools.brush().becomes) return label;
+  return {};
+}
+
+void VrPalette::stepBecomes(int by) {
+  std::vector<std::string> names;
+  for (const auto& [name, label] : becomings()) names.push_back(name);
+  BrushSettings brush = m_tools.brush();
+  if (const std::string* name = further(names, brush.becomes, by)) brush.becomes = *name;
   m_tools.setBrush(brush);
 }
 

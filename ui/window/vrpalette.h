@@ -43,6 +43,8 @@ class VrPalette : public QWidget {
                  const std::function<void(int)>& step);
   void addPages(QGridLayout& grid, const std::vector<const char*>& pages);
   void stepTemperature(int by);
+  QString becomes() const;
+  void stepBecomes(int by);
   void stepColour(int by);
   QString material() const;
   QString colour() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/tools/stampform.h"
+#include "core/sketch/stampform.h"
 
 #include <algorithm>
 #include <map>
