@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Brushes that work on the matter that is there, driven by rays, without a widget, in a scene that runs.
+#include "core/base/callee.h"
 #include "core/io/projectio.h"
 #include "core/scene/pose.h"
 #include "core/sketch/redraw.h"
@@ -9,6 +10,9 @@
 #include "tests/ui/tooltesting.h"
 #include "ui/tools/handbrush.h"
 
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
+#include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
@@ -63,6 +67,53 @@ class TestTouchTools : public ToolTest {
     // At the start nothing of it is there, and there is nothing to take back.
     m_link->reset();
     m_document->undoStack().undo();
+    QCOMPARE(heaters(), 0.0);
+  }
+
+  /// It thinks for as long as it wants to: the pointer goes on, and what it says counts once it comes.
+  void aSlowBrushDoesNotStopTheWindow() {
+    takeFixture();
+    m_engine->play();
+    Tool& tool = m_tools->tool();
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    QVERIFY(tool.press(at(kTop)));
+    QElapsedTimer clock;
+    clock.start();
+    for (int k = 1; k <= 10; ++k) {
+      Pointer pointer = at(kTop);
+      pointer.seconds = 0.01 * k;
+      tool.drag(pointer);
+    }
+    QVERIFY2(clock.elapsed() < 1000, qPrintable(QString::number(clock.elapsed())));  // each alone would take 2 s
+    QVERIFY(!ongoingCalls().empty());
+    QCOMPARE(heaters(), 0.0);
+    qputenv("PS_LET_GO", "1");
+    const double start = time();
+    QVERIFY(QTest::qWaitFor([&] { return heaters() > 0 && time() > start + 0.1; }));
+    tool.release(at(kTop));
+    m_engine->pause();
+    QVERIFY(settled());
+    QCOMPARE(refused.count(), 0);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    qunsetenv("PS_LET_GO");
+  }
+
+  /// Nor one that never comes back, which is put aside.
+  void aBrushThatDoesNotComeBackIsPutAside() {
+    takeFixture();
+    m_engine->play();
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    QVERIFY(m_tools->tool().press(at(kTop)));
+    QCOMPARE(refused.count(), 0);
+    QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, 30000);
+    QVERIFY2(refused.front()[1].toString().contains(QStringLiteral("it does not come back")),
+             qPrintable(refused.front()[1].toString()));
+    m_tools->tool().release(at(kTop));
+    QCOMPARE(m_document->undoStack().count(), 0);
+    QVERIFY(m_tools->brush().shape != "fixture.touch");
+    qputenv("PS_LET_GO", "1");  // what it says now is dropped
+    QTRY_VERIFY(ongoingCalls().empty());
+    qunsetenv("PS_LET_GO");
     QCOMPARE(heaters(), 0.0);
   }
 
@@ -559,6 +610,25 @@ class TestTouchTools : public ToolTest {
 
  private:
   static const Vector3 kTop;
+  QTemporaryDir m_folder;
+
+  /// A brush for matter that takes as long as PS_LET_GO is not set, in hand in the same scene.
+  void takeFixture() {
+    const QString file = m_folder.filePath(QStringLiteral("endless_touch.so"));
+    if (!QFile::exists(file)) {
+      QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_touch.so"), file));
+    }
+    close();
+    PluginRegistry::Options options;
+    options.extraPaths = {m_folder.path().toStdString()};
+    m_plugins = std::make_unique<PluginRegistry>(options);
+    init();
+    connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
+      m_plugins->fault(brush.toStdString(), problem.toStdString());
+    });
+    take("fixture.touch");
+    QCOMPARE(m_tools->brush().shape, std::string("fixture.touch"));
+  }
 
   void takePaint() {
     take("paint");

@@ -16,7 +16,8 @@ namespace {
 constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes on
 }
 
-DrawTool::DrawTool(Toolbox& box, bool erases) : Tool(box), m_erases(erases), m_stroke(box), m_touch(box) {
+DrawTool::DrawTool(Toolbox& box, bool erases)
+    : Tool(box), m_erases(erases), m_stroke(box), m_touch(box, [this](const QString& why) { refuse(why); }) {
   m_stroke.onTrouble([this] { endStroke(); });
 }
 
@@ -85,7 +86,8 @@ void DrawTool::beginTouch(const Pointer& pointer) {
                                         pointer.ray.direction.normalized(), heldBy(pointer));
   if (!problem.isEmpty()) return refuse(problem);
   m_lift = {0, 0, 0};
-  if (m_touch.holds()) m_plane = {m_cursor->centre, -pointer.forward};
+  m_faces = false;
+  faceViewer(pointer);
   m_hand = pointer;
   m_hand.scene = nullptr;
 }
@@ -105,7 +107,15 @@ void DrawTool::see(const Snapshot* now) {
   QMetaObject::invokeMethod(&box(), follow, Qt::QueuedConnection);  // the view is being painted
 }
 
+/// What is held goes across the view, from where it was taken.
+void DrawTool::faceViewer(const Pointer& pointer) {
+  if (m_faces || !m_touch.holds()) return;
+  m_faces = true;
+  m_plane = {m_cursor->centre, -pointer.forward};
+}
+
 void DrawTool::dragTouch(const Pointer& pointer) {
+  faceViewer(pointer);
   std::optional<Vector3> point;
   if (m_touch.holds()) {
     point = placeOf(pointer);

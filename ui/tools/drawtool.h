@@ -38,6 +38,7 @@ class DrawTool : public Tool {
   bool isJoined(const Vector3& point, const Pointer& pointer) const;
   void draw(const Vector3& point, const Pointer& pointer);
   void beginTouch(const Pointer& pointer);
+  void faceViewer(const Pointer& pointer);
   void dragTouch(const Pointer& pointer);
   void touchAt(const Vector3& point);
   bool touches() const;
@@ -58,7 +59,8 @@ class DrawTool : public Tool {
   Trailing m_trail;
   double m_began = 0;  ///< s, on the pointer's clock
   std::optional<BrushCursor> m_cursor;
-  Pointer m_hand;  ///< as it was last while it touches matter
+  Pointer m_hand;        ///< as it was last while it touches matter
+  bool m_faces = false;  ///< the plane lies across the view, for what the hand holds
 };
 
 /// Takes matter away with the brush; Control draws instead.

@@ -26,7 +26,10 @@ class HandBrush {
  public:
   /// `always`: it has that brush for matter, whatever is chosen, with the size of the chosen one.
   explicit HandBrush(Toolbox& box, std::string always = {})
-      : m_box(box), m_always(std::move(always)), m_stroke(box), m_touch(box) {}
+      : m_box(box),
+        m_always(std::move(always)),
+        m_stroke(box),
+        m_touch(box, [this](const QString& why) { say(why); }) {}
   /// `scene`: as it is shown; nullptr: nothing yet.
   void follow(const HandInScene& hand, const SnapshotPtr& scene);
   void end();     ///< as far as it came

@@ -17,6 +17,9 @@
 namespace ps {
 namespace {
 
+/// What a brush says within this is waited for: the hand feels it in the same picture.
+constexpr std::chrono::milliseconds kAtOnce{4};
+constexpr std::chrono::milliseconds kLook{20};
 constexpr double kSmoothed = 0.05;  // s, over which the speed of a hand is a mean
 
 bool any(const std::vector<api::Touch>& touches, api::TouchKind kind) {
@@ -28,6 +31,11 @@ bool keeps(const std::vector<api::Touch>& touches) {
 }
 
 }  // namespace
+
+LiveTouch::LiveTouch(Toolbox& box, std::function<void(const QString&)> onTrouble)
+    : m_box(box), m_onTrouble(std::move(onTrouble)) {
+  QObject::connect(&m_looks, &QTimer::timeout, &m_looks, [this] { watch(); });
+}
 
 QString LiveTouch::whyNot(const std::string& brush) const {
   const PluginRegistry* plugins = m_box.document().plugins();
@@ -51,7 +59,8 @@ QString LiveTouch::begin(const BrushSettings& brush, bool opposite, const Vector
   m_record = std::make_shared<StrokeRecord>();
   m_record->deed = pluginLabel(&plugins, m_brush).toStdString() + " matter";
   if (opposite) m_record->deed += ", the opposite";
-  m_heats = m_holds = m_keeps = false;
+  m_heats = m_holds = m_keeps = m_waits = false;
+  m_way.clear();
   m_place.reset();
   m_velocity = {0, 0, 0};
   return move(point, 0, held);
@@ -79,39 +88,82 @@ QString LiveTouch::move(const Vector3& point, double seconds, const Held& held) 
   return send(std::move(way), here);
 }
 
-QString LiveTouch::send(std::vector<api::StrokeSample> way, const std::optional<api::StrokeSample>& stays) {
+QString LiveTouch::send(const std::vector<api::StrokeSample>& way, const std::optional<api::StrokeSample>& stays) {
+  m_way.insert(m_way.end(), way.begin(), way.end());
+  m_stays = stays;
+  m_waits = true;
+  return goOn(kAtOnce);
+}
+
+/// On a thread of its own, which owns all that it needs: one that does not come back must not take the window along.
+void LiveTouch::call() {
   const api::BrushPlugin* plugin = m_box.document().plugins()->brush(m_brush);
-  if (!plugin) return {};
-  const auto samples = static_cast<uint32_t>(std::max<size_t>(1, way.size()));
-  const auto work = [plugin, setup = m_setup, kind = m_kind, way = std::move(way), stays] {
+  if (!plugin) throw BrushFault("it is not installed any more");
+  m_called = static_cast<uint32_t>(std::max<size_t>(1, m_way.size()));
+  auto work = [plugin, brush = m_brush, setup = m_setup, kind = m_kind, way = std::exchange(m_way, {}),
+               stays = std::exchange(m_stays, {})] {
+    const CalleeScope callee(brush.c_str());
     const auto touches = [&](std::span<const api::StrokeSample> places) {
       return places.empty() ? std::vector<api::Touch>{} : touchesOf(*plugin, setup, kind, places);
     };
     const std::span<const api::StrokeSample> at = stays ? std::span(&*stays, 1) : std::span<const api::StrokeSample>();
-    return std::pair(touches(way), touches(at));
+    return Touches(touches(way), touches(at));
   };
+  m_waits = false;
+  m_looked = 0;
+  std::packaged_task<Touches()> task(std::move(work));
+  m_call = task.get_future();
+  runDetached(std::move(task));
+}
+
+/// What the brush has said goes to the engine.
+QString LiveTouch::take() {
+  auto [path, still] = m_call.get();
+  m_heats = m_heats || any(path, api::TouchKind::Heat) || any(still, api::TouchKind::Heat);
+  m_holds = m_holds || any(still, api::TouchKind::Hold);
+  m_keeps = m_keeps || keeps(path) || keeps(still);
+  if (m_heats && m_box.document().project().solver.thermalModel.empty()) {
+    cancel();
+    return QStringLiteral("The scene has no thermal model, so nothing can be heated. Choose one under Solver.");
+  }
+  m_box.link()->touch(*m_record, TouchMatter{std::move(path), m_called, std::move(still), {}, 0});
+  return {};
+}
+
+/// Asks for what waits, and takes what comes, as long as each call takes no longer than that.
+QString LiveTouch::goOn(std::chrono::milliseconds patience) {
   try {
-    auto asked = inTime(m_brush, work);
-    if (!asked) throw BrushFault(kNotBack);
-    auto& [path, still] = *asked;
-    m_heats = m_heats || any(path, api::TouchKind::Heat) || any(still, api::TouchKind::Heat);
-    m_holds = m_holds || any(still, api::TouchKind::Hold);
-    m_keeps = m_keeps || keeps(path) || keeps(still);
-    if (m_heats && m_box.document().project().solver.thermalModel.empty()) {
-      cancel();
-      return QStringLiteral("The scene has no thermal model, so nothing can be heated. Choose one under Solver.");
+    while (m_record) {
+      if (!m_call.valid() && !m_waits) break;
+      if (!m_call.valid()) call();
+      if (m_call.wait_for(patience) != std::future_status::ready) {
+        if (!m_looks.isActive()) m_looks.start(kLook);  // a hand that moves must not keep it from looking
+        return {};
+      }
+      if (const QString problem = take(); !problem.isEmpty()) return problem;
     }
-    m_box.link()->touch(*m_record, TouchMatter{std::move(path), samples, std::move(still), {}, 0});
+    m_looks.stop();
     return {};
   } catch (const BrushFault& fault) {
-    cancel();
-    m_box.putAside(m_brush, fault.what());
-    return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
-        .arg(QString::fromStdString(m_brush), QString::fromUtf8(fault.what()));
+    return fail(fault.what());
   } catch (const std::exception& error) {
     cancel();
     return QString::fromUtf8(error.what());
   }
+}
+
+QString LiveTouch::fail(const char* why) {
+  cancel();
+  m_box.putAside(m_brush, why);
+  return QStringLiteral("The brush “%1” failed: %2. It is put aside until the program starts again; see Plugins.")
+      .arg(QString::fromStdString(m_brush), QString::fromUtf8(why));
+}
+
+/// Counted in looks, so that a program that was stopped accuses nobody.
+void LiveTouch::watch() {
+  const bool isLost = m_call.valid() && ++m_looked > kBrushLooks * (kBrushLook / kLook);
+  const QString problem = isLost ? fail(kNotBack) : goOn(std::chrono::milliseconds(0));
+  if (!problem.isEmpty()) m_onTrouble(problem);
 }
 
 void LiveTouch::lift() {
@@ -123,7 +175,11 @@ void LiveTouch::lift() {
 
 QString LiveTouch::finish() {
   if (!m_record) return {};
-  const QString problem = send(m_resampler->finish(), std::nullopt);
+  QString problem = send(m_resampler->finish(), std::nullopt);
+  // Looks are counted anew for each call.
+  for (m_looked = 0; m_looked < kBrushLooks && m_record && (m_call.valid() || m_waits); ++m_looked)
+    problem = goOn(kBrushLook);
+  if (m_record && m_call.valid()) return fail(kNotBack);
   if (!m_record) return problem;  // the brush failed
   const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
   if (m_keeps) m_box.document().addStroke(record);
@@ -133,6 +189,10 @@ QString LiveTouch::finish() {
 void LiveTouch::cancel() {
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
+  m_looks.stop();
+  m_call = {};  // it goes on, and what it gives is dropped
+  m_way.clear();
+  m_waits = false;
   if (m_box.link()) m_box.link()->cancel(record);
 }
 

@@ -6,9 +6,14 @@
 #include "ui/tools/held.h"
 
 #include <QtCore/QString>
+#include <QtCore/QTimer>
 
+#include <chrono>
+#include <functional>
+#include <future>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -16,11 +21,13 @@ namespace ps {
 class Toolbox;
 
 /// A hand that works on the matter that is there, by a brush that says so: takes places along its way, lets the brush
-/// say what it does there, sends that straight to the engine, which does it as time passes in the scene, and hands the
-/// document one command at the end where undo has heat to take back.
+/// say on another thread what it does there, sends that straight to the engine, which does it as time passes in the
+/// scene, and hands the document one command at the end where undo has heat to take back. What a brush says at once is
+/// waited for; a slow one is asked for all the places that have come meanwhile.
 class LiveTouch {
  public:
-  explicit LiveTouch(Toolbox& box) : m_box(box) {}
+  /// `onTrouble` hears what went wrong with a brush that took its time; the hand has let go by then.
+  LiveTouch(Toolbox& box, std::function<void(const QString&)> onTrouble);
 
   /// "" or why the hand does nothing. `brush`: that it has in hand; `opposite`: of what that is called; `up`: away from
   /// what it points at; `look`: unit vector along which one sees it.
@@ -38,11 +45,26 @@ class LiveTouch {
   bool holds() const { return m_holds; }              ///< it carries what it has taken hold of
 
  private:
+  /// What the brush does along a way, and where the hand is at its end.
+  using Touches = std::pair<std::vector<api::Touch>, std::vector<api::Touch>>;
   QString whyNot(const std::string& brush) const;
-  QString send(std::vector<api::StrokeSample> way, const std::optional<api::StrokeSample>& stays);
+  QString send(const std::vector<api::StrokeSample>& way, const std::optional<api::StrokeSample>& stays);
+  void call();
+  QString take();
+  QString goOn(std::chrono::milliseconds patience);
+  QString fail(const char* why);
+  void watch();
   Vector3 speedTo(const Vector3& point, double seconds);
 
   Toolbox& m_box;
+  std::function<void(const QString&)> m_onTrouble;
+  std::vector<api::StrokeSample> m_way;      ///< that the brush has not been asked for yet
+  std::optional<api::StrokeSample> m_stays;  ///< likewise
+  bool m_waits = false;                      ///< any of these
+  std::future<Touches> m_call;               ///< valid while the brush is at it
+  uint32_t m_called = 0;                     ///< places that it was asked for
+  QTimer m_looks;                            ///< whether it has come back
+  int m_looked = 0;                          ///< since it was asked
   std::string m_brush;
   api::EditKind m_kind = api::EditKind::Add;
   std::shared_ptr<StrokeRecord> m_record;
