@@ -43,8 +43,9 @@ std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples)
   if (fills) edits.filled = floodedFrom(edits.filled);
   std::vector<api::Cell> fresh;
   for (const api::Cell& cell : edits.of(m_kind).cells()) {
-    if (!m_cells.contains(cell) && (!draws || isInScene(m_scene.environment, m_setup.grid, cell)))
-      fresh.push_back(cell);
+    const bool isOutside = draws && !isInScene(m_scene.environment, m_setup.grid, cell);
+    if (isOutside) m_leavesScene = true;
+    if (!m_cells.contains(cell) && !isOutside) fresh.push_back(cell);
   }
   m_cells.add(fresh);
   return fresh;

@@ -33,6 +33,8 @@ class StrokeMaker {
   std::vector<api::Cell> lift();
   api::EditKind kind() const { return m_kind; }
   bool asksBrush() const noexcept { return m_asks; }  ///< now; from any thread
+  /// The brush gave cells outside of the scene or in its walls, which are left out; from any thread.
+  bool leavesScene() const noexcept { return m_leavesScene; }
 
  private:
   StrokeEdits ask(std::span<const api::StrokeSample> samples);
@@ -47,7 +49,7 @@ class StrokeMaker {
   StrokeResampler m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   CellSet m_cells;                         ///< that have come so far
-  std::atomic<bool> m_asks = false;
+  std::atomic<bool> m_asks = false, m_leavesScene = false;
 };
 
 }  // namespace ps

@@ -2,6 +2,8 @@
 // The brush bar beside the view, and the list of strokes on the page Brush.
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "tests/ui/gizmohands.h"
+#include "tests/ui/hands.h"
 #include "ui/document/redrawing.h"
 #include "ui/panels/brushpanel.h"
 #include "ui/panels/strokeedits.h"
@@ -19,6 +21,9 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
+
+#include <algorithm>
+#include <climits>
 
 using namespace ps;
 
@@ -200,6 +205,98 @@ class TestBrushBar : public SampleWindowTest {
     QCOMPARE(cellCount(shapeOf(cup)), cellCount(before));
   }
 
+  /// By the handle of the tool Move, while the list has it.
+  void aStrokeIsMovedInTheView() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    view()->frameAll();
+    const VoxelShape before = shapeOf(cup);
+    showList();
+    list()->setCurrent(2);
+    const auto wire = m_window->tools().strokeWire();
+    QVERIFY(wire && wire->lines.size() == 3);  // a dab: a cross
+    QTest::keyClick(list()->findChild<QScrollArea*>()->widget(), Qt::Key_W);
+    QCOMPARE(m_window->tools().active(), std::string("move"));
+    const Gizmo handles = hands::handles(*m_window);
+    QVERIFY2((handles.centre - Vector3(0.2, 0.6, 0)).norm() < 1e-9,
+             qPrintable(QString::number(handles.centre[0])));
+    hands::pull(*view(), hands::middleOf(*m_window, {GizmoPart::Kind::Arm, 0}), {30, 0});
+    QTRY_VERIFY(shapeOf(cup) != before);
+    const VoxelShape& after = shapeOf(cup);
+    const double moved = after.strokes[2].samples[0][0] - 0.2;
+    QVERIFY2(moved > 0.01, qPrintable(QString::number(moved)));
+    QCOMPARE(after.strokes[0], before.strokes[0]);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("moving a stroke of cup"));
+    const double farther = farEnd(after) - farEnd(before);
+    QVERIFY2(std::abs(farther - moved) <= after.spacing,
+             qPrintable(QStringLiteral("%1 m, the end %2 m").arg(moved).arg(farther)));
+    QCOMPARE(list()->current(), 2);
+    // The body is taken again where it is clicked.
+    m_window->selection().selectBody(cup);
+    QVERIFY(!m_window->tools().stroke());
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup), before);
+  }
+
+  /// In one step, whichever body the hand begins on.
+  void aStrokeIsDrawnAnew() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    const VoxelShape before = shapeOf(cup);
+    const int steps = document().undoStack().index();
+    showList();
+    list()->drawAnew(2);
+    QCOMPARE(m_window->tools().active(), std::string(kBrushTool));
+    QCOMPARE(m_window->tools().brush().radius, before.strokes[2].radius);
+    stroke(QPoint(view()->width() / 2 - 40, view()->height() / 2), {80, 0}, true);
+    QTRY_COMPARE_WITH_TIMEOUT(document().undoStack().undoText(), QStringLiteral("drawing a stroke of cup anew"), kLong);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    const VoxelShape& after = shapeOf(cup);
+    QCOMPARE(after.strokes.size(), size_t{3});
+    QVERIFY(after.strokes[2].samples.size() > 1);
+    QCOMPARE(after.strokes[1], before.strokes[1]);
+    QVERIFY(after.runs != before.runs);
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup), before);
+  }
+
+  void linesAreDraggedToAnotherPlace() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    const VoxelShape before = shapeOf(cup);
+    showList();
+    auto* rows = list()->findChild<QScrollArea*>()->widget();
+    hands::pull(*rows, {40, StrokesList::kRow / 2}, {0, 2 * StrokesList::kRow});
+    QTRY_VERIFY(shapeOf(cup) != before);
+    QCOMPARE(shapeOf(cup).strokes[2], before.strokes[0]);
+    QCOMPARE(list()->current(), 2);
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup), before);
+  }
+
+  /// At the start at once; later it waits for the start, and that is told.
+  void theMatterFollowsTheStrokes() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), cellCount(shapeOf(cup)), kLong);
+    const size_t before = countOf(cup);
+    list()->edits().remove(cup, 1);  // the one that erases
+    QTRY_COMPARE(shapeOf(cup).strokes.size(), size_t{2});
+    QVERIFY(cellCount(shapeOf(cup)) > before);
+    QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), cellCount(shapeOf(cup)), kLong);
+    document().undoStack().undo();
+    QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), before, kLong);
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(!session().appliesAtOnce(), kLong);
+    QSignalSpy told(&list()->edits(), &StrokeEdits::told);
+    list()->edits().remove(cup, 1);
+    QTRY_COMPARE(told.count(), 1);
+    QVERIFY2(told[0][1].toString().contains(QStringLiteral("press Home")), qPrintable(told[0][1].toString()));
+    QCOMPARE(countOf(cup), before);
+    toTheStart();
+    QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), cellCount(shapeOf(cup)), kLong);
+  }
+
   /// Of what no stroke has drawn, of a body that is locked, and of the only stroke.
   void whatRedrawingLosesIsTold() {
     Body body = threeStrokes();
@@ -260,7 +357,24 @@ class TestBrushBar : public SampleWindowTest {
   }
 
  private:
+  void showList() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Brush"));
+    QTRY_VERIFY(list()->isVisible());
+  }
+  /// m, along x.
+  static double farEnd(const VoxelShape& shape) {
+    int last = INT_MIN;
+    for (const VoxelShape::Run& run : shape.runs) last = std::max(last, run.x + run.length - 1);
+    return shape.origin.x() + shape.spacing * last;
+  }
   const VoxelShape& shapeOf(const std::string& id) { return std::get<VoxelShape>(document().body(id)->shape); }
+  size_t countOf(const std::string& id) {
+    return onEngine<size_t>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.particles();
+      return static_cast<size_t>(std::count_if(store.body(), store.body() + store.size(),
+                                               [&](uint32_t body) { return engine.bodyIds()[body] == id; }));
+    });
+  }
   /// High above the sample: a ball, another one that takes a part of it, and a third one beside them.
   Body threeStrokes() {
     Body body = sketchOf("cup", {});

@@ -7,6 +7,8 @@
 
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QAbstractItemView>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QTabBar>
 #include <QtWidgets/QTreeView>
@@ -95,6 +97,24 @@ class TestFocus : public SampleWindowTest {
     QVERIFY(sphere != buttons.end());
     QTest::mouseClick(*sphere, Qt::LeftButton);
     QTRY_VERIFY(view()->hasFocus());
+    m_window->showWorkspace(MainWindow::kSceneTab);
+  }
+
+  /// The list that hangs open below a field, too.
+  void returnChoosesFromAList() {
+    m_window->showWorkspace(MainWindow::kFilmTab);
+    const auto fields = m_window->layoutOfDocks().dock(QStringLiteral("dock.film"))->findChildren<QComboBox*>();
+    const auto field = std::find_if(fields.begin(), fields.end(),
+                                    [](const QComboBox* one) { return one->isVisible() && one->count() > 1; });
+    QVERIFY(field != fields.end());
+    (*field)->setCurrentIndex(0);
+    (*field)->setFocus();
+    (*field)->showPopup();
+    QTRY_VERIFY((*field)->view()->isVisible());
+    QTest::keyClick((*field)->view(), Qt::Key_Down);
+    QTest::keyClick((*field)->view(), Qt::Key_Return);
+    QTRY_VERIFY(!(*field)->view()->isVisible());
+    QCOMPARE((*field)->currentIndex(), 1);
     m_window->showWorkspace(MainWindow::kSceneTab);
   }
 

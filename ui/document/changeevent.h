@@ -27,13 +27,14 @@ struct ParameterChanged {
 /// A body was renamed, hidden, locked, given another structure; or it came or went together with its matter, which
 /// `matter` names (nullptr: no particle is touched). `move`: it is at another pose, and nothing else of it has changed;
 /// its matter goes along. `composition`: what has changed of its structure and its material, which is set as
-/// parameters are. `led`: it moves there by a hand, and meets what is in its way.
+/// parameters are. `remade`: its matter is made otherwise at the next reset. `led`: it moves there by a hand, and meets
+/// what is in its way.
 struct BodyChanged {
   std::string id;
   MatterRef matter{};
   std::optional<RigidMove> move{};
   std::vector<ParameterChanged> composition{};
-  bool pins = false;  ///< others of its particles are pinned
+  bool remade = false;  ///< others of its particles are pinned, or its sketch has other cells
   bool led = false;
   struct Resized {
     double factor = 1;

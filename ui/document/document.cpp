@@ -19,6 +19,14 @@ bool isComposition(const Address& address) {
                                           !pluginBehind(address.key, kNeighbourKey).empty());
 }
 
+/// By an edit of its pins, or of its sketch's strokes. Other edits of shapes say so by their parameters.
+bool isMadeOtherwise(const Body& before, const Body& after) {
+  if (before.pins != after.pins) return true;
+  const auto* old = std::get_if<VoxelShape>(&before.shape);
+  const auto* sketch = std::get_if<VoxelShape>(&after.shape);
+  return old && sketch && (old->runs != sketch->runs || old->palette != sketch->palette);
+}
+
 }  // namespace
 
 Document::Document(QObject* parent) : QObject(parent) {
@@ -346,8 +354,8 @@ void Document::applyBodies(const std::vector<SceneEdit>& edits, bool forward, co
       return *part.value == part.before;
     });
     const auto* body = std::get_if<BodyEdit>(&edits[i]);
-    const bool pins = body && body->before && body->after && body->before->pins != body->after->pins;
-    notify(BodyChanged{bodyOf(edits[i]), matter, {}, std::move(composition), pins});
+    const bool remade = body && body->before && body->after && isMadeOtherwise(*body->before, *body->after);
+    notify(BodyChanged{bodyOf(edits[i]), matter, {}, std::move(composition), remade});
   }
 }
 

@@ -2,6 +2,7 @@
 #include "ui/panels/strokeedits.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/sketch/cellset.h"
 #include "ui/document/document.h"
 #include "ui/document/redrawing.h"
 #include "ui/session/session.h"
@@ -28,7 +29,11 @@ void StrokeEdits::stay(const QString& why) { Q_EMIT told(QStringLiteral("The str
 const Body* StrokeEdits::sketched(const std::string& id, size_t stroke) {
   const Body* body = m_session.document().body(id);
   const auto* sketch = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
-  if (m_busy || !sketch || stroke >= sketch->strokes.size() || !m_session.plugins()) return nullptr;
+  if (!sketch || stroke >= sketch->strokes.size() || !m_session.plugins()) return nullptr;
+  if (m_busy) {
+    stay(QStringLiteral("They are still being drawn again."));
+    return nullptr;
+  }
   if (!body->locked) return body;
   stay(QStringLiteral("%1 is locked. Unlock it in the outliner.").arg(QString::fromStdString(body->name)));
   return nullptr;
@@ -74,6 +79,25 @@ void StrokeEdits::setMaterial(const std::string& id, size_t stroke, const std::s
   redraw(*body, std::move(wanted), QStringLiteral("material of a stroke of %1"), stroke);
 }
 
+void StrokeEdits::carry(const std::string& id, size_t stroke, const Vector3& way) {
+  const Body* body = sketched(id, stroke);
+  if (!body) return;
+  VoxelShape wanted = std::get<VoxelShape>(body->shape);
+  const Vector3 own = gridOf(wanted).pose.inverse().turn * way;
+  for (auto& sample : wanted.strokes[stroke].samples)
+    for (int k = 0; k < 3; ++k) sample[static_cast<size_t>(k)] += own[k];
+  redraw(*body, std::move(wanted), QStringLiteral("moving a stroke of %1"), stroke);
+}
+
+void StrokeEdits::replace(const std::string& id, size_t stroke, VoxelShape::Stroke other) {
+  const Body* body = sketched(id, stroke);
+  if (!body) return;
+  VoxelShape wanted = std::get<VoxelShape>(body->shape);
+  other.palette = wanted.strokes[stroke].palette;
+  wanted.strokes[stroke] = std::move(other);
+  redraw(*body, std::move(wanted), QStringLiteral("drawing a stroke of %1 anew"), stroke);
+}
+
 void StrokeEdits::redraw(const Body& body, VoxelShape wanted, const QString& title, size_t stroke) {
   m_body = body.id;
   m_title = title.arg(QString::fromStdString(body.name));
@@ -116,10 +140,12 @@ void StrokeEdits::take() {
   if (drawn.sketch.runs.empty())
     return stay(QStringLiteral("Nothing of %1 would be left. Delete the body instead.").arg(name));
   document.setSketch(m_body, drawn.sketch, m_title);
+  QStringList news;
   if (drawn.lost > 0)
-    Q_EMIT told(QStringLiteral("%1 was drawn again from its strokes.").arg(name),
-                QStringLiteral("%1 particles that none of them explains are gone. Undo brings them back.")
-                    .arg(formatFixed(static_cast<double>(drawn.lost))));
+    news << QStringLiteral("%1 particles that none of its strokes explains are gone. Undo brings them back.")
+                .arg(formatFixed(static_cast<double>(drawn.lost)));
+  if (!m_session.appliesAtOnce()) news << QStringLiteral("The matter follows once back at the start: press Home.");
+  if (!news.isEmpty()) Q_EMIT told(QStringLiteral("%1 was drawn again.").arg(name), news.join(QLatin1Char(' ')));
   Q_EMIT edited(m_stroke);
 }
 

@@ -27,6 +27,12 @@ class StrokeEdits : public QObject {
   void move(const std::string& body, size_t stroke, size_t to);
   /// SceneMaterial::id that it draws in, as warm as before.
   void setMaterial(const std::string& body, size_t stroke, const std::string& material);
+  /// By so much, in m.
+  void carry(const std::string& body, size_t stroke, const Vector3& way);
+  /// Another one in its place, of the same matter.
+  void replace(const std::string& body, size_t stroke, VoxelShape::Stroke other);
+  /// Whether the strokes can be edited now; told where they cannot.
+  bool isPossible(const std::string& body, size_t stroke) { return sketched(body, stroke) != nullptr; }
   bool busy() const { return m_busy; }
 
  Q_SIGNALS:

@@ -3,8 +3,10 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/scene/shownname.h"
+#include "core/sketch/cellset.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/strokerecord.h"
 #include "ui/panels/strokeedits.h"
 #include "ui/rows/groupheading.h"
 #include "ui/session/selection.h"
@@ -14,26 +16,32 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 #include "ui/tools/brushsettings.h"
+#include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
 
+#include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QAccessibleWidget>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace ps {
 namespace {
 
 constexpr int kMostShown = 8;
 const QString kKeys = QStringLiteral(
-    "Del removes the stroke, Alt+Up and Alt+Down draw it earlier or later; the other "
-    "mouse button gives it another material. The sketch is drawn again from them.");
+    "Del removes the stroke; a drag, Alt+Up and Alt+Down draw it earlier or later; W moves it in the view; the other "
+    "mouse button gives it another material, or has it drawn anew. The sketch is drawn again from them.");
 const QString kNone = QStringLiteral("Strokes of the body that is selected are listed here");
 
 double lengthOf(const VoxelShape::Stroke& stroke) {
@@ -78,6 +86,12 @@ class StrokesList::Rows : public QWidget {
     setAccessibleName(QStringLiteral("Strokes"));
     setToolTip(kKeys);
   }
+  /// Nothing is dragged any more: the lines are others.
+  void letGo() {
+    m_held.reset();
+    m_drop = -1;
+    update();
+  }
   QSize sizeHint() const override { return {120, kRow * std::max(1, static_cast<int>(m_list.m_lines.size())) + 4}; }
   QSize minimumSizeHint() const override { return {80, sizeHint().height()}; }
 
@@ -91,11 +105,33 @@ class StrokesList::Rows : public QWidget {
       paintText(painter, QRectF(12, 0, width() - 20, kRow), Qt::AlignVCenter, kNone, Theme::font(TextRole::Small),
                 theme[Token::Muted]);
     for (int i = 0; i < static_cast<int>(m_list.m_lines.size()); ++i) paintLine(painter, i);
+    if (m_held && m_drop >= 0 && m_drop != m_held->line) {
+      const int edge = (m_drop > m_held->line ? m_drop + 1 : m_drop) * kRow;
+      painter.fillRect(QRectF(8, edge - 1, width() - 16, 2), theme[Token::Accent]);
+    }
     if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
   }
   void mousePressEvent(QMouseEvent* event) override {
-    m_list.setCurrent(static_cast<int>(event->position().y()) / kRow);
+    m_list.setCurrent(lineAt(event->position()));
     setFocus(Qt::MouseFocusReason);
+    letGo();
+    if (event->button() == Qt::LeftButton && m_list.m_current >= 0)
+      m_held = Held{event->position(), m_list.m_body, m_list.m_current};
+  }
+  /// A line that is dragged is drawn where it is let go.
+  void mouseMoveEvent(QMouseEvent* event) override {
+    if (!m_held) return;
+    const bool far = std::abs(event->position().y() - m_held->at.y()) >= QApplication::startDragDistance();
+    if (!far && m_drop < 0) return;
+    m_drop = std::clamp(lineAt(event->position()), 0, static_cast<int>(m_list.m_lines.size()) - 1);
+    update();
+  }
+  void mouseReleaseEvent(QMouseEvent*) override {
+    const std::optional<Held> held = m_held;
+    const int drop = m_drop;
+    letGo();
+    if (held && drop >= 0 && drop != held->line)
+      m_list.m_edits->move(held->body, static_cast<size_t>(held->line), static_cast<size_t>(drop));
   }
   void contextMenuEvent(QContextMenuEvent* event) override {
     const bool byKey = event->reason() == QContextMenuEvent::Keyboard;
@@ -117,6 +153,7 @@ class StrokesList::Rows : public QWidget {
   }
 
  private:
+  static int lineAt(const QPointF& place) { return static_cast<int>(std::floor(place.y() / kRow)); }
   static bool isOwn(const QKeyEvent& event) {
     const bool plain = event.modifiers() == Qt::NoModifier || event.modifiers() == Qt::KeypadModifier;
     const int key = event.key();
@@ -143,12 +180,20 @@ class StrokesList::Rows : public QWidget {
   }
 
   StrokesList& m_list;
+  struct Held {
+    QPointF at;
+    std::string body;
+    int line = 0;
+  };
+  std::optional<Held> m_held;
+  int m_drop = -1;  ///< the line in whose place it is let go; -1: it is not dragged yet
 };
 
-StrokesList::StrokesList(Session& session, Selection& selection, QWidget* parent)
+StrokesList::StrokesList(Session& session, Toolbox& tools, QWidget* parent)
     : QWidget(parent),
       m_document(session.document()),
-      m_selection(selection),
+      m_tools(tools),
+      m_selection(tools.selection()),
       m_edits(new StrokeEdits(session, this)),
       m_heading(new GroupHeading(QStringLiteral("Strokes"))),
       m_rows(new Rows(*this)) {
@@ -165,13 +210,26 @@ StrokesList::StrokesList(Session& session, Selection& selection, QWidget* parent
   column->addWidget(m_heading);
   column->addWidget(scroll);
   connect(m_heading, &GroupHeading::foldedChanged, m_scroll, [this](bool folded) { m_scroll->setVisible(!folded); });
-  connect(&selection, &Selection::changed, this, &StrokesList::refresh);
+  connect(&m_selection, &Selection::changed, this, [this] {
+    m_current = -1;  // the body as a whole
+    m_anew.reset();
+    refresh();
+  });
+  connect(&tools, &Toolbox::strokeMoved, this,
+          [this](const ChosenStroke& stroke, const Vector3& way) { m_edits->carry(stroke.body, stroke.index, way); });
+  connect(&tools, &Toolbox::toolChanged, this, [this] {
+    m_anew.reset();
+    refreshHeading();
+  });
   connect(&m_document, &Document::changed, this, [this](const ChangeEvent& event) {
     if (const auto* stroke = std::get_if<StrokeChanged>(&event)) {
-      if (!stroke->stroke->body.empty()) m_drawn = stroke->stroke->body;
+      onStroke(*stroke);
     } else if (std::holds_alternative<ProjectOpened>(event)) {
       m_drawn.clear();
-    } else if (!std::holds_alternative<BodyChanged>(event) && !std::holds_alternative<MaterialsChanged>(event)) {
+      m_anew.reset();
+    } else if (const auto* body = std::get_if<BodyChanged>(&event)) {
+      if (m_anew && body->id == m_anew->body) m_anew.reset();
+    } else if (!std::holds_alternative<MaterialsChanged>(event)) {
       return;
     }
     refresh();
@@ -179,6 +237,59 @@ StrokesList::StrokesList(Session& session, Selection& selection, QWidget* parent
   connect(m_edits, &StrokeEdits::busyChanged, this, &StrokesList::refresh);
   connect(m_edits, &StrokeEdits::edited, this, [this](size_t stroke) { setCurrent(static_cast<int>(stroke)); });
   refresh();
+}
+
+void StrokesList::onStroke(const StrokeChanged& event) {
+  const StrokeRecord& stroke = *event.stroke;
+  if (!event.live) m_anew.reset();  // its number may be another one's now
+  if (stroke.body.empty()) return;
+  m_drawn = stroke.body;
+  if (!m_anew || !stroke.material.empty() || stroke.erase || !stroke.deed.empty()) return;
+  // Once the step that drew it stands: it is taken back, and what takes its place is the only one.
+  QTimer::singleShot(0, this, [this, body = stroke.body] { takeAnew(body); });
+}
+
+/// Where the place cannot be taken, what was drawn stays by itself.
+void StrokesList::takeAnew(const std::string& body) {
+  const std::optional<ChosenStroke> place = std::exchange(m_anew, std::nullopt);
+  refreshHeading();
+  const VoxelShape *drawn = sketch(body), *own = place ? sketch(place->body) : nullptr;
+  if (!drawn || !own || !m_edits->isPossible(place->body, place->index)) return;
+  VoxelShape::Stroke stroke = drawn->strokes.back();
+  if (drawn != own) {
+    const RigidMove way = gridOf(*own).pose.inverse();
+    const RigidMove from = gridOf(*drawn).pose;
+    for (auto& sample : stroke.samples) {
+      const Vector3 at = way.of(from.of(Vector3(sample[0], sample[1], sample[2])));
+      for (int k = 0; k < 3; ++k) sample[static_cast<size_t>(k)] = at[k];
+    }
+    stroke.up = way.turn * (from.turn * stroke.up);
+  }
+  m_document.undoStack().undo();
+  m_edits->replace(place->body, place->index, std::move(stroke));
+}
+
+void StrokesList::drawAnew(int line) {
+  const VoxelShape* shape = sketch(m_body);
+  if (!shape || line < 0 || line >= static_cast<int>(m_lines.size())) return;
+  const VoxelShape::Stroke& stroke = shape->strokes[static_cast<size_t>(line)];
+  m_tools.activate(kBrushTool);
+  m_tools.takeBrush(stroke.brush);
+  BrushSettings brush = m_tools.brush();
+  brush.radius = stroke.radius;
+  brush.parameters[stroke.brush] = stroke.parameters;
+  brush.material = shape->palette[static_cast<size_t>(stroke.palette)].material;
+  brush.temperature = shape->palette[static_cast<size_t>(stroke.palette)].temperature;
+  brush.symmetry = stroke.symmetry.value_or(VoxelShape::Symmetry{});
+  m_selection.setMaterial(brush.material);
+  m_tools.setBrush(brush);
+  m_anew = ChosenStroke{m_body, static_cast<size_t>(line)};
+  refreshHeading();
+}
+
+void StrokesList::choose() {
+  const bool any = m_current >= 0 && !m_body.empty();
+  m_tools.choose(any ? std::optional(ChosenStroke{m_body, static_cast<size_t>(m_current)}) : std::nullopt);
 }
 
 bool StrokesList::act(const QKeyEvent& event) {
@@ -218,8 +329,14 @@ QMenu* StrokesList::menuOf(int line) {
   add(menu, QStringLiteral("Draw later\tAlt+Down"), [this, at] {
     m_edits->move(m_body, at, at + 1);
   })->setEnabled(at + 1 < m_lines.size());
+  const bool leavesMatter = m_lines[at].colour.isValid();
+  add(menu, QStringLiteral("Move"), [this, line] {
+    setCurrent(line);
+    m_tools.activate("move");
+  });
+  add(menu, QStringLiteral("Draw anew"), [this, line] { drawAnew(line); })->setEnabled(leavesMatter);
   QMenu* materials = menu->addMenu(QStringLiteral("Material"));
-  materials->setEnabled(m_lines[at].colour.isValid());  // it leaves matter
+  materials->setEnabled(leavesMatter);
   for (const SceneMaterial& material : m_document.project().materials)
     add(materials, QString::fromStdString(shownName(material)),
         [this, at, id = material.id] { m_edits->setMaterial(m_body, at, id); });
@@ -233,6 +350,7 @@ const VoxelShape* StrokesList::sketch(const std::string& id) const {
 }
 
 void StrokesList::refresh() {
+  m_rows->letGo();
   const std::string selected = m_selection.body();
   const std::string body = sketch(selected) ? selected : selected.empty() && sketch(m_drawn) ? m_drawn : "";
   if (body != m_body) m_current = -1;
@@ -251,15 +369,22 @@ void StrokesList::refresh() {
     }
   }
   m_current = std::min(m_current, static_cast<int>(m_lines.size()) - 1);
-  m_heading->setCount(
-      m_lines.empty() ? QString()
-      : m_edits->busy()
-          ? QStringLiteral("drawing again …")
-          : QStringLiteral("%1 of %2").arg(m_lines.size()).arg(QString::fromStdString(m_document.body(m_body)->name)));
+  refreshHeading();
+  choose();
   const int shown = std::clamp(static_cast<int>(m_lines.size()), 1, kMostShown);
   m_scroll->setFixedHeight(shown * kRow + 4);
   m_rows->updateGeometry();
   m_rows->update();
+}
+
+void StrokesList::refreshHeading() {
+  const Body* body = m_document.body(m_body);
+  m_heading->setCount(
+      m_lines.empty()   ? QString()
+      : m_edits->busy() ? QStringLiteral("drawing again …")
+      : m_anew && m_anew->body == m_body
+          ? QStringLiteral("draw stroke %1 now …").arg(m_anew->index + 1)
+          : QStringLiteral("%1 of %2").arg(m_lines.size()).arg(body ? QString::fromStdString(body->name) : QString()));
 }
 
 void StrokesList::setCurrent(int line) {
@@ -269,6 +394,7 @@ void StrokesList::setCurrent(int line) {
     m_rows->setAccessibleDescription(QStringLiteral("%1, %2").arg(now.name, now.length));
     static_cast<QScrollArea*>(m_scroll)->ensureVisible(0, m_current * kRow + kRow / 2, 0, kRow / 2);
   }
+  choose();
   m_rows->update();
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "ui/tools/toolbox.h"
 
 #include <QtCore/QString>
 #include <QtGui/QColor>
 #include <QtWidgets/QWidget>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +21,17 @@ class GroupHeading;
 class Selection;
 class Session;
 class StrokeEdits;
+struct StrokeChanged;
 
 /// The strokes of one sketched body, in the order in which they were drawn: with which brush, how far it went, and of
 /// what. The body is the one that is selected or, while none is, the one that was drawn at last. Without one that has
-/// strokes there is a sentence. The keys, and a menu, remove a stroke, move it earlier or later and give it another
-/// material (see StrokeEdits).
+/// strokes there is a sentence. The keys, the mouse and a menu remove a stroke, move it earlier or later, give it
+/// another material and have it drawn anew (see StrokeEdits). The view shows the one that the keys are on, and the tool
+/// Move moves it.
 class StrokesList : public QWidget {
   Q_OBJECT
  public:
-  StrokesList(Session& session, Selection& selection, QWidget* parent = nullptr);
+  StrokesList(Session& session, Toolbox& tools, QWidget* parent = nullptr);
 
   /// A line as it is painted.
   struct Line {
@@ -41,20 +45,29 @@ class StrokesList : public QWidget {
   StrokeEdits& edits() { return *m_edits; }
   QMenu* menuOf(int line);  ///< of what can be done with it; its parent is the list
 
+  /// The next stroke that a hand draws takes its place, unless another tool is taken first.
+  void drawAnew(int line);
+
   static constexpr int kRow = 26;  ///< px
 
  private:
   class Rows;
   void refresh();
+  void refreshHeading();
+  void choose();  ///< the line that the keys are on, for the view
+  void onStroke(const StrokeChanged& event);
+  void takeAnew(const std::string& body);
   const VoxelShape* sketch(const std::string& body) const;  ///< nullptr: it has no strokes
   bool act(const QKeyEvent& event);                         ///< whether a key is one of the list's, and done
 
   Document& m_document;
+  Toolbox& m_tools;
   Selection& m_selection;
   StrokeEdits* m_edits;
   std::string m_body, m_drawn;
   std::vector<Line> m_lines;
   int m_current = -1;
+  std::optional<ChosenStroke> m_anew;  ///< that the next stroke of a hand takes the place of
   GroupHeading* m_heading;
   Rows* m_rows;
   QWidget* m_scroll;

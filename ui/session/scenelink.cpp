@@ -152,7 +152,7 @@ void SceneLink::showFields() {
 
 void SceneLink::onBody(const BodyChanged& event) {
   const auto waits = [this](const ParameterChanged& part) { return m_document.actsAtReset(part.address); };
-  if (event.pins || event.resized || std::any_of(event.composition.begin(), event.composition.end(), waits))
+  if (event.remade || event.resized || std::any_of(event.composition.begin(), event.composition.end(), waits))
     resetSoon();
   for (KnownStroke& known : m_strokes) {
     const auto stroke = event.move || event.resized ? known.stroke.lock() : nullptr;

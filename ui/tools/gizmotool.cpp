@@ -322,4 +322,44 @@ std::vector<Gesture> GizmoTool::gestures() const {
           {QString::fromLatin1(kPivotKey), pivot, {}}};
 }
 
+void MoveTool::hover(const Pointer& pointer) {
+  if (!m_stroke.isOn()) return GizmoTool::hover(pointer);
+  m_stroke.hover(pointer);
+}
+
+bool MoveTool::press(const Pointer& pointer) {
+  return m_stroke.isOn() ? m_stroke.press(pointer) : GizmoTool::press(pointer);
+}
+
+void MoveTool::drag(const Pointer& pointer) {
+  if (!m_stroke.isHeld()) return GizmoTool::drag(pointer);
+  m_stroke.drag(pointer);
+}
+
+void MoveTool::release(const Pointer& pointer) {
+  if (!m_stroke.isHeld()) return GizmoTool::release(pointer);
+  m_stroke.release();
+}
+
+bool MoveTool::cancel() {
+  const bool held = m_stroke.cancel();
+  return GizmoTool::cancel() || held;
+}
+
+void MoveTool::leave() {
+  m_stroke.leave();
+  GizmoTool::leave();
+}
+
+ToolPicture MoveTool::picture() const {
+  if (!m_stroke.isOn()) return GizmoTool::picture();
+  ToolPicture picture;
+  m_stroke.show(picture);
+  return picture;
+}
+
+QString MoveTool::words() const {
+  return m_stroke.isOn() ? QStringLiteral("Move the stroke that is chosen") : GizmoTool::words();
+}
+
 }  // namespace ps

@@ -4,6 +4,7 @@
 #include "ui/tools/gizmo.h"
 #include "ui/tools/placing.h"
 #include "ui/tools/selecttool.h"
+#include "ui/tools/strokehandles.h"
 
 namespace ps {
 
@@ -63,8 +64,21 @@ class GizmoTool : public Tool {
   bool m_wrong = false;
 };
 
-struct MoveTool final : GizmoTool {
-  explicit MoveTool(Toolbox& box) : GizmoTool(box, Gizmo::Kind::Move) {}
+/// A stroke that is chosen in its list goes by itself, instead of its body.
+class MoveTool final : public GizmoTool {
+ public:
+  explicit MoveTool(Toolbox& box) : GizmoTool(box, Gizmo::Kind::Move), m_stroke(box) {}
+  void hover(const Pointer& pointer) override;
+  bool press(const Pointer& pointer) override;
+  void drag(const Pointer& pointer) override;
+  void release(const Pointer& pointer) override;
+  bool cancel() override;
+  void leave() override;
+  ToolPicture picture() const override;
+  QString words() const override;
+
+ private:
+  StrokeHandles m_stroke;
 };
 struct RotateTool final : GizmoTool {
   explicit RotateTool(Toolbox& box) : GizmoTool(box, Gizmo::Kind::Rotate) {}

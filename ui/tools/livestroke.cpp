@@ -158,6 +158,8 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
                "The particle spacing of %1 acts once back at the start. Press Home first, or undo the change.")
         .arg(lengthText(m_box.spacing()));
   }
+  if (m_box.stampsShape() && !m_box.shape() && m_box.fillsShape())
+    return QStringLiteral("“%1” is still being filled with particles.").arg(QString::fromStdString(m_box.shapeName()));
   if (m_box.stampsShape() && !m_box.shape())
     return QStringLiteral("No body is selected to be stamped. Select one, or click one with Alt.");
   const Vector3 half = m_box.stamp(up).first;
@@ -361,6 +363,8 @@ QString LiveStroke::finish() {
     take();  // what went wrong after that
   });
   if (!problem.isEmpty()) m_problem = problem;
+  if (m_record && m_problem.isEmpty() && m_cells.empty() && m_thread->leavesScene())
+    m_problem = QStringLiteral("It lies outside of the scene, or in its walls.");
   if (m_record && !m_problem.isEmpty()) forgetBeyond(m_thread->places());
   m_thread.reset();
   m_kept = m_record && !m_cells.empty();

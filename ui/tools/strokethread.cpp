@@ -124,6 +124,8 @@ bool StrokeThread::wait() {
 
 bool StrokeThread::asksBrush() const { return m_shared->maker->asksBrush(); }
 
+bool StrokeThread::leavesScene() const { return m_shared->maker->leavesScene(); }
+
 size_t StrokeThread::places() const {
   const std::lock_guard lock(m_shared->mutex);
   return m_shared->places;

@@ -30,8 +30,9 @@ class StrokeThread {
   /// come back.
   bool drop();
   void leave() { m_left = true; }
-  bool asksBrush() const;  ///< it is the brush that works now
-  size_t places() const;   ///< of those that were added: how many have been drawn
+  bool asksBrush() const;    ///< it is the brush that works now
+  bool leavesScene() const;  ///< see StrokeMaker
+  size_t places() const;     ///< of those that were added: how many have been drawn
 
  private:
   struct Shared;

@@ -3,6 +3,7 @@
 
 #include "core/parameters/condition.h"
 #include "core/plugin_host/registry.h"
+#include "core/sketch/cellset.h"
 #include "core/sketch/stampform.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/declared.h"
@@ -21,6 +22,9 @@ namespace ps {
 namespace {
 /// Key by which a brush that stamps declares how large its copies are; plugins/examples/README.md says so.
 constexpr const char* kScale = "scale";
+
+/// A shape that is filled with cells within this is waited for; others are looked for.
+constexpr std::chrono::milliseconds kAtOnce{8}, kShapeLook{20};
 
 /// What a brush says of its stamp.
 struct Said {
@@ -53,6 +57,10 @@ std::shared_ptr<const StampForm> formOf(const api::BrushPlugin& brush, StrokeSet
 Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
     : QObject(parent), m_document(document), m_selection(selection), m_active(kSelectTool) {
   for (const ToolRow& row : toolTable()) m_tools.emplace(row.id, row.make(*this));
+  connect(&m_shapeLooks, &QTimer::timeout, this, [this] {
+    takeShape(std::chrono::milliseconds(0));
+    if (!fillsShape()) Q_EMIT brushChanged();
+  });
   // What is drawn is of the material that is chosen.
   connect(&selection, &Selection::materialChanged, this, [this] {
     BrushSettings brush = m_brush;
@@ -98,10 +106,10 @@ std::string Toolbox::shapeName() const {
 
 std::optional<VoxelShape::Stamp> Toolbox::shape() {
   shapeCells();
-  return m_shape.stamp;
+  return m_shape.filled.stamp;
 }
 
-/// What fills a mesh may take its time: it is asked for once.
+/// A mesh on a thread beside the window: what fills it may take its time.
 std::shared_ptr<const StampCells> Toolbox::shapeCells() {
   const Body* body = stampedBody();
   if (!body) {
@@ -109,17 +117,38 @@ std::shared_ptr<const StampCells> Toolbox::shapeCells() {
     return nullptr;
   }
   const bool known = m_shape.body == body->id && m_shape.spacing == spacing();
-  if (known && m_shape.change == m_document.changeCount()) return m_shape.cells;
+  if (known && m_shape.change == m_document.changeCount()) return m_shape.filled.cells;
   if (!known || !(m_shape.form == body->shape)) {
-    m_shape.stamp = stampOf(*body, spacing());
-    m_shape.cells = stampCells(*m_shape.stamp);
-    if (!m_shape.cells) m_shape.stamp.reset();
+    const auto fill = [body = *body, spacing = spacing()] {
+      Shape::Filled filled{stampOf(body, spacing), nullptr};
+      filled.cells = stampCells(*filled.stamp);
+      if (!filled.cells) filled.stamp.reset();
+      return filled;
+    };
+    const auto* solid = std::get_if<SolidShape>(&body->shape);
+    if (solid && solid->mesh) {
+      std::packaged_task<Shape::Filled()> task(fill);
+      m_shape.filled = {};
+      m_shape.making = task.get_future();
+      runDetached(std::move(task));
+      takeShape(kAtOnce);
+    } else {
+      m_shape.making = {};
+      m_shape.filled = fill();
+    }
   }
   m_shape.change = m_document.changeCount();
   m_shape.body = body->id;
   m_shape.spacing = spacing();
   m_shape.form = body->shape;
-  return m_shape.cells;
+  return m_shape.filled.cells;
+}
+
+void Toolbox::takeShape(std::chrono::milliseconds patience) {
+  if (!m_shape.making.valid()) return m_shapeLooks.stop();
+  if (m_shape.making.wait_for(patience) != std::future_status::ready) return m_shapeLooks.start(kShapeLook);
+  m_shapeLooks.stop();
+  m_shape.filled = m_shape.making.get();
 }
 
 /// Or the first one that draws where that cannot be had.
@@ -154,6 +183,39 @@ void Toolbox::activate(const std::string& id) {
   tool().leave();
   m_active = id;
   Q_EMIT toolChanged();
+}
+
+void Toolbox::choose(std::optional<ChosenStroke> stroke) {
+  if (stroke == m_stroke) return;
+  tool().cancel();
+  m_stroke = std::move(stroke);
+  Q_EMIT strokeChosen();
+}
+
+std::optional<ChosenStroke> Toolbox::stroke() const {
+  const Body* body = m_stroke ? m_document.body(m_stroke->body) : nullptr;
+  const auto* sketch = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+  return sketch && m_stroke->index < sketch->strokes.size() ? m_stroke : std::nullopt;
+}
+
+std::optional<Wire> Toolbox::strokeWire() const {
+  const std::optional<ChosenStroke> chosen = stroke();
+  if (!chosen) return std::nullopt;
+  const auto& sketch = std::get<VoxelShape>(m_document.body(chosen->body)->shape);
+  const VoxelShape::Stroke& stroke = sketch.strokes[chosen->index];
+  std::vector<Vector3> places;
+  for (const auto& sample : stroke.samples)
+    places.push_back(gridOf(sketch).pose.of(Vector3(sample[0], sample[1], sample[2])));
+  Wire wire;
+  wire.selected = true;
+  for (size_t k = 1; k < places.size(); ++k) wire.lines.emplace_back(places[k - 1], places[k]);
+  // Of a dab a cross as large as its brush: a line without length is not seen.
+  const bool isDab = std::all_of(places.begin(), places.end(), [&](const Vector3& p) { return p == places.front(); });
+  for (int axis = 0; isDab && !places.empty() && axis < 3; ++axis) {
+    const Vector3 arm = stroke.radius * Vector3::Unit(axis);
+    wire.lines.emplace_back(places.front() - arm, places.front() + arm);
+  }
+  return wire;
 }
 
 void Toolbox::setMouse(MousePreset preset) {
@@ -259,15 +321,20 @@ const Toolbox::Stamp& Toolbox::stampNow(const Vector3& up) {
   const PluginRegistry* plugins = m_document.plugins();
   const api::BrushPlugin* plugin = plugins ? plugins->brush(m_brush.shape) : nullptr;
   if (!plugin) {
-    m_stamp = {};
-    m_stamp.half = Vector3::Constant(m_brush.radius);
-    return m_stamp;
+    Stamp& none = m_stamps[m_lastStamp] = {};
+    none.half = Vector3::Constant(m_brush.radius);
+    return none;
   }
   StrokeSetup setup = strokeSetup(m_brush, *plugins, spacing(), up);
   if (stampsShape()) setup.stamp = shapeCells();
-  if (m_stamp.brush == m_brush.shape && m_stamp.spacing == setup.grid.spacing && m_stamp.radius == setup.radius &&
-      m_stamp.parameters == setup.parameters && m_stamp.shape == setup.stamp && m_stamp.up == up)
-    return m_stamp;
+  for (size_t k = 0; k < m_stamps.size(); ++k) {
+    const Stamp& known = m_stamps[k];
+    if (known.brush != m_brush.shape || known.spacing != setup.grid.spacing || known.radius != setup.radius ||
+        known.parameters != setup.parameters || known.shape != setup.stamp || known.up != up)
+      continue;
+    m_lastStamp = k;
+    return known;
+  }
   const auto asked = inTime(m_brush.shape, [plugin, setup, draws = !touchesMatter()]() -> Said {
     Said said{vectorOf(plugin->extent(contextOf(setup))), plugin->extension(api::kBoxStamp) != nullptr};
     if (draws) said.form = formOf(*plugin, setup, said);
@@ -277,9 +344,9 @@ const Toolbox::Stamp& Toolbox::stampNow(const Vector3& up) {
     QMetaObject::invokeMethod(
         this, [this, brush = m_brush.shape] { putAside(brush, kNotBack); }, Qt::QueuedConnection);
   const Said said = asked.value_or(Said{Vector3(Vector3::Constant(m_brush.radius)), false});
-  m_stamp = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, setup.stamp, up,
-             said.half,     said.box,           said.form};
-  return m_stamp;
+  m_lastStamp = 1 - m_lastStamp;
+  return m_stamps[m_lastStamp] = {m_brush.shape, setup.grid.spacing, setup.radius, setup.parameters, setup.stamp, up,
+                                  said.half,     said.box,           said.form};
 }
 
 }  // namespace ps

@@ -8,7 +8,11 @@
 #include <phasesketch/brush.h>
 
 #include <QtCore/QObject>
+#include <QtCore/QTimer>
 
+#include <array>
+#include <chrono>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +30,13 @@ class Selection;
 
 /// The one that stands so many places on, or back, in a ring; the first where `now` is none of it, nullptr without any.
 const std::string* further(const std::vector<std::string>& ring, const std::string& now, int by);
+
+/// One of the strokes of a sketch, as somebody chose it in their list.
+struct ChosenStroke {
+  std::string body;  ///< Body::id
+  size_t index = 0;  ///< in VoxelShape::strokes
+  bool operator==(const ChosenStroke&) const = default;
+};
 
 /// The tools of one editor, which of them is in hand, and the brush that several share. Views feed the tool in hand;
 /// panels and buttons follow the signals.
@@ -75,8 +86,10 @@ class Toolbox : public QObject {
   bool smooths() const { return can(api::kSmoothsMatter, m_brush.shape); }
   /// Whether it stamps the shape of a body.
   bool stampsShape() const { return can(api::kStampsShape, m_brush.shape); }
-  /// That shape, of the body that is selected, or was last while none is; nullopt where there is none.
+  /// That shape, of the body that is selected, or was last while none is; nullopt where there is none, or not yet:
+  /// brushChanged() follows.
   std::optional<VoxelShape::Stamp> shape();
+  bool fillsShape() const { return m_shape.making.valid(); }  ///< it is still being filled with cells
   /// Its name; "" of none.
   std::string shapeName() const;
   /// Whether it changes what is drawn, in one of these ways, instead of drawing.
@@ -87,6 +100,13 @@ class Toolbox : public QObject {
   std::pair<Vector3, bool> stamp(const Vector3& up = {0, 1, 0});
   /// What one stamp fills, likewise: nullptr of one that is the ball or the box that stamp() says, or touches matter.
   std::shared_ptr<const StampForm> form(const Vector3& up = {0, 1, 0});
+
+  /// That the view shows, and the tool Move takes hold of in place of its body.
+  void choose(std::optional<ChosenStroke> stroke);
+  /// nullopt: none, or it has gone.
+  std::optional<ChosenStroke> stroke() const;
+  /// Its way, where the document has it.
+  std::optional<Wire> strokeWire() const;
 
   // For tools
   Document& document() const { return m_document; }
@@ -102,7 +122,9 @@ class Toolbox : public QObject {
   void brushChanged();
   void mouseChanged();
   void handlesChanged();
-  void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
+  void strokeChosen();
+  void strokeMoved(const ps::ChosenStroke& stroke, const ps::Vector3& way);  ///< m, by a hand that wants it there
+  void refused(const QString& title, const QString& why);                    ///< "Nothing was drawn.", why not
 
   void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
 
@@ -121,6 +143,7 @@ class Toolbox : public QObject {
   const Stamp& stampNow(const Vector3& up);
   const Body* stampedBody() const;
   std::shared_ptr<const StampCells> shapeCells();
+  void takeShape(std::chrono::milliseconds patience);
   void takeInstalled(const std::string& wanted);
   bool can(const char* capability, const std::string& brush) const;
   bool draws(const std::string& brush) const;
@@ -129,7 +152,10 @@ class Toolbox : public QObject {
   SceneLink* m_link = nullptr;
   BrushSettings m_brush;
   std::string m_drawing;  ///< the last brush that draws
-  Stamp m_stamp;          ///< the last one: pictures ask for it often
+  /// The last ones, of two hands: pictures ask for them often.
+  std::array<Stamp, 2> m_stamps;
+  size_t m_lastStamp = 0;
+  std::optional<ChosenStroke> m_stroke;
   std::string m_stamped;  ///< Body::id of what was selected last
   /// Its shape, as it was asked for last, and of what.
   struct Shape {
@@ -137,10 +163,15 @@ class Toolbox : public QObject {
     std::string body;
     decltype(Body::shape) form{};
     double spacing = 0;  ///< m
-    std::optional<VoxelShape::Stamp> stamp;
-    std::shared_ptr<const StampCells> cells;
+    struct Filled {
+      std::optional<VoxelShape::Stamp> stamp;
+      std::shared_ptr<const StampCells> cells;
+    };
+    Filled filled;
+    std::future<Filled> making;  ///< valid as long as it is being filled
   };
   Shape m_shape;
+  QTimer m_shapeLooks;  ///< whether it is filled
   std::map<std::string, std::unique_ptr<Tool>> m_tools;
   std::string m_active;
   MousePreset m_mouse = MousePreset::PhaseSketch;

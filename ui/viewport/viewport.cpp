@@ -83,6 +83,7 @@ Viewport::Viewport(Session& session, Selection& selection, Toolbox& tools, QWidg
   connect(&tools, &Toolbox::toolChanged, this, &Viewport::onTool);
   connect(&tools, &Toolbox::mouseChanged, this, qOverload<>(&QWidget::update));
   connect(&tools, &Toolbox::handlesChanged, this, show);
+  connect(&tools, &Toolbox::strokeChosen, this, show);
   connect(&tools, &Toolbox::brushChanged, this, show);
 }
 
@@ -212,6 +213,7 @@ void Viewport::paintGL() {
       paintPortsOver(painter);
       ToolPicture picture = m_tools.tool().picture();
       if (!m_dropNote.isEmpty() && picture.gizmo) picture.gizmo->note.clear();  // it would stand in the same place
+      if (std::optional<Wire> stroke = m_tools.strokeWire()) picture.wires.push_back(std::move(*stroke));
       paintWires(painter, picture.wires, m_navigator.camera(), size());
       if (m_now && m_overlays.outlines)
         paintPins(painter, heldPlaces(m_session.document().project(), m_selection, *m_now), m_navigator.camera(),

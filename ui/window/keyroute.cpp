@@ -23,8 +23,10 @@ bool takesKey(const QObject* widget, int key) {
              !qobject_cast<const Outliner*>(widget->parent());
     case Qt::Key_Return:
     case Qt::Key_Enter:
-      // "Make it real" is for the view; everywhere else Enter takes what is typed or chosen.
-      return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget);
+      // "Make it real" is for the view; everywhere else Enter takes what is typed or chosen. An open list takes it from
+      // this very event.
+      return !QApplication::activePopupWidget() && widget == QApplication::focusWidget() &&
+             !qobject_cast<const Viewport*>(widget);
     case Qt::Key_Space:
       return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Left:

@@ -64,7 +64,7 @@ QWidget* makeBrush(const PanelContext& context) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(new BrushPanel(context.tools), 1);
-  auto* strokes = new StrokesList(context.session, context.selection);
+  auto* strokes = new StrokesList(context.session, context.tools);
   QObject::connect(&strokes->edits(), &StrokeEdits::told, &context.tools, &Toolbox::refuse);
   column->addWidget(strokes);
   return page;
