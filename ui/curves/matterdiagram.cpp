@@ -52,6 +52,7 @@ void MatterDiagram::showEvent(QShowEvent*) { rebuild(); }
 void MatterDiagram::showParticles() {
   m_now = m_target.now(0, 1);
   setAccessibleDescription(summary());
+  setToolTip(caption());  // it is cut where the panel is narrow
   update();
 }
 
@@ -94,6 +95,11 @@ void MatterDiagram::rebuild() {
   showParticles();
 }
 
+QString MatterDiagram::caption() const {
+  return m_target.materialLabel() + QStringLiteral(" at ") + formatPrefixed(m_pressure, QStringLiteral("Pa")) +
+         QStringLiteral(" · now ") + summary();
+}
+
 QString MatterDiagram::summary() const {
   if (!m_problem.isEmpty()) return m_problem;
   QStringList parts;
@@ -120,9 +126,7 @@ void MatterDiagram::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const Theme& theme = Theme::current();
-  paintText(painter, QRectF(kLeft, 4, width() - kLeft - kRight, 16), Qt::AlignLeft | Qt::AlignVCenter,
-            m_target.materialLabel() + QStringLiteral(" at ") + formatPrefixed(m_pressure, QStringLiteral("Pa")) +
-                QStringLiteral(" · now ") + summary(),
+  paintText(painter, QRectF(kLeft, 4, width() - kLeft - kRight, 16), Qt::AlignLeft | Qt::AlignVCenter, caption(),
             Theme::font(TextRole::Small), theme[Token::Text2]);
   if (m_corners.empty()) return;
   paintBox(painter, plot(), theme[Token::Field], theme[Token::Line2], 0);

@@ -17,6 +17,7 @@ class MatterDiagram : public QWidget {
  public:
   enum class Kind { Heating, Phases };
   MatterDiagram(Kind kind, Session& session, CurveTarget& target, QWidget* parent = nullptr);
+  QString caption() const;  ///< of what at which pressure, and the summary
   QString summary() const;  ///< how many particles are in which phase, or why there is no diagram
   const std::vector<HeatingCorner>& corners() const { return m_corners; }
   QSize minimumSizeHint() const override { return {260, 120}; }
