@@ -20,6 +20,7 @@ namespace {
 
 using Kind = Gizmo::Kind;
 
+const QString kTypeKeys = QStringLiteral("Type a number");  // a stroke that is moved takes none
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// One of the three tools in words, and what its number is.
@@ -310,7 +311,7 @@ std::vector<Gesture> GizmoTool::gestures() const {
           ? QStringLiteral("Chooses where the handles stand: in the middle, or on the last selected")
           : QStringLiteral("Chooses what that goes about; now %1").arg(pivotWords(box().handles().pivot));
   return {{QString::fromLatin1(row.keys), QString::fromUtf8(row.does), {}},
-          {QStringLiteral("Type a number"), QStringLiteral("While dragging: just so far; with a unit, “25 mm”"),
+          {kTypeKeys, QStringLiteral("While dragging: just so far; with a unit, “25 mm”"),
            QStringLiteral("while dragging")},
           {QStringLiteral("Ctrl or Alt"),
            (snap.on ? QStringLiteral("Goes freely, not by steps of %1; Shift is ten times finer")
@@ -360,6 +361,12 @@ ToolPicture MoveTool::picture() const {
 
 QString MoveTool::words() const {
   return m_stroke.isOn() ? QStringLiteral("Move the stroke that is chosen") : GizmoTool::words();
+}
+
+std::vector<Gesture> MoveTool::gestures() const {
+  std::vector<Gesture> list = GizmoTool::gestures();
+  if (m_stroke.isOn()) std::erase_if(list, [](const Gesture& gesture) { return gesture.keys == kTypeKeys; });
+  return list;
 }
 
 }  // namespace ps

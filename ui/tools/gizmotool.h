@@ -76,6 +76,7 @@ class MoveTool final : public GizmoTool {
   void leave() override;
   ToolPicture picture() const override;
   QString words() const override;
+  std::vector<Gesture> gestures() const override;
 
  private:
   StrokeHandles m_stroke;
