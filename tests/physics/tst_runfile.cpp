@@ -16,28 +16,6 @@ namespace {
 
 constexpr size_t kPlenty = size_t{1} << 30;
 
-Body meshCube() {
-  SceneMesh mesh;
-  mesh.id = "cube";
-  for (unsigned k = 0; k < 8; ++k) {
-    const auto end = [k](unsigned bit) { return (k >> bit & 1U) != 0 ? 0.1F : -0.1F; };
-    mesh.points.push_back({end(0), end(1), end(2)});
-  }
-  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
-  SolidShape solid;
-  solid.parameters.values = {
-      {"kind", std::string("mesh")},     {"size_x", 0.12}, {"size_y", 0.12}, {"size_z", 0.12}, {"position_y", 0.6},
-      {"material", std::string("water")}};
-  solid.meshId = mesh.id;
-  solid.mesh = std::make_shared<const SceneMesh>(std::move(mesh));
-  Body body;
-  body.id = body.name = "cube";
-  body.material = "water";
-  body.shape = std::move(solid);
-  return body;
-}
-
 RunContent throughAFile(const RunContent& content, const Project& project, const PluginRegistry& plugins) {
   const QTemporaryDir folder;
   const std::string path = folder.filePath("run.psrec").toStdString();
@@ -71,7 +49,7 @@ void TestRunFile::aBodyThatCameIsOfItsMesh() {
   const size_t before = engine.snapshot()->id.size();
   for (uint64_t frame = 0; frame <= 8; ++frame) {
     if (frame == 3) {
-      const Body cube = meshCube();
+      const Body cube = scenes::meshCube();
       project.bodies.push_back(cube);
       for (const Command& command : {Command{UpdateProject{std::make_shared<const Project>(project)}},
                                      Command{ReturnBody{std::make_shared<const Body>(cube), 9}}}) {

@@ -218,8 +218,7 @@ class TestBrushBar : public SampleWindowTest {
     QTest::keyClick(list()->findChild<QScrollArea*>()->widget(), Qt::Key_W);
     QCOMPARE(m_window->tools().active(), std::string("move"));
     const Gizmo handles = hands::handles(*m_window);
-    QVERIFY2((handles.centre - Vector3(0.2, 0.6, 0)).norm() < 1e-9,
-             qPrintable(QString::number(handles.centre[0])));
+    QVERIFY2((handles.centre - Vector3(0.2, 0.6, 0)).norm() < 1e-9, qPrintable(QString::number(handles.centre[0])));
     hands::pull(*view(), hands::middleOf(*m_window, {GizmoPart::Kind::Arm, 0}), {30, 0});
     QTRY_VERIFY(shapeOf(cup) != before);
     const VoxelShape& after = shapeOf(cup);
@@ -258,6 +257,24 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(after.runs != before.runs);
     document().undoStack().undo();
     QCOMPARE(shapeOf(cup), before);
+  }
+
+  /// The list shows what was drawn last, and goes on showing it.
+  void theStrokeOfWhatWasDrawnLastIsDrawnAnew() {
+    m_window->tools().activate(kBrushTool);
+    of("shape", "sphere")->click();
+    m_window->selection().clear();
+    stroke(QPoint(view()->width() / 2 - 40, view()->height() / 2), {80, 0}, true);
+    QTRY_COMPARE(list()->lines().size(), size_t{1});
+    const std::string body = list()->body();
+    const auto first = shapeOf(body).strokes[0].samples;
+    showList();
+    list()->drawAnew(0);
+    stroke(QPoint(view()->width() / 2, view()->height() / 2 - 60), {0, 60}, true);
+    QTRY_VERIFY_WITH_TIMEOUT(document().undoStack().undoText().startsWith(QStringLiteral("drawing a stroke")), kLong);
+    QCOMPARE(list()->body(), body);
+    QCOMPARE(list()->lines().size(), size_t{1});
+    QVERIFY(shapeOf(body).strokes[0].samples != first);
   }
 
   void linesAreDraggedToAnotherPlace() {

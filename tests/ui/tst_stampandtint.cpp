@@ -109,6 +109,21 @@ class TestStampAndTint : public ToolTest {
     QVERIFY(redrawn(voxels, kSpacing, all, brushOf).runs == voxels.runs);
   }
 
+  /// It is filled beside the window, which may take a moment.
+  void aMeshIsStamped() {
+    Body cube = scenes::meshCube();
+    cube.material = m_document->project().materials[0].id;
+    const std::string id = m_document->addBody(cube);
+    take("stamp");
+    m_selection->selectBody(id);
+    QTRY_VERIFY(m_tools->shape());
+    QVERIFY(!m_tools->fillsShape());
+    QVERIFY(m_tools->shape() == std::optional(stampOf(*m_document->body(id), kSpacing)));
+    const size_t before = count();
+    press(kBeside);
+    QCOMPARE(count(), before + 64);  // 120 mm at 30 mm
+  }
+
   /// Its surface holds as much as is drawn, and is closed; a box shows its edges, a ball its circle.
   void theCursorIsWhatIsStamped() {
     Body corner;

@@ -266,6 +266,8 @@ void StrokesList::takeAnew(const std::string& body) {
     stroke.up = way.turn * (from.turn * stroke.up);
   }
   m_document.undoStack().undo();
+  m_drawn = place->body;  // what was drawn is part of it now
+  refresh();
   m_edits->replace(place->body, place->index, std::move(stroke));
 }
 
@@ -330,7 +332,7 @@ QMenu* StrokesList::menuOf(int line) {
     m_edits->move(m_body, at, at + 1);
   })->setEnabled(at + 1 < m_lines.size());
   const bool leavesMatter = m_lines[at].colour.isValid();
-  add(menu, QStringLiteral("Move"), [this, line] {
+  add(menu, QStringLiteral("Move\tW"), [this, line] {
     setCurrent(line);
     m_tools.activate("move");
   });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/sketch/stampform.h"
 #include "ui/render/framing.h"
 #include "ui/render/renderer.h"
 #include "ui/vr/handinput.h"
@@ -11,6 +10,10 @@
 #include <optional>
 #include <utility>
 #include <vector>
+
+namespace ps {
+struct StampForm;
+}
 
 namespace ps::vr {
 
