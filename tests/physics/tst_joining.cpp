@@ -211,6 +211,58 @@ class TestJoining : public QObject {
     }
   }
 
+  /// Liquid lies in the hollows of what it rests on, deeper than solids come: what freezes there is not thrown up. It
+  /// rises to where solids lie, as slowly as its overlap is taken back, which costs it a tenth of a second.
+  void freezesWhereItLies_data() {
+    QTest::addColumn<bool>("grain");
+    QTest::addColumn<int>("structure");
+    QTest::newRow("a grain") << true << 2;
+    QTest::newRow("a puddle that bonds") << false << 0;
+    QTest::newRow("a puddle that turns rigid") << false << 1;
+    QTest::newRow("a puddle in a scene with bonds") << false << 2;
+  }
+  void freezesWhereItLies() {
+    QFETCH(bool, grain);
+    QFETCH(int, structure);
+    Solver solver;
+    prepare(solver, settingsOf(kSpacing));
+    solver.setMaterials(
+        {ps::BakedMaterial(matterOf("wood", 2000), 101325), ps::BakedMaterial(matterOf("ice", 273.15, true), 101325)});
+    solver.setWalls(tray(0.2));
+    solver.setThermal({}, &m_enthalpy, "enthalpy", {});
+    const uint32_t set = addSet(solver, structure == 1);
+    solver.spawn(fixedPoints(lattice(10, 2, 10, kSpacing, 0)));
+    ps::Spawn lying =
+        liquid(grain ? lattice(1, 1, 1, kSpacing, 2 * kSpacing) : lattice(6, 2, 6, kSpacing, 2 * kSpacing), 273.2);
+    lying.body = lying.material = 1;
+    if (structure != 2) lying.constraintSets = {set};
+    solver.spawn(lying);
+    QVERIFY(runOn(solver, 120));
+    const ps::ParticleStore& p = solver.particles();
+    const auto largest = [&](auto&& of) {
+      double most = -1;
+      for (size_t i = 0; i < p.size(); ++i) {
+        if (p.body()[i] == 1) most = std::max(most, double(of(i)));
+      }
+      return most;
+    };
+    const auto height = [&](size_t i) { return p.position()[i].y; };
+    const auto speed = [&](size_t i) { return std::abs(p.velocity()[i].y); };
+    const double lay = largest(height);
+    setEnthalpy(solver, kFrozen, [&](size_t i) { return p.body()[i] == 1; });
+    double fastest = 0, highest = 0;
+    for (int f = 0; f < 60; ++f) {
+      QVERIFY(runOn(solver, 1));
+      fastest = std::max(fastest, largest(speed)), highest = std::max(highest, largest(height));
+    }
+    // Half a spacing in the time that the overlap takes, and twice that for what is taken back first.
+    const double allowed = 2 * 0.5 * kSpacing / 0.1;
+    QVERIFY2(fastest < allowed, qPrintable(QString::number(fastest)));
+    QVERIFY2(highest < lay + kSpacing, qPrintable(QString::number((highest - lay) / kSpacing)));
+    QVERIFY2(motionOf(solver, 1).rms < 0.002, qPrintable(QString::number(motionOf(solver, 1).rms)));
+    for (size_t i = 0; i < p.size(); ++i) QVERIFY(p.compression()[i] >= 0 && p.compression()[i] < 0.01);
+  }
+
   void meltedThroughIsTwoAndPressedTogetherIsOne_data() {
     QTest::addColumn<bool>("rigid");
     QTest::newRow("bonds") << false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/solidcontact.h"
 
+#include "core/solver/contact/frozenoverlap.h"
 #include "core/solver/contact/nearneighbours.h"
 
 #include <algorithm>
@@ -238,10 +239,15 @@ void SolidContact::findSurfaces(const ParticleStore& store, const Neighbours& ne
   }
 }
 
-void SolidContact::begin(const ParticleStore& store) {
+void SolidContact::begin(ParticleStore& store) {
   if (!m_any) return;
   everywhere([&](Chunk& chunk, size_t k) { m_couple[chunk.who[k]] = {0, 0, 0, 0}; });
-  if (m_surface.size() == 0) return;
+  if (m_surface.size() > 0) findNormals(store);
+  handOver(store);
+}
+
+/// Along what the pairs meet that are not round.
+void SolidContact::findNormals(const ParticleStore& store) {
   forChunks(m_surface.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t slot = first; slot < last; ++slot) {
       const uint32_t i = m_surface.whoIs(slot);
@@ -268,7 +274,41 @@ void SolidContact::begin(const ParticleStore& store) {
   });
 }
 
+/// Particles that have just frozen are handed the deepest overlap that they have with what is not of their piece.
+void SolidContact::handOver(ParticleStore& store) {
+  const float perSpacing = static_cast<float>(1 / m_spacing);
+  float* offset = store.compression();
+  everywhere([&](Chunk& chunk, size_t k) {
+    float& own = offset[chunk.who[k]];
+    if (own != overlap::kUnknown) return;
+    own = 0;
+    for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
+      if (chunk.facing[q].w == kRound) continue;
+      own = std::max(own, perSpacing * overlapOf(store, chunk, k, q).depth);
+    }
+  });
+}
+
+void SolidContact::decayOverlap(ParticleStore& store, double dt) const {
+  const float factor = static_cast<float>(1 / (1 + dt / overlap::kHandOverTime));
+  float* offset = store.compression();
+  forChunks(m_solids.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      float& own = offset[m_solids[k]];
+      own = own < 1e-5f ? 0 : own * factor;
+    }
+  });
+}
+
 SolidContact::Touch SolidContact::touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const {
+  Touch touch = overlapOf(store, chunk, k, q);
+  if (!(touch.depth > 0) || chunk.facing[q].w == kRound) return touch;
+  const float allowed = static_cast<float>(m_spacing) * overlap::allowed(store, chunk.who[k], chunk.other[q]);
+  touch.depth = std::max(0.0f, touch.depth - allowed);
+  return touch;
+}
+
+SolidContact::Touch SolidContact::overlapOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const {
   const api::Float4 line = store.separation(chunk.who[k], chunk.other[q]), face = chunk.facing[q];
   const float square = line.x * line.x + line.y * line.y + line.z * line.z;
   if (face.w > 0) {

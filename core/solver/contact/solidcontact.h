@@ -38,9 +38,12 @@ class SolidContact {
                std::span<const uint32_t> pieceOf, std::span<const uint8_t> rigid);
   /// Before the substeps of a frame: what is fixed may have been put elsewhere.
   void startFrame() { std::fill(m_stood.begin(), m_stood.end(), uint8_t{0}); }
-  /// Once per substep, when positions have been predicted: finds along what the pairs meet.
-  void begin(const ParticleStore& store);
+  /// Once per substep, when positions have been predicted: finds along what the pairs meet. What has just frozen is
+  /// handed its overlap, see frozenoverlap.h.
+  void begin(ParticleStore& store);
   void project(ParticleStore& store);
+  /// Once per substep: takes back what overlap was handed over.
+  void decayOverlap(ParticleStore& store, double dt) const;
   /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the lists
   /// were made: by a third at least.
   double squeezedShare() const { return m_squeezedShare; }
@@ -103,6 +106,8 @@ class SolidContact {
     float depth;    ///< m, or 0: apart
     bool face;
   };
+  Touch overlapOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const;
+  /// Without the overlap that is allowed yet.
   Touch touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const;
   api::Float4 correctionOf(const ParticleStore& store, Chunk& chunk, size_t k);
   static void markRound(Chunk& chunk, std::span<const uint32_t> pieceOf);
@@ -123,6 +128,8 @@ class SolidContact {
       }
     });
   }
+  void findNormals(const ParticleStore& store);
+  void handOver(ParticleStore& store);
   size_t touching(const ParticleStore& store, const Chunk& chunk, size_t k) const;
 
   double m_spacing = 0, m_diameter = 0, m_reach = 0, m_faceReach = 0;  ///< m

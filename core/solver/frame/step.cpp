@@ -344,6 +344,7 @@ void Solver::Impl::changeVelocities(uint32_t index, double dt) {
        {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rebound.externalImpulse(), &rigid.externalImpulse()})
     external.add(impulse->drain());
   timed(Stage::Density, [&] { density.decayCompression(store, dt); });
+  timed(Stage::Contact, [&] { contact.decayOverlap(store, dt); });
 }
 
 /// What walls and fixed particles moved in this substep, as impulse.

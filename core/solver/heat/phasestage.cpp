@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/phasestage.h"
 
-#include "core/math/thesis.h"
-
 #include "core/base/parallel.h"
+#include "core/math/thesis.h"
+#include "core/solver/contact/frozenoverlap.h"
 
 #include <algorithm>
 #include <functional>
@@ -146,6 +146,7 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
       const Motion next = nextMotion(store, i);
       if ((motion == Motion::Solid) != (next == Motion::Solid)) {
         m_turns[i] = next == Motion::Solid ? Turn::Froze : Turn::Melted;
+        if (next == Motion::Solid) store.compression()[i] = overlap::kUnknown;
       }
       motion = next;
     }
