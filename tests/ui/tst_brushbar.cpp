@@ -6,7 +6,7 @@
 #include "tests/ui/hands.h"
 #include "ui/document/redrawing.h"
 #include "ui/panels/brushpanel.h"
-#include "ui/panels/strokeedits.h"
+#include "ui/panels/strokelistedits.h"
 #include "ui/panels/strokeslist.h"
 #include "ui/rows/colourpicker.h"
 #include "ui/rows/parameterrow.h"
@@ -305,7 +305,7 @@ class TestBrushBar : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), before, kLong);
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(!session().appliesAtOnce(), kLong);
-    QSignalSpy told(&list()->edits(), &StrokeEdits::told);
+    QSignalSpy told(&list()->edits(), &StrokeListEdits::told);
     list()->edits().remove(cup, 1);
     QTRY_COMPARE(told.count(), 1);
     QVERIFY2(told[0][1].toString().contains(QStringLiteral("press Home")), qPrintable(told[0][1].toString()));
@@ -320,7 +320,7 @@ class TestBrushBar : public SampleWindowTest {
     std::get<VoxelShape>(body.shape).runs.push_back({0, 60, 0, 5, 0});
     const std::string cup = document().addBody(body);
     m_window->selection().selectBody(cup);
-    QSignalSpy told(&list()->edits(), &StrokeEdits::told);
+    QSignalSpy told(&list()->edits(), &StrokeListEdits::told);
     list()->edits().remove(cup, 1);
     QTRY_COMPARE(told.count(), 1);
     QVERIFY2(told[0][1].toString().startsWith(QStringLiteral("5 particles")), qPrintable(told[0][1].toString()));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <regex>
 
 namespace ps::rules {
 namespace {
@@ -266,6 +267,41 @@ Problems documents(View path, View text, const std::vector<std::string>& known) 
         problems.push_back(at(path, number, "there is no " + name));
     }
   });
+  return problems;
+}
+
+std::vector<std::string> defined(View text) {
+  static const std::regex kNamespace("namespace ?([A-Za-z_:]*) ?\\{"), kEnd("\\}  // namespace.*"),
+      kDefined(
+          "(?:template <.*> )?(?:class|struct|enum class|enum) (?:alignas\\(.*\\) )?([A-Z][A-Za-z0-9]*)(?: final)?"
+          "(?: : .*)?(?: ?\\{.*)");
+  std::vector<std::string> found, spaces;
+  eachLine(text, [&](size_t, View line) {
+    std::cmatch match;
+    if (std::regex_match(line.begin(), line.end(), match, kNamespace)) {
+      spaces.push_back(match[1]);
+    } else if (std::regex_match(line.begin(), line.end(), kEnd) && !spaces.empty()) {
+      spaces.pop_back();
+    } else if (std::regex_match(line.begin(), line.end(), match, kDefined)) {
+      std::string name;
+      bool shared = true;
+      for (const std::string& space : spaces) {
+        shared = shared && !space.empty() && space != "HWY_NAMESPACE";
+        name += space + "::";
+      }
+      if (shared) found.push_back(name + match[1].str());
+    }
+  });
+  return found;
+}
+
+Problems names(View path, View text, std::map<std::string, std::string>& before) {
+  Problems problems;
+  for (const std::string& name : defined(text)) {
+    const auto [known, isNew] = before.emplace(name, path);
+    if (!isNew && known->second != path)
+      problems.push_back(std::string(path) + ": " + name + " is defined in " + known->second + " as well");
+  }
   return problems;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,5 +33,13 @@ Problems boxes(std::string_view path, std::string_view text);
 
 /// Markdown documents that are mentioned by name exist; `known` are the names of those that do.
 Problems documents(std::string_view path, std::string_view text, const std::vector<std::string>& known);
+
+/// What a file defines by name at the level of its namespaces: "ps::Body". Not what is its own (no name of a namespace)
+/// or made once for each instruction set. Two classes of one name are one to the linker, which keeps the members of
+/// either: matter of one is destroyed as the other.
+std::vector<std::string> defined(std::string_view text);
+
+/// What `path` defines and a file before it has defined; `before` says which, and takes on what is new.
+Problems names(std::string_view path, std::string_view text, std::map<std::string, std::string>& before);
 
 }  // namespace ps::rules

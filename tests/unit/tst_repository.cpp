@@ -73,6 +73,12 @@ class RepositoryTest : public QObject {
   void coloursComeFromTheTheme() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::colours); }
   void tooltipsKnowWhatIsPlain() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::tips); }
   void nothingAsksInABox() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::boxes); }
+  void eachNameIsOfOneThing() {
+    std::map<std::string, std::string> known;
+    check(sources({"app", "core", "plugins", "ui"}, {"*.h", "*.cpp"}),
+          [&](std::string_view path, std::string_view text) { return ps::rules::names(path, text, known); });
+    QVERIFY(known.contains("ps::Session") && known.contains("ps::api::Cell") && known.size() > 500);
+  }
   void mentionedDocumentsExist() {
     std::vector<std::string> known;
     for (const Source& document : sources({""}, {"*.md"}))
@@ -180,6 +186,15 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   row("a dialog of our own", "boxes", "ui/window/a.cpp", "class RunDialog : public QDialog {\n", 0);
   row("a box in a test", "boxes", "tests/ui/a.cpp", "QMessageBox box;\n", 0);
   row("missing document", "documents", "core/io/a.cpp", QStringLiteral("// see NOWHERE.") + "md\n", 1);
+  row("a name that is taken", "names", "ui/a.h", "namespace ps {\n\nstruct Taken {\n};\n\n}  // namespace ps\n", 1);
+  row("a class of that name", "names", "ui/a.h", "namespace ps {\nclass Taken : public QObject {\n", 1);
+  row("a name of a template", "names", "ui/a.h", "namespace ps {\ntemplate <class T>\nstruct Taken final {\n", 1);
+  row("a name that is its own", "names", "ui/a.cpp", "namespace ps {\nnamespace {\nstruct Taken {\n", 0);
+  row("a name after its own", "names", "ui/a.cpp", "namespace ps {\nnamespace {\n}  // namespace\nclass Taken {};\n",
+      1);
+  row("a name in another room", "names", "ui/a.h", "namespace ps::vr {\nclass Taken {\n", 0);
+  row("a member of that name", "names", "ui/a.h", "namespace ps {\nclass Free {\n  struct Taken {\n", 0);
+  row("a name that is only mentioned", "names", "ui/a.h", "namespace ps {\nclass Taken;\n", 0);
   row("known document", "documents", "core/io/a.cpp", QStringLiteral("// see KNOWN.") + "md\n", 0);
 }
 
@@ -189,6 +204,7 @@ void RepositoryTest::rulesCatchWhatTheyForbid() {
   QFETCH(QString, text);
   QFETCH(int, problems);
   const std::string p = path.toStdString(), t = text.toStdString();
+  std::map<std::string, std::string> taken{{"ps::Taken", "core/a.h"}};
   Problems found;
   if (rule == "includes")
     found = ps::rules::includes(p, t);
@@ -202,6 +218,8 @@ void RepositoryTest::rulesCatchWhatTheyForbid() {
     found = ps::rules::tips(p, t);
   else if (rule == "boxes")
     found = ps::rules::boxes(p, t);
+  else if (rule == "names")
+    found = ps::rules::names(p, t, taken);
   else
     found = ps::rules::documents(p, t, {std::string("KNOWN.") + "md"});
   QVERIFY2(static_cast<int>(found.size()) == problems, joined(found).constData());

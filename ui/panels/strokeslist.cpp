@@ -7,7 +7,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/strokerecord.h"
-#include "ui/panels/strokeedits.h"
+#include "ui/panels/strokelistedits.h"
 #include "ui/rows/groupheading.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -194,7 +194,7 @@ StrokesList::StrokesList(Session& session, Toolbox& tools, QWidget* parent)
       m_document(session.document()),
       m_tools(tools),
       m_selection(tools.selection()),
-      m_edits(new StrokeEdits(session, this)),
+      m_edits(new StrokeListEdits(session, this)),
       m_heading(new GroupHeading(QStringLiteral("Strokes"))),
       m_rows(new Rows(*this)) {
   auto* scroll = new QScrollArea;
@@ -234,8 +234,8 @@ StrokesList::StrokesList(Session& session, Toolbox& tools, QWidget* parent)
     }
     refresh();
   });
-  connect(m_edits, &StrokeEdits::busyChanged, this, &StrokesList::refresh);
-  connect(m_edits, &StrokeEdits::edited, this, [this](size_t stroke) { setCurrent(static_cast<int>(stroke)); });
+  connect(m_edits, &StrokeListEdits::busyChanged, this, &StrokesList::refresh);
+  connect(m_edits, &StrokeListEdits::edited, this, [this](size_t stroke) { setCurrent(static_cast<int>(stroke)); });
   refresh();
 }
 

@@ -20,14 +20,14 @@ class Document;
 class GroupHeading;
 class Selection;
 class Session;
-class StrokeEdits;
+class StrokeListEdits;
 struct StrokeChanged;
 
 /// The strokes of one sketched body, in the order in which they were drawn: with which brush, how far it went, and of
 /// what. The body is the one that is selected or, while none is, the one that was drawn at last. Without one that has
 /// strokes there is a sentence. The keys, the mouse and a menu remove a stroke, move it earlier or later, give it
-/// another material and have it drawn anew (see StrokeEdits). The view shows the one that the keys are on, and the tool
-/// Move moves it.
+/// another material and have it drawn anew (see StrokeListEdits). The view shows the one that the keys are on, and the
+/// tool Move moves it.
 class StrokesList : public QWidget {
   Q_OBJECT
  public:
@@ -42,7 +42,7 @@ class StrokesList : public QWidget {
   const std::string& body() const { return m_body; }  ///< whose strokes these are; "": of none
   int current() const { return m_current; }           ///< the line that the keys are on; -1: none
   void setCurrent(int line);
-  StrokeEdits& edits() { return *m_edits; }
+  StrokeListEdits& edits() { return *m_edits; }
   QMenu* menuOf(int line);  ///< of what can be done with it; its parent is the list
 
   /// The next stroke that a hand draws takes its place, unless another tool is taken first.
@@ -63,7 +63,7 @@ class StrokesList : public QWidget {
   Document& m_document;
   Toolbox& m_tools;
   Selection& m_selection;
-  StrokeEdits* m_edits;
+  StrokeListEdits* m_edits;
   std::string m_body, m_drawn;
   std::vector<Line> m_lines;
   int m_current = -1;

@@ -14,7 +14,7 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
-#include "ui/panels/strokeedits.h"
+#include "ui/panels/strokelistedits.h"
 #include "ui/panels/strokeslist.h"
 #include "ui/session/session.h"
 #include "ui/timeline/timeline.h"
@@ -65,7 +65,7 @@ QWidget* makeBrush(const PanelContext& context) {
   column->setSpacing(0);
   column->addWidget(new BrushPanel(context.tools), 1);
   auto* strokes = new StrokesList(context.session, context.tools);
-  QObject::connect(&strokes->edits(), &StrokeEdits::told, &context.tools, &Toolbox::refuse);
+  QObject::connect(&strokes->edits(), &StrokeListEdits::told, &context.tools, &Toolbox::refuse);
   column->addWidget(strokes);
   return page;
 }

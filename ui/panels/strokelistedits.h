@@ -15,12 +15,12 @@ class Session;
 
 /// Edits the strokes of a sketch: what is left of them draws it again, on a thread beside the window, as one step of
 /// undo. One at a time.
-class StrokeEdits : public QObject {
+class StrokeListEdits : public QObject {
   Q_OBJECT
  public:
-  explicit StrokeEdits(Session& session, QObject* parent = nullptr);
+  explicit StrokeListEdits(Session& session, QObject* parent = nullptr);
   /// Waits for what is being drawn, if only for so long.
-  ~StrokeEdits() override;
+  ~StrokeListEdits() override;
 
   /// The last one takes the body with it.
   void remove(const std::string& body, size_t stroke);

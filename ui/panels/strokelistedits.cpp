@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/panels/strokeedits.h"
+#include "ui/panels/strokelistedits.h"
 
 #include "core/plugin_host/registry.h"
 #include "core/sketch/cellset.h"
@@ -18,15 +18,15 @@
 
 namespace ps {
 
-StrokeEdits::StrokeEdits(Session& session, QObject* parent) : QObject(parent), m_session(session) {}
+StrokeListEdits::StrokeListEdits(Session& session, QObject* parent) : QObject(parent), m_session(session) {}
 
-StrokeEdits::~StrokeEdits() {
+StrokeListEdits::~StrokeListEdits() {
   if (m_work.valid()) m_work.wait_for(kBrushLooks * kBrushLook);
 }
 
-void StrokeEdits::stay(const QString& why) { Q_EMIT told(QStringLiteral("The strokes stay as they are."), why); }
+void StrokeListEdits::stay(const QString& why) { Q_EMIT told(QStringLiteral("The strokes stay as they are."), why); }
 
-const Body* StrokeEdits::sketched(const std::string& id, size_t stroke) {
+const Body* StrokeListEdits::sketched(const std::string& id, size_t stroke) {
   const Body* body = m_session.document().body(id);
   const auto* sketch = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
   if (!sketch || stroke >= sketch->strokes.size() || !m_session.plugins()) return nullptr;
@@ -39,7 +39,7 @@ const Body* StrokeEdits::sketched(const std::string& id, size_t stroke) {
   return nullptr;
 }
 
-void StrokeEdits::remove(const std::string& id, size_t stroke) {
+void StrokeListEdits::remove(const std::string& id, size_t stroke) {
   const Body* body = sketched(id, stroke);
   if (!body) return;
   VoxelShape wanted = std::get<VoxelShape>(body->shape);
@@ -51,7 +51,7 @@ void StrokeEdits::remove(const std::string& id, size_t stroke) {
   redraw(*body, std::move(wanted), QStringLiteral("removal of a stroke of %1"), stroke);
 }
 
-void StrokeEdits::move(const std::string& id, size_t stroke, size_t to) {
+void StrokeListEdits::move(const std::string& id, size_t stroke, size_t to) {
   const Body* body = sketched(id, stroke);
   if (!body) return;
   VoxelShape wanted = std::get<VoxelShape>(body->shape);
@@ -64,7 +64,7 @@ void StrokeEdits::move(const std::string& id, size_t stroke, size_t to) {
   redraw(*body, std::move(wanted), QStringLiteral("order of the strokes of %1"), to);
 }
 
-void StrokeEdits::setMaterial(const std::string& id, size_t stroke, const std::string& material) {
+void StrokeListEdits::setMaterial(const std::string& id, size_t stroke, const std::string& material) {
   const Body* body = sketched(id, stroke);
   if (!body) return;
   VoxelShape wanted = std::get<VoxelShape>(body->shape);
@@ -79,7 +79,7 @@ void StrokeEdits::setMaterial(const std::string& id, size_t stroke, const std::s
   redraw(*body, std::move(wanted), QStringLiteral("material of a stroke of %1"), stroke);
 }
 
-void StrokeEdits::carry(const std::string& id, size_t stroke, const Vector3& way) {
+void StrokeListEdits::carry(const std::string& id, size_t stroke, const Vector3& way) {
   const Body* body = sketched(id, stroke);
   if (!body) return;
   VoxelShape wanted = std::get<VoxelShape>(body->shape);
@@ -89,7 +89,7 @@ void StrokeEdits::carry(const std::string& id, size_t stroke, const Vector3& way
   redraw(*body, std::move(wanted), QStringLiteral("moving a stroke of %1"), stroke);
 }
 
-void StrokeEdits::replace(const std::string& id, size_t stroke, VoxelShape::Stroke other) {
+void StrokeListEdits::replace(const std::string& id, size_t stroke, VoxelShape::Stroke other) {
   const Body* body = sketched(id, stroke);
   if (!body) return;
   VoxelShape wanted = std::get<VoxelShape>(body->shape);
@@ -98,7 +98,7 @@ void StrokeEdits::replace(const std::string& id, size_t stroke, VoxelShape::Stro
   redraw(*body, std::move(wanted), QStringLiteral("drawing a stroke of %1 anew"), stroke);
 }
 
-void StrokeEdits::redraw(const Body& body, VoxelShape wanted, const QString& title, size_t stroke) {
+void StrokeListEdits::redraw(const Body& body, VoxelShape wanted, const QString& title, size_t stroke) {
   m_body = body.id;
   m_title = title.arg(QString::fromStdString(body.name));
   m_stroke = stroke;
@@ -117,7 +117,7 @@ void StrokeEdits::redraw(const Body& body, VoxelShape wanted, const QString& tit
   });
   m_work = task.get_future();
   m_busy = true;
-  std::thread([task = std::move(task), self = QPointer<StrokeEdits>(this)]() mutable {
+  std::thread([task = std::move(task), self = QPointer<StrokeListEdits>(this)]() mutable {
     task();
     const auto take = [self = std::move(self)] {
       if (self) self->take();
@@ -127,7 +127,7 @@ void StrokeEdits::redraw(const Body& body, VoxelShape wanted, const QString& tit
   Q_EMIT busyChanged();
 }
 
-void StrokeEdits::take() {
+void StrokeListEdits::take() {
   const Drawn drawn = m_work.get();
   m_busy = false;
   Q_EMIT busyChanged();
