@@ -135,15 +135,14 @@ class TestBrushWindow : public SampleWindowTest {
     const size_t before = idsNow(session()).size();
     pen(QPointingDevice::PointerType::Eraser, 0.7);
     stroke(view()->rect().center() - QPoint(40, 0), {80, 0}, true);
-    const size_t left = idsNow(session()).size();
-    QVERIFY2(left < before, qPrintable(QString::number(left)));
+    QTRY_VERIFY_WITH_TIMEOUT(idsNow(session()).size() < before, kLong);
     document().undoStack().undo();
     QCOMPARE(idsNow(session()).size(), before);
     // The mouse that is taken up afterwards draws, with full pressure.
     pen(QPointingDevice::PointerType::Eraser, 0);
     QTest::qWait(300);
     stroke(view()->rect().center() - QPoint(40, 0), {80, 0}, true);
-    QVERIFY(idsNow(session()).size() > before);
+    QTRY_VERIFY_WITH_TIMEOUT(idsNow(session()).size() > before, kLong);
     const Body& body = document().project().bodies.back();
     const auto& strokes = std::get<VoxelShape>(body.shape).strokes;
     QCOMPARE(strokes.back().samples.front()[3], 1.0);
