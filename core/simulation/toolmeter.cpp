@@ -16,23 +16,35 @@ constexpr double kTouch = 1.5;  // spacings between centres
 }  // namespace
 
 void ToolMeter::add(uint32_t body) {
-  if (!m_tool || m_tool->body != body) m_tool = Tool{body, {}, {}, {}};
+  auto known = std::find_if(m_tools.begin(), m_tools.end(), [&](const Tool& tool) { return tool.body == body; });
+  if (known == m_tools.end()) {
+    if (m_tools.size() == kHands) m_tools.pop_back();
+    known = m_tools.insert(m_tools.end(), Tool{body, {}, {}, {}});
+  }
+  std::rotate(m_tools.begin(), known, known + 1);
 }
 
-std::vector<uint32_t> ToolMeter::bodies() const { return m_tool ? std::vector{m_tool->body} : std::vector<uint32_t>{}; }
+std::vector<uint32_t> ToolMeter::bodies() const {
+  std::vector<uint32_t> list;
+  for (const Tool& tool : m_tools) list.push_back(tool.body);
+  return list;
+}
 
 std::vector<ToolContact> ToolMeter::contacts(const std::vector<std::string>& bodyIds) const {
-  if (!m_tool || m_tool->body >= bodyIds.size()) return {};
-  std::vector<ToolContact> list{m_tool->contact};
-  list.back().body = bodyIds[m_tool->body];
+  std::vector<ToolContact> list;
+  for (const Tool& tool : m_tools) {
+    if (tool.body >= bodyIds.size()) continue;
+    list.push_back(tool.contact);
+    list.back().body = bodyIds[tool.body];
+  }
   return list;
 }
 
 void ToolMeter::measure(const Solver& solver, double spacing) {
-  if (!m_tool) return;
+  if (m_tools.empty()) return;
   const double seconds = solver.thermalTime() - m_thermalTime;
   m_thermalTime = solver.thermalTime();
-  measure(solver, spacing, seconds, *m_tool);
+  for (Tool& tool : m_tools) measure(solver, spacing, seconds, tool);
 }
 
 /// Each particle of others that is within reach of one of the tool's, with the nearest of these.

@@ -13,8 +13,9 @@ namespace ps {
 
 class Solver;
 
-/// Measures what the tool feels that a hand leads through matter, or has led last, in each frame, for who holds it. It
-/// moves nothing, and is no state: after a return to one, a tool is known again when it is led again.
+/// Measures what the tools feel that hands lead through matter, or have led last, one for each hand, in each frame, for
+/// who holds them. It moves nothing, and is no state: after a return to one, a tool is known again when it is led
+/// again.
 ///
 /// It cannot do: tell the heat that a tool takes from what it gives to the air or gets from a heater; see matter that
 /// touches it across a face of a periodic box.
@@ -22,7 +23,7 @@ class ToolMeter {
  public:
   /// A hand leads this body, by the index that particles carry.
   void add(uint32_t body);
-  /// That one.
+  /// Those, the one that was led last first.
   std::vector<uint32_t> bodies() const;
   /// After a frame; `spacing` of the particles in m.
   void measure(const Solver& solver, double spacing);
@@ -41,8 +42,9 @@ class ToolMeter {
   void measure(const Solver& solver, double spacing, double seconds, Tool& tool);
   void findTouching(const Solver& solver, double reach, uint32_t body);
 
-  std::optional<Tool> m_tool;
-  double m_thermalTime = 0;  ///< s, when the last frame ended
+  static constexpr size_t kHands = 2;
+  std::vector<Tool> m_tools;  ///< the one that was led last first
+  double m_thermalTime = 0;   ///< s, when the last frame ended
   struct Touching {
     uint32_t particle = 0, of = 0;  ///< by index: of another body, and the nearest of the tool
     double distance = 0;            ///< m

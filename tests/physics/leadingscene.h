@@ -51,10 +51,10 @@ inline Project scene(double halfWidth, double height) {
   return project;
 }
 
-/// A hand leads the tool on from where the document has it by now.
-inline void lead(Engine& engine, const RigidMove& move) {
+/// A hand leads a tool on from where the document has it by now.
+inline void lead(Engine& engine, const RigidMove& move, const std::string& id = "tool") {
   const auto& bodies = engine.project().bodies;
-  const auto body = std::find_if(bodies.begin(), bodies.end(), [](const Body& one) { return one.id == "tool"; });
+  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& one) { return one.id == id; });
   engine.apply(MoveBody{std::make_shared<const Body>(moved(*body, move)), move, true});
 }
 inline void lead(Engine& engine, const Vector3& way) { lead(engine, RigidMove{Quaternion::Identity(), way}); }

@@ -67,6 +67,7 @@ class TestLeading : public QObject {
   void itPressesAndIsPressed();
   void whatItTouchesMeltsAndIsTold();
   void oneHash_data() { onehash::addRows(); }
+  void twoHandsFeelTheirOwn();
   void oneHash();
   void aStateOnTheWayGoesOn();
   void aRecordedRunIsMadeAgain();
@@ -308,6 +309,37 @@ void TestLeading::whatItTouchesMeltsAndIsTold() {
   QVERIFY(heat < -1);
   QVERIFY(latent > 0.05 * -heat && latent < -2 * heat);
   QVERIFY(gradient < -100 && gradient > -1e4);
+}
+
+/// Each of two hands feels its own tool, and what that takes up goes on being counted while the other one moves.
+void TestLeading::twoHandsFeelTheirOwn() {
+  Project project = scene(0.6, 1);
+  project.environment.gravity = {0, 0, 0};
+  project.bodies.push_back(tool({0.16, 0.06, 0.16}, {-0.3, 0.2, 0}, 350));
+  project.bodies.push_back(project.bodies[0]);
+  project.bodies[1].id = "other";
+  std::get<SolidShape>(project.bodies[1].shape).parameters.values["position_x"] = 0.3;
+  project.bodies.push_back(solid("ice", "block", {0.2, 0.1, 0.2}, {-0.3, 0.12, 0}, 260));
+  project.bodies.back().parameters.values["held"] = true;
+  project.solver.parameters.values["thermal_time_scale"] = 100.0;
+  Engine engine(project, m_plugins);
+  const auto felt = [&](const std::string& id) {
+    const std::vector<ToolContact> tools = engine.snapshot()->tools;
+    const auto found = std::find_if(tools.begin(), tools.end(), [&](const ToolContact& one) { return one.body == id; });
+    return found == tools.end() ? std::nullopt : std::optional(*found);
+  };
+  double heat = 0;
+  for (int frame = 0; frame < 10; ++frame) {
+    lead(engine, RigidMove{Quaternion::Identity(), {0.0005, 0, 0}});
+    lead(engine, RigidMove{Quaternion::Identity(), {0, 0.0005, 0}}, "other");
+    play(engine, 1);
+    QVERIFY(felt("tool") && felt("other"));
+    heat = std::min(heat, felt("tool")->heat);
+    QCOMPARE(felt("other")->touching, 0u);
+  }
+  QVERIFY(felt("tool")->touching > 0);
+  QVERIFY2(heat < -1, qPrintable(QString::number(heat)));
+  QCOMPARE(engine.snapshot()->tools.front().body, std::string("other"));  // led last
 }
 
 void TestLeading::oneHash() {

@@ -62,6 +62,7 @@ class HeadsetTest : public QObject {
   void lateHeadsetsShowSmallerPictures();
   void theOtherHandTakesItsWearerThere();
   void aBareHandPointsAndPinches();
+  void gripsCarryUnlessAHandHasSomething();
 
  private:
   HeadlessContext m_context{nullptr};
@@ -510,6 +511,45 @@ void HeadsetTest::aBareHandPointsAndPinches() {
   after(0.1, false, 1);
   QVERIFY(!moving.takes(kLeft) && !moving.takes(ps::vr::kRight));
   QCOMPARE(moving.stand().toRoom(Vector3::Zero()), stood);
+}
+
+/// Both grips carry the scene where they came together, or with empty hands; afterwards each has to be let go first. A
+/// scene that came beyond the scales that hands reach does not jump.
+void HeadsetTest::gripsCarryUnlessAHandHasSomething() {
+  using ps::vr::kLeft, ps::vr::kRight;
+  const std::array<bool, 2> empty{}, keepsLeft{true, false};
+  const auto after = [](ps::vr::Moving& moving, ps::vr::HeadsetFrame& frame, double left, double right,
+                        const std::array<bool, 2>& keeps) {
+    frame.time += 0.1;
+    for (const size_t hand : {kLeft, kRight}) {
+      frame.hands[hand].grip = ps::vr::HandPose{{hand == kLeft ? -0.2 : 0.2, 1, 0}, ps::Quaternion::Identity()};
+      frame.hands[hand].hold = hand == kLeft ? left : right;
+    }
+    moving.follow(frame, false, keeps);
+  };
+  ps::vr::HeadsetFrame frame;
+  ps::vr::Moving moving;
+  after(moving, frame, 1, 0, empty);
+  after(moving, frame, 1, 1, keepsLeft);
+  QVERIFY(moving.carries());  // what it took just now is put back
+  after(moving, frame, 1, 0, empty);
+  QVERIFY(!moving.carries() && moving.usesGrip(kLeft) && !moving.usesGrip(kRight));
+  after(moving, frame, 0, 0, empty);
+  QVERIFY(!moving.usesGrip(kLeft));
+  for (int k = 0; k < 5; ++k) after(moving, frame, 1, 0, keepsLeft);
+  after(moving, frame, 1, 1, keepsLeft);
+  QVERIFY(!moving.carries() && !moving.usesGrip(kRight));
+  after(moving, frame, 0, 0, empty);
+  for (int k = 0; k < 5; ++k) after(moving, frame, 1, 0, empty);
+  after(moving, frame, 1, 1, empty);
+  QVERIFY(moving.carries());
+  ps::vr::Stand wide;
+  wide.scale = 0.01;
+  const std::array<Vector3, 2> hands{Vector3(-0.2, 1, 0), Vector3(0.2, 1, 0)};
+  QCOMPARE(ps::vr::carried(wide, hands, hands).scale, 0.01);
+  const std::array<Vector3, 2> apart{Vector3(-4, 1, 0), Vector3(4, 1, 0)}, near{Vector3(-0.1, 1, 0), hands[1]};
+  QVERIFY(std::abs(ps::vr::carried(wide, hands, apart).scale - 0.2) < 1e-12);
+  QCOMPARE(ps::vr::carried(wide, hands, near).scale, 0.01);
 }
 
 QTEST_GUILESS_MAIN(HeadsetTest)

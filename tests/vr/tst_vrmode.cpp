@@ -34,6 +34,8 @@ class VrModeTest : public VrWindowTest {
   void everyEndingIsSaidAndVrComesBack_data();
   void everyEndingIsSaidAndVrComesBack();
   void headsetOnTheTableIsLeft();
+  void aMenuOfTheHeadsetIsSaid();
+  void leftAndEnteredAtOnceItComesBack();
   void anotherProjectComesBeforeTheWearer();
   void staysLeaveNoThreads();
   void windowClosesInVr();
@@ -170,8 +172,33 @@ void VrModeTest::headsetOnTheTableIsLeft() {
   const ScriptedRun run(vrScript(QStringLiteral(R"(, "events": [{"frame": 12, "state": "IDLE"}])")));
   enter();
   QTRY_VERIFY_WITH_TIMEOUT(run.texts("session").back() == "ended", kLong);
-  QTest::qWait(100);
+  QTRY_VERIFY2_WITH_TIMEOUT(status().contains(QStringLiteral("the headset is not worn")), qPrintable(status()), kLong);
   QVERIFY(vr().active() && action()->isChecked());
+  leave();
+  QVERIFY(run.lines("violation").empty());
+}
+
+/// It goes on showing the scene; hands have nothing to do meanwhile. Which of them it sees is said as well.
+void VrModeTest::aMenuOfTheHeadsetIsSaid() {
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "events": [{"frame": 40, "state": "VISIBLE"}])")));
+  enter();
+  QTRY_VERIFY2_WITH_TIMEOUT(status().contains(QStringLiteral("behind a menu of the headset")), qPrintable(status()),
+                            kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+}
+
+/// The button, pressed again while the stay has yet to end, is not lost.
+void VrModeTest::leftAndEnteredAtOnceItComesBack() {
+  const ScriptedRun run(vrScript());
+  enter();
+  QSignalSpy ended(&vr(), &VrMode::ended);
+  vr().leave();
+  vr().enter();
+  QVERIFY(action()->isChecked());
+  QTRY_COMPARE_WITH_TIMEOUT(ended.count(), 1, kLong);
+  QVERIFY(vr().active());
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 3, kLong);
   leave();
   QVERIFY(run.lines("violation").empty());
 }

@@ -51,8 +51,7 @@ std::optional<SeenHand> HandTracking::locate(size_t hand, XrTime time) const {
   auto all = structure<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
   all.jointCount = kJoints;
   all.jointLocations = located.data();
-  check(m_locate(m_trackers[hand], &info, &all), "xrLocateHandJointsEXT");
-  if (!all.isActive) return {};
+  if (XR_FAILED(m_locate(m_trackers[hand], &info, &all)) || !all.isActive) return {};
   constexpr XrSpaceLocationFlags kValid =
       XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   SeenHand seen;

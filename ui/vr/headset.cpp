@@ -72,20 +72,19 @@ class Current {
 /// What there is during a stay; made in this order, and put away in the other.
 class Headset::Loop {
  public:
-  Loop(const HeadsetSetup& setup, std::atomic<double>& shown, std::atomic<double>& hertz)
-      : m_setup(setup),
-        m_shown(shown),
-        m_hertz(hertz),
+  Loop(Headset& told)
+      : m_setup(told.m_setup),
+        m_told(told),
         m_runtime(wishes()),
         m_session(m_runtime),
         m_rate(m_runtime, m_session.handle()),
         m_mask(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
         m_tracking(m_runtime, m_session),
-        m_scene(setup.makeScene()) {
+        m_scene(m_setup.makeScene()) {
     const auto sizes = recommendedSizes(m_runtime);
     for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
-    if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, setup.nearPlane, setup.farPlane);
+    if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, m_setup.nearPlane, m_setup.farPlane);
   }
 
   Session& session() { return m_session; }
@@ -94,7 +93,8 @@ class Headset::Loop {
       m_rate.notice(event);
       m_mask.notice(event);
     });
-    m_hertz = m_rate.hertz();
+    m_told.m_hertz = m_rate.hertz();
+    m_told.m_worn = !m_session.running() ? Worn::Off : m_session.focused() ? Worn::On : Worn::BehindMenu;
   }
 
   void frame() {
@@ -123,7 +123,7 @@ class Headset::Loop {
     m_session.endFrame(state.predictedDisplayTime, {&header, 1});
     if (m_setup.measured) m_setup.measured({worked, secondsSince(began), m_clock.took()});
     m_detail.note(std::max(worked, m_clock.took()), kNanosecond * double(state.predictedDisplayPeriod));
-    m_shown = m_detail.scale();
+    m_told.m_detail = m_detail.scale();
   }
 
  private:
@@ -135,6 +135,7 @@ class Headset::Loop {
     frame.period = kNanosecond * double(state.predictedDisplayPeriod);
     frame.focused = m_session.focused();
     for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
+    for (const size_t hand : {kLeft, kRight}) m_told.m_sees[hand] = frame.hands[hand].aim.has_value();
     const auto vibrations = m_scene->prepare(frame);
     for (const size_t hand : {kLeft, kRight})
       if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
@@ -174,7 +175,7 @@ class Headset::Loop {
   }
 
   const HeadsetSetup& m_setup;
-  std::atomic<double>&m_shown, &m_hertz;
+  Headset& m_told;
   Runtime m_runtime;
   Session m_session;
   RefreshRate m_rate;
@@ -214,7 +215,7 @@ void Headset::run() {
 
 Ending Headset::stay() {
   const Current current(m_setup);
-  Loop loop(m_setup, m_detail, m_hertz);
+  Loop loop(*this);
   Session& session = loop.session();
   std::optional<steady_clock::time_point> asked;
   for (;;) {

@@ -73,6 +73,10 @@ class Headset {
   double detail() const { return m_detail; }
   /// Pictures a second that it shows; 0: it does not say.
   double hertz() const { return m_hertz; }
+  enum class Worn { Off, BehindMenu, On };
+  /// Off: it shows nothing, and lies on the table perhaps. BehindMenu: one of its own lies over the picture.
+  Worn worn() const { return m_worn; }
+  bool sees(size_t hand) const { return m_sees[hand]; }  ///< where a hand is
 
  private:
   void run();
@@ -83,6 +87,8 @@ class Headset {
   std::atomic<bool> m_leave = false;
   std::atomic<uint64_t> m_frames = 0;
   std::atomic<double> m_detail = 1, m_hertz = 0;
+  std::atomic<Worn> m_worn = Worn::Off;
+  std::array<std::atomic<bool>, 2> m_sees{};
   mutable std::mutex m_mutex;
   std::optional<Ending> m_ending;
   std::thread m_thread;

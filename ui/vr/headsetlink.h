@@ -50,12 +50,13 @@ struct HandsSeen {
     std::optional<Vector3> tip;  ///< m, in the scene; nothing while nobody knows where the hand is
     Vector3 up{0, 1, 0};         ///< a unit vector: the hand's own
     Vector3 forward{0, 0, -1};   ///< likewise, along which it points
-    bool holds = false;          ///< its grip is pressed, and does not carry the scene
+    bool holds = false;          ///< its grip is pressed, and does not carry the scene, nor has since it was
     std::optional<PanelPoint> panel;
     HandInput input;  ///< in the room; a trigger that is a panel's business is not pulled
   };
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
+  bool carries = false;  ///< both grips carry the scene
 };
 
 /// What a hand feels for as long as it does.
@@ -75,6 +76,8 @@ struct HeadsetView {
   std::array<BrushVolume, 2> brushes;  ///< at the tips of the hands
   std::array<uint64_t, 2> ticks{};     ///< of strokes that they have begun, and of what they point at: each is felt
   std::array<Feeling, 2> felt{};       ///< of what they lead, and of matter that they heat or cool
+  std::array<bool, 2> keeps{};         ///< what they have in them: a body that they lead, or matter that they carry
+  double vibration = 1;                ///< share of what can be felt that its wearer wants
   std::array<PanelView, kPanels> panels;
   std::array<PanelView, 2> labels;  ///< of what the hands hold, beside them
   uint64_t brought = 0;             ///< with another one the board is set before its wearer anew

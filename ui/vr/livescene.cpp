@@ -23,7 +23,7 @@ bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
 
 std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& frame) {
   take(m_link->shown(), frame);
-  m_moving.follow(frame, m_panels.takes(kLeft));
+  m_moving.follow(frame, m_panels.takes(kLeft), m_view->keeps);
   m_panels.follow(frame, *m_view);
   tellHands(frame);
   showHands(frame);
@@ -48,12 +48,13 @@ void LiveScene::prepareMatter(const HeadsetFrame& frame) {
 void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
+  seen.carries = m_moving.carries();
   for (const size_t hand : {kLeft, kRight}) {
     const HandInput& input = frame.hands[hand];
     HandsSeen::Hand& told = seen.hands[hand];
     told.input = input;
     told.input.joints.reset();  // they are for the eye alone
-    told.holds = input.hold > kHeld && !m_moving.carries();
+    told.holds = input.hold > kHeld && !m_moving.usesGrip(hand);
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
     if (!input.aim) continue;
@@ -102,7 +103,9 @@ std::array<std::optional<Vibration>, 2> LiveScene::feel() {
     constexpr double kLeast = 0.02, kFrames = 0.025;  // of the strongest; s, over two frames
     const auto& [strength, frequency] = m_view->felt[hand];
     if (strength > kLeast) felt[hand] = Vibration{strength, frequency, kFrames};
-    if (m_view->ticks[hand] > m_felt[hand]) felt[hand] = Vibration{};
+    Vibration tick;
+    tick.amplitude *= m_view->vibration;
+    if (m_view->ticks[hand] > m_felt[hand] && tick.amplitude > 0) felt[hand] = tick;
     m_felt[hand] = m_view->ticks[hand];
   }
   return felt;

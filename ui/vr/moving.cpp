@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger's
 constexpr double kPushed = 0.7;             // of a stick's
+constexpr double kTogether = 0.3;           // s, between two grips that are meant as one
 constexpr double kTurn = std::numbers::pi / 6;
 constexpr double kFarthest = 8, kSteep = 0.05;  // m, and how much a beam must fall on its way, of where one goes
 constexpr double kPinches = 0.6;                // s, within which a hand that pointed pinches
@@ -42,22 +43,29 @@ std::shared_ptr<const PanelImage> dimmer() {
 
 }  // namespace
 
-void Moving::follow(const HeadsetFrame& frame, bool busy) {
+void Moving::follow(const HeadsetFrame& frame, bool busy, const std::array<bool, 2>& keeps) {
   m_dimmed = std::max(0.0, m_dimmed - frame.period);
-  carry(frame);
+  carry(frame, keeps);
   turn(frame);
   go(frame, busy);
 }
 
-/// While neither draws: then a grip means the opposite of what the brush does.
-void Moving::carry(const HeadsetFrame& frame) {
+/// While neither draws: then a grip means the opposite of what the brush does. What a hand took just before the other
+/// one came is put back by whoever gave it.
+void Moving::carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps) {
   const auto& [left, right] = frame.hands;
-  const auto pulls = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld && hand.draw < kIdle; };
   const auto holds = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld; };
-  if (!(m_carrying ? holds(left) && holds(right) : pulls(left) && pulls(right))) {
-    m_carrying.reset();
-    return;
+  for (const size_t hand : {kLeft, kRight}) {
+    if (!holds(frame.hands[hand]))
+      m_gripped[hand].reset(), m_usesGrip[hand] = false;
+    else if (!m_gripped[hand])
+      m_gripped[hand] = frame.time;
   }
+  if (!m_gripped[kLeft] || !m_gripped[kRight]) return m_carrying.reset();
+  const bool idle = left.draw < kIdle && right.draw < kIdle, kept = keeps[kLeft] || keeps[kRight];
+  const bool together = std::abs(*m_gripped[kLeft] - *m_gripped[kRight]) < kTogether;
+  if (!m_carrying && !(idle && (together || !kept))) return;
+  m_usesGrip = {true, true};
   const std::array<Vector3, 2> hands{left.grip->position, right.grip->position};
   if (!m_carrying) m_carrying = Carrying{m_stand, hands};
   m_stand = carried(m_carrying->from, m_carrying->hands, hands);

@@ -10,7 +10,8 @@
 
 namespace ps::vr {
 
-/// How the scene stands in the room, and how its wearer changes that: both grips carry it, the main stick aside turns
+/// How the scene stands in the room, and how its wearer changes that: both grips carry it, unless one has had something
+/// in it before the other came, the main stick aside turns
 /// it about them by 30 degrees, which eyes bear better than a turn, and the other one forward takes them to where that
 /// hand points on the floor as soon as it is let go; a bare left hand points there with its index, and then pinches.
 /// While it moves the edge of what is seen is dimmed.
@@ -18,9 +19,11 @@ class Moving {
  public:
   const Stand& stand() const { return m_stand; }
   void place(const Stand& stand) { m_stand = stand; }
-  /// `busy`: the left hand has another use for its stick.
-  void follow(const HeadsetFrame& frame, bool busy = false);
+  /// `busy`: the left hand has another use for its stick. `keeps`: which hands have something in them.
+  void follow(const HeadsetFrame& frame, bool busy = false, const std::array<bool, 2>& keeps = {});
   bool carries() const { return m_carrying.has_value(); }
+  /// It carries, or has not been let go since: it takes nothing else.
+  bool usesGrip(size_t hand) const { return m_usesGrip[hand]; }
   /// m on the floor, where the wearer will be.
   const std::optional<Vector3>& goal() const { return m_goal; }
   /// Its pinch is none of the brush's business: it says go.
@@ -30,7 +33,7 @@ class Moving {
   void addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const;
 
  private:
-  void carry(const HeadsetFrame& frame);
+  void carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps);
   void turn(const HeadsetFrame& frame);
   void go(const HeadsetFrame& frame, bool busy);
   void goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal);
@@ -43,7 +46,9 @@ class Moving {
     std::array<Vector3, 2> hands;  ///< m, in the room
   };
   std::optional<Carrying> m_carrying;
-  bool m_turns = false;  ///< asked for already
+  std::array<bool, 2> m_usesGrip{};
+  std::array<std::optional<double>, 2> m_gripped;  ///< s, since when
+  bool m_turns = false;                            ///< asked for already
   std::optional<Vector3> m_goal;
   std::optional<double> m_pointed;  ///< s, when a bare hand pointed at the goal last
   bool m_goes = false;              ///< by a pinch that lasts

@@ -17,11 +17,15 @@ RefreshRate::RefreshRate(const Runtime& runtime, XrSession session) {
   if (!runtime.has(kExtension)) return;
   const auto rateOf = runtime.function<PFN_xrGetDisplayRefreshRateFB>("xrGetDisplayRefreshRateFB");
   float now = 0;
-  check(rateOf(session, &now), "xrGetDisplayRefreshRateFB");
+  // A rate is a wish: where more is amiss, the next call says so.
+  if (XR_FAILED(rateOf(session, &now))) return;
   m_hertz = double(now);
   const auto ratesOf = runtime.function<PFN_xrEnumerateDisplayRefreshRatesFB>("xrEnumerateDisplayRefreshRatesFB");
-  const auto offered =
-      listed<float>("xrEnumerateDisplayRefreshRatesFB", [&](auto... room) { return ratesOf(session, room...); });
+  uint32_t count = 0;
+  if (XR_FAILED(ratesOf(session, 0, &count, nullptr))) return;
+  std::vector<float> offered(count);
+  if (XR_FAILED(ratesOf(session, count, &count, offered.data()))) return;
+  offered.resize(count);
   const auto best = std::min_element(offered.begin(), offered.end(), isNearer);
   if (best == offered.end() || !isNearer(*best, now)) return;
   const auto request = runtime.function<PFN_xrRequestDisplayRefreshRateFB>("xrRequestDisplayRefreshRateFB");

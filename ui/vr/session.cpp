@@ -4,11 +4,26 @@
 #include "ui/vr/floor.h"
 #include "ui/vr/graphics.h"
 
+#include <algorithm>
+#include <string>
+
 namespace ps::vr {
 namespace {
 
 const char* const kLost = "The headset is about to be lost; see that it is connected, and enter VR again.";
 const char* const kStopping = "The headset's software is about to stop; when it runs again, enter VR again.";
+
+/// Throws Error where the headset asks for a newer OpenGL than there is.
+void requireVersion(const XrGraphicsRequirementsOpenGLKHR& requirements) {
+  GLint major = 0, minor = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  const XrVersion asked = requirements.minApiVersionSupported;
+  if (XR_MAKE_VERSION(major, minor, 0) >= asked) return;
+  throw Error("The headset asks for OpenGL " + std::to_string(XR_VERSION_MAJOR(asked)) + "." +
+              std::to_string(XR_VERSION_MINOR(asked)) + ", and there is " + std::to_string(major) + "." +
+              std::to_string(minor) + " here; a newer graphics driver may bring it.");
+}
 
 }  // namespace
 
@@ -29,6 +44,13 @@ void Session::create() {
       m_runtime.function<PFN_xrGetOpenGLGraphicsRequirementsKHR>("xrGetOpenGLGraphicsRequirementsKHR");
   auto requirements = structure<XrGraphicsRequirementsOpenGLKHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR);
   check(requirementsOf(m_runtime.instance(), m_runtime.system(), &requirements), "xrGetOpenGLGraphicsRequirementsKHR");
+  requireVersion(requirements);
+  const auto blends = listed<XrEnvironmentBlendMode>("xrEnumerateEnvironmentBlendModes", [&](auto... room) {
+    return xrEnumerateEnvironmentBlendModes(m_runtime.instance(), m_runtime.system(),
+                                            XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO, room...);
+  });
+  const bool hides = std::find(blends.begin(), blends.end(), XR_ENVIRONMENT_BLEND_MODE_OPAQUE) != blends.end();
+  if (!hides && !blends.empty()) m_blend = blends.front();
   const GraphicsBinding binding = currentGraphics(m_runtime);
   auto info = structure<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
   info.next = std::visit([](const auto& own) -> const void* { return &own; }, binding);
@@ -81,7 +103,7 @@ void Session::beginFrame() { check(xrBeginFrame(m_session, nullptr), "xrBeginFra
 void Session::endFrame(XrTime time, std::span<const XrCompositionLayerBaseHeader* const> layers) {
   auto info = structure<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
   info.displayTime = time;
-  info.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  info.environmentBlendMode = m_blend;
   info.layerCount = static_cast<uint32_t>(layers.size());
   info.layers = layers.empty() ? nullptr : layers.data();
   check(xrEndFrame(m_session, &info), "xrEndFrame");

@@ -48,6 +48,7 @@ class Session {
   XrSpace m_floor = XR_NULL_HANDLE;
   XrSessionState m_state = XR_SESSION_STATE_UNKNOWN;
   bool m_running = false;
+  XrEnvironmentBlendMode m_blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;  ///< or what a headset has that shows the room
   std::optional<Ending> m_ending;
 };
 

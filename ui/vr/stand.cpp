@@ -39,7 +39,9 @@ Stand carried(const Stand& before, const std::array<Vector3, 2>& from, const std
   Stand stand = before;
   stand.scenePlace = before.toScene(middle);
   stand.roomPlace = (to[0] + to[1]) / 2;
-  stand.scale = std::clamp(before.scale * is.norm() / std::max(was.norm(), 1e-3), 1 / kStretch, kStretch);
+  // A scene that came to its wearer beyond these stays as it is until it is stretched towards them.
+  stand.scale = std::clamp(before.scale * is.norm() / std::max(was.norm(), 1e-3), std::min(before.scale, 1 / kStretch),
+                           std::max(before.scale, kStretch));
   // Hands one above the other turn nothing.
   if (level(was) && level(is)) stand.turn += std::atan2(is.x(), is.z()) - std::atan2(was.x(), was.z());
   return stand;

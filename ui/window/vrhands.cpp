@@ -59,7 +59,8 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   const uint64_t begun = brush.begun();
   HandInScene there{now.tip, now.up, now.forward, now.input.draw, now.holds, seen.seconds};
   m_ends = true;
-  if (lead(hand, there, scene) || grab(hand, there, scene)) there.pressure = 0;  // it has no brush meanwhile
+  if (lead(hand, there, seen.carries, scene) || grab(hand, there, scene))
+    there.pressure = 0;  // it has no brush meanwhile
   const bool heated = brush.heats();
   brush.follow(there, scene);
   m_ends = false;
@@ -67,11 +68,13 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
 }
 
 /// A grip takes what is at hand. With the trigger it erases, whichever comes first. Whether the hand holds something.
-bool VrHands::lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene) {
+bool VrHands::lead(size_t hand, const HandInScene& there, bool carries, const SnapshotPtr& scene) {
   HandTool& held = m_held[hand];
   const bool holds = m_seen.hands[hand].holds, pulls = there.pressure > 0;
   if (held.active() && pulls && there.seconds - held.since() < kLong) {
     held.putBack();
+  } else if (held.active() && carries && there.seconds - held.since() < kLong) {
+    held.putBack();  // this grip was the first of the two that carry the scene
   } else if (held.active() && !there.opposite) {
     held.letGo();
   } else if (held.active()) {
@@ -105,12 +108,14 @@ bool VrHands::meets(const HandInScene& there, const SnapshotPtr& scene) const {
          });
 }
 
-/// First and second button. Hands with pads have one for both: for half a second it is the second.
+/// First and second button. Hands with pads have one for both: for half a second it is the second. A hand that is out
+/// of sight meanwhile has not let go of it.
 std::pair<bool, bool> VrHands::pressed(size_t hand, const vr::HandInput& now, double seconds) {
   const vr::HandInput& before = m_seen.hands[hand].input;
   const bool second = now.second && !before.second;
-  if (!now.pad) return {now.first && !before.first, second};
   std::optional<double>& since = m_firstSince[hand];
+  if (!now.pad || !now.grip) since.reset();
+  if (!now.pad) return {now.first && !before.first, second};
   if (now.first && !before.first) since = seconds;
   if (since && now.first && seconds - *since >= kLong) {
     since.reset();
@@ -139,7 +144,7 @@ void VrHands::choose(const vr::HandInput& now, double seconds) {
   if (pushed && upright && (!now.pad || now.steerPressed)) {
     step(now.steerY > 0 ? 1 : -1, seconds);
   } else if (pressed && now.pad && pushed) {
-    m_tools.stepShape(1);
+    m_tools.stepShape(now.steerX > 0 ? 1 : -1);
   } else if (pressed && !pushed) {
     m_tools.stepMaterial(1);
   }
@@ -158,6 +163,7 @@ void VrHands::letGo() {
   for (HandTool& held : m_held) held.letGo();
   m_ends = false;
   m_seen = {};
+  m_firstSince = {};
 }
 
 /// Of what is drawn; what is taken away has none.
@@ -189,6 +195,7 @@ vr::Feeling VrHands::feeling(size_t hand, const Snapshot* scene) const {
 
 void VrHands::describe(vr::HeadsetView& view) {
   m_changed = false;
+  view.vibration = preferences::vibration() / 100.0;
   for (const size_t hand : {kLeft, kRight}) {
     m_described[hand] = m_seen.hands[hand].up;
     vr::BrushVolume& brush = view.brushes[hand];
@@ -197,7 +204,8 @@ void VrHands::describe(vr::HeadsetView& view) {
     brush.colour = colour(hand, view.matter.get());
     view.ticks[hand] = m_brushes[hand].begun() + m_taken[hand];
     view.felt[hand] = feeling(hand, view.matter.get());
-    view.felt[hand].strength *= preferences::vibration() / 100.0;
+    view.felt[hand].strength *= view.vibration;
+    view.keeps[hand] = m_held[hand].active() || m_grabs[hand].active();
   }
 }
 

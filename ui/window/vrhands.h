@@ -36,7 +36,7 @@ class VrHands : public QObject {
 
  private:
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
-  bool lead(size_t hand, const HandInScene& there, const SnapshotPtr& scene);
+  bool lead(size_t hand, const HandInScene& there, bool carries, const SnapshotPtr& scene);
   bool grab(size_t hand, HandInScene there, const SnapshotPtr& scene);
   bool meets(const HandInScene& there, const SnapshotPtr& scene) const;
   vr::Feeling feeling(size_t hand, const Snapshot* scene) const;

@@ -105,6 +105,7 @@ void VrMode::begin() {
 
 void VrMode::enter() {
   if (m_window) leave();
+  m_entersNext = m_headset && m_leaving;
   if (active()) return showState();
   try {
     begin();
@@ -141,6 +142,7 @@ void VrMode::enterWithout() {
 
 void VrMode::leave() {
   m_leaving = true;
+  m_entersNext = m_triesNext = false;
   m_hands->letGo();
   if (m_headset) m_headset->leave();
   if (m_window) end({});
@@ -241,6 +243,7 @@ void VrMode::end(const vr::Ending& ending) {
   }
   Q_EMIT ended(said);
   if (std::exchange(m_triesNext, false)) enterWithout();
+  if (std::exchange(m_entersNext, false)) enter();
 }
 
 /// What no headset shows, a window can.
@@ -257,8 +260,19 @@ void VrMode::showMirror() {
   m_mirror = shown ? std::make_unique<VrMirror>(m_pictures, *m_parts.view) : nullptr;
 }
 
+/// What keeps its wearer from seeing the scene, or a hand from doing anything in it; "": nothing.
+QString VrMode::hindrance() const {
+  if (m_headset->worn() == vr::Headset::Worn::Off) return QStringLiteral("the headset is not worn");
+  if (m_headset->worn() == vr::Headset::Worn::BehindMenu) return QStringLiteral("behind a menu of the headset");
+  const bool left = m_headset->sees(vr::kLeft), right = m_headset->sees(vr::kRight);
+  if (left && right) return {};
+  return !left && !right
+             ? QStringLiteral("no hand is seen")
+             : QStringLiteral("the %1 hand is not seen").arg(left ? QStringLiteral("right") : QStringLiteral("left"));
+}
+
 void VrMode::showState() {
-  m_action.setChecked(m_headset != nullptr);
+  m_action.setChecked(m_headset && (!m_leaving || m_entersNext));
   m_without.setChecked(m_window != nullptr);
   const QString why = m_window ? QStringLiteral("The window of the trial shows that already") : QString();
   m_mirrors.setEnabled(!m_window);
@@ -268,6 +282,8 @@ void VrMode::showState() {
   if (m_headset && m_headset->hertz() > 0) in += QStringLiteral(", %1 Hz").arg(std::lround(m_headset->hertz()));
   if (m_headset && m_headset->detail() < 1)
     in += QStringLiteral(", pictures at %1 %, to be in time").arg(std::lround(100 * m_headset->detail()));
+  if (const QString hinders = m_headset ? hindrance() : QString(); !hinders.isEmpty())
+    in += QStringLiteral("; ") + hinders;
   m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")
                             : !m_headset              ? QString()
                             : m_leaving               ? QStringLiteral("Leaving VR")

@@ -71,6 +71,7 @@ class VrMode : public QObject {
   void show();
   void showHands();  ///< they alone have changed
   void end(const vr::Ending& ending);
+  QString hindrance() const;
   void showState();
   void offerTrial(const QString& why);
   void showMirror();
@@ -86,7 +87,8 @@ class VrMode : public QObject {
   std::unique_ptr<VrMirror> m_mirror;
   VrWithout* m_window = nullptr;
   bool m_leaving = false;
-  bool m_triesNext = false;  ///< VR without a headset was asked for, and a stay in one has yet to end
+  bool m_triesNext = false;   ///< VR without a headset was asked for, and a stay in one has yet to end
+  bool m_entersNext = false;  ///< the headset was asked for again, while a stay in it has yet to end
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
   QElapsedTimer m_sinceShown, m_sinceHands;
