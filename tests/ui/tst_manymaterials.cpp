@@ -63,6 +63,27 @@ class TestManyMaterials : public SampleWindowTest {
     QCOMPARE(selection().materials(), (std::vector<std::string>{kWater, kIron}));
   }
 
+  /// While their panel has the focus, Cut means the chosen ones, and no body; what something is of stays.
+  void cutTakesThemAlone() {
+    choose({kWater, kIron, kWax});
+    m_window->selection().select(OutlineKind::Body, "ice");
+    choose({kWater, kIron, kWax});
+    tiles()->setFocus();
+    QTRY_VERIFY(tiles()->hasFocus());
+    const size_t bodies = document().project().bodies.size(), before = document().project().materials.size();
+    const int steps = document().undoStack().index();
+    m_window->action(QStringLiteral("edit.cut"))->trigger();
+    QCOMPARE(document().project().bodies.size(), bodies);
+    QCOMPARE(document().project().materials.size(), before - 2);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("is of it")), qPrintable(m_window->notice()->text()));
+    m_window->action(QStringLiteral("edit.paste"))->trigger();
+    QCOMPARE(document().project().materials.size(), before);
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QCOMPARE(document().project().materials.size(), before);
+  }
+
   /// Rows that they share, "—" where values differ; a number is set for all, *2 and +10 act on each: one step each.
   void rowsOfManyEditAll() {
     choose({kWater, kIron});

@@ -354,6 +354,21 @@ class TestPicking : public QObject {
     QVERIFY(m_selection->has(OutlineKind::Pin, "rope/1") && !m_selection->has(OutlineKind::Body, "rope"));
     tool.click(at({3, 0, 0.2}));
     QVERIFY(m_selection->empty());
+    // Matter of a body that is locked is nothing to hands.
+    auto matter = std::make_shared<Snapshot>();
+    matter->position = {{0.3f, 0.5f, 0.2f, 1e-6f}};
+    matter->body = {0};
+    matter->id = {0};
+    matter->material = {0};
+    matter->bodyIds = std::make_shared<const std::vector<std::string>>(std::vector<std::string>{"rope"});
+    Pointer above = at({0.3, 0.5, 0.2});
+    above.scene = matter;
+    tool.click(above);
+    QVERIFY(m_selection->has(OutlineKind::Body, "rope"));
+    m_document->setLocked({{Owner::Body, "rope", ""}}, true);
+    tool.click(above);
+    QVERIFY(!m_selection->has(OutlineKind::Body, "rope"));
+    m_document->undoStack().undo();
   }
 
   /// By its edges, in a frame, and by the handles; a probe of matter wherever it is has no place.

@@ -415,10 +415,12 @@ void LibraryPage::showScene() {
 
 void LibraryPage::addToScene() {
   std::string last;
-  for (const LibraryEntry* entry : chosen()) {
-    Document& document = m_session.document();
+  const auto entries = chosen();
+  Document& document = m_session.document();
+  if (entries.size() > 1) document.undoStack().beginMacro(QStringLiteral("adding %1 materials").arg(entries.size()));
+  for (const LibraryEntry* entry : entries)
     last = entry->file.isEmpty() ? document.addMaterial(entry->material.base) : addPreset(document, entry->material);
-  }
+  if (entries.size() > 1) document.undoStack().endMacro();
   if (!last.empty()) m_selection.pickMaterial(last);
 }
 

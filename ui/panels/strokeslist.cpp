@@ -246,15 +246,18 @@ void StrokesList::onStroke(const StrokeChanged& event) {
   m_drawn = stroke.body;
   if (!m_anew || !stroke.material.empty() || stroke.erase || !stroke.deed.empty()) return;
   // Once the step that drew it stands: it is taken back, and what takes its place is the only one.
-  QTimer::singleShot(0, this, [this, body = stroke.body] { takeAnew(body); });
+  QTimer::singleShot(0, this, [this, body = stroke.body, before = m_document.undoStack().index()] {
+    takeAnew(body, m_document.undoStack().index() == before + 1);
+  });
 }
 
-/// Where the place cannot be taken, what was drawn stays by itself.
-void StrokesList::takeAnew(const std::string& body) {
+/// Where the place cannot be taken, what was drawn stays by itself; so it does where another hand has made a step
+/// since.
+void StrokesList::takeAnew(const std::string& body, bool isLast) {
   const std::optional<ChosenStroke> place = std::exchange(m_anew, std::nullopt);
   refreshHeading();
   const VoxelShape *drawn = sketch(body), *own = place ? sketch(place->body) : nullptr;
-  if (!drawn || !own || !m_edits->isPossible(place->body, place->index)) return;
+  if (!isLast || !drawn || !own || !m_edits->isPossible(place->body, place->index)) return;
   VoxelShape::Stroke stroke = drawn->strokes.back();
   if (drawn != own) {
     const RigidMove way = gridOf(*own).pose.inverse();

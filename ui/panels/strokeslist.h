@@ -56,7 +56,7 @@ class StrokesList : public QWidget {
   void refreshHeading();
   void choose();  ///< the line that the keys are on, for the view
   void onStroke(const StrokeChanged& event);
-  void takeAnew(const std::string& body);
+  void takeAnew(const std::string& body, bool isLast);
   const VoxelShape* sketch(const std::string& body) const;  ///< nullptr: it has no strokes
   bool act(const QKeyEvent& event);                         ///< whether a key is one of the list's, and done
 

@@ -68,9 +68,9 @@ Project excerptOf(const Project& project, const std::vector<SelectedItem>& items
   return excerpt;
 }
 
-Project excerptOf(const Project& project, const std::string& material) {
+Project excerptOfMaterials(const Project& project, const std::vector<std::string>& materials) {
   Project excerpt;
-  take(project.materials, material, excerpt.materials);
+  for (const std::string& material : materials) take(project.materials, material, excerpt.materials);
   takeWhatBelongs(project, excerpt);
   return excerpt;
 }

@@ -16,8 +16,8 @@ class PluginRegistry;
 /// What is copied: a project of some of the things of another, with the materials that they need, their tracks, and the
 /// groups that they are in.
 Project excerptOf(const Project& project, const std::vector<SelectedItem>& items);
-/// The same of one material.
-Project excerptOf(const Project& project, const std::string& material);
+/// The same of materials.
+Project excerptOfMaterials(const Project& project, const std::vector<std::string>& materials);
 /// Whether there is anything in it.
 bool isEmpty(const Project& excerpt);
 /// As the clipboard has it: a project file.

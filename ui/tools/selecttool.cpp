@@ -82,7 +82,8 @@ std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
     }
     for (size_t k = 0; k < seen.size(); ++k) {
       const std::string& id = (*scene->bodyIds)[k];
-      if (seen[k] != 0 && box().document().body(id)) items.push_back({OutlineKind::Body, id});
+      const Body* body = seen[k] != 0 ? box().document().body(id) : nullptr;
+      if (body && !body->locked) items.push_back({OutlineKind::Body, id});
     }
   }
   for (const Emitter& emitter : project.emitters) {
@@ -115,7 +116,8 @@ void SelectTool::click(const Pointer& pointer) {
   const uint32_t body = scene.body[*hit];
   const std::string id = scene.bodyIds && body < scene.bodyIds->size() ? (*scene.bodyIds)[body] : std::string();
   const bool poured = box().document().emitter(id) != nullptr;  // matter of a tap belongs to it
-  if (!poured && !box().document().body(id)) {
+  const Body* own = box().document().body(id);
+  if (!poured && (!own || own->locked)) {
     if (!adds) selection.clear();
   } else {
     const OutlineKind kind = poured ? OutlineKind::Emitter : OutlineKind::Body;

@@ -120,8 +120,12 @@ std::shared_ptr<const StampCells> Toolbox::shapeCells() {
   if (known && m_shape.change == m_document.changeCount()) return m_shape.filled.cells;
   if (!known || !(m_shape.form == body->shape)) {
     const auto fill = [body = *body, spacing = spacing()] {
-      Shape::Filled filled{stampOf(body, spacing), nullptr};
-      filled.cells = stampCells(*filled.stamp);
+      Shape::Filled filled;
+      try {
+        filled.stamp = stampOf(body, spacing);
+        filled.cells = stampCells(*filled.stamp);
+      } catch (const std::exception&) {  // the stroke itself will say so
+      }
       if (!filled.cells) filled.stamp.reset();
       return filled;
     };

@@ -188,14 +188,14 @@ void ThingActions::drop() {
 
 MatterBoxes ThingActions::matter() const { return matterBoxesOf(m_session.snapshot().get()); }
 
-/// Their panel has the focus: the chosen one is meant, not what is selected.
+/// Their panel has the focus: the chosen ones are meant, not what is selected.
 bool ThingActions::ofMaterials() const {
   return m_materials.isAncestorOf(QApplication::focusWidget()) || &m_materials == QApplication::focusWidget();
 }
 
 Project ThingActions::excerpt() const {
   const Project& project = m_session.document().project();
-  return ofMaterials() ? excerptOf(project, m_selection.material()) : excerptOf(project, m_selection.items());
+  return ofMaterials() ? excerptOfMaterials(project, m_selection.materials()) : excerptOf(project, m_selection.items());
 }
 
 /// Of what has a place.
@@ -302,8 +302,30 @@ Placement ThingActions::insert(Project things, const QString& title, const QStri
   return come;
 }
 
+/// What something is of stays, and is told of.
+void ThingActions::removeMaterials(const char* title) {
+  Document& document = m_session.document();
+  QString problem;
+  std::vector<std::string> gone;
+  for (const std::string& id : m_selection.materials()) {
+    const QString why = document.whyMaterialStays(id);
+    if (why.isEmpty())
+      gone.push_back(id);
+    else
+      problem = QStringLiteral("%1.").arg(why);
+  }
+  m_notices.refuse(gone.empty() ? QStringLiteral("Nothing was deleted.") : QStringLiteral("Not all was deleted."),
+                   problem);
+  if (gone.empty()) return;
+  const QString what = whatOf(excerptOfMaterials(document.project(), gone));
+  document.undoStack().beginMacro(QString::fromLatin1(title).arg(what));
+  for (const std::string& id : gone) document.removeMaterial(id);
+  document.undoStack().endMacro();
+}
+
 /// What is locked stays, a body with its pins, and is told of.
 void ThingActions::remove(const char* title) {
+  if (ofMaterials()) return removeMaterials(title);
   Document& document = m_session.document();
   std::vector<SelectedItem> items = m_selection.items();
   QString problem;

@@ -36,6 +36,7 @@ class ThingActions {
   void paste();
   void duplicate();
   void remove(const char* title);
+  void removeMaterials(const char* title);
   void group();
   void ungroup();
   void isolate();
