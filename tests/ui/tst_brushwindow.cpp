@@ -131,6 +131,30 @@ class TestBrushWindow : public SampleWindowTest {
     m_window->tools().setBrush(brush);
   }
 
+  /// Brackets with Shift, as keyboards send them; brushes without a flow stay as they are.
+  void bracketsWithShiftChangeTheFlow() {
+    Toolbox& tools = m_window->tools();
+    const BrushSettings before = tools.brush();
+    BrushSettings brush = before;
+    brush.shape = "spray";
+    tools.setBrush(brush);
+    const auto flow = [&] { return tools.brush().parameters.at("spray").values.at("flow"); };
+    view()->setFocus();
+    QTest::keyClick(view(), Qt::Key_BraceRight, Qt::ShiftModifier);
+    const double more = std::get<double>(flow());
+    QTest::keyClick(view(), Qt::Key_BracketLeft, Qt::ShiftModifier);
+    QTest::keyClick(view(), Qt::Key_BraceLeft, Qt::ShiftModifier);
+    QVERIFY(std::get<double>(flow()) < more);
+    for (int k = 0; k < 60; ++k) QTest::keyClick(view(), Qt::Key_BraceRight, Qt::ShiftModifier);
+    QCOMPARE(std::get<double>(flow()), 1.0);
+    QCOMPARE(tools.brush().radius, before.radius);
+    brush.shape = "cube";
+    tools.setBrush(brush);
+    QTest::keyClick(view(), Qt::Key_BraceRight, Qt::ShiftModifier);
+    QVERIFY(tools.brush() == brush);
+    tools.setBrush(before);
+  }
+
   void theOtherEndOfAPenErases() {
     const size_t before = idsNow(session()).size();
     pen(QPointingDevice::PointerType::Eraser, 0.7);

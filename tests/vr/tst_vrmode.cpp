@@ -222,7 +222,7 @@ void VrModeTest::staysLeaveNoThreads() {
   enter();
   leave();
   const size_t before = threads();
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 50; ++i) {
     enter();
     leave();
   }

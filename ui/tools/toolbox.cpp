@@ -21,7 +21,7 @@
 namespace ps {
 namespace {
 /// Key by which a brush that stamps declares how large its copies are; plugins/examples/README.md says so.
-constexpr const char* kScale = "scale";
+constexpr const char *kScale = "scale", *kFlow = "flow";
 
 /// A shape that is filled with cells within this is waited for; others are looked for.
 constexpr std::chrono::milliseconds kAtOnce{8}, kShapeLook{20};
@@ -250,6 +250,18 @@ void Toolbox::setBrush(const BrushSettings& brush) {
 }
 
 void Toolbox::stepBrush(int direction) { setBrushSize(brushSize() * (direction > 0 ? kBrushStep : 1 / kBrushStep)); }
+
+void Toolbox::stepFlow(int direction) {
+  if (!m_document.plugins()) return;
+  const api::ParameterList own = m_document.plugins()->parameters(m_brush.shape);
+  const api::ParameterDeclaration* flow = findDeclaration(own, kFlow);
+  if (!flow || flow->kind != api::ParameterKind::Number) return;
+  BrushSettings brush = m_brush;
+  const double now = std::get<double>(valueOf(m_brush.shapeParameters(), *flow));
+  const double next = now * (direction > 0 ? kBrushStep : 1 / kBrushStep);
+  brush.parameters[brush.shape].values[flow->key] = std::clamp(next, flow->hardMinimum, flow->hardMaximum);
+  setBrush(brush);
+}
 
 /// A brush that stamps may be as large as its radius instead; its scale then says that it does not act.
 const api::ParameterDeclaration* Toolbox::scaleParameter() const {

@@ -65,6 +65,7 @@ class Toolbox : public QObject {
   const BrushSettings& brush() const { return m_brush; }
   void setBrush(const BrushSettings& brush);
   void stepBrush(int direction);  ///< larger (1) or smaller (-1)
+  void stepFlow(int direction);   ///< more (1) or less (-1) of what a brush lets fall; others have no flow
   /// How large the brush is: its radius in m or, of one that stamps and goes by it, the scale of its copies.
   double brushSize() const;
   void setBrushSize(double size);  ///< within what it may be

@@ -216,7 +216,8 @@ void MainWindow::makeMenus() {
   m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
   new LooseMatter(*m_session, *m_notices, this);
   m_sketch = std::make_unique<SketchActions>(*m_session, *m_tools, m_actions);
-  m_files->makeMenu(bar->addMenu(QStringLiteral("File")), viewport());
+  QMenu* file = bar->addMenu(QStringLiteral("File"));
+  m_files->makeMenu(file, viewport());
   QMenu* edit = bar->addMenu(QStringLiteral("Edit"));
   m_edit->makeMenu(edit);
   m_things =
@@ -235,6 +236,7 @@ void MainWindow::makeMenus() {
   m_edit->makeWallMenu(walls);
   m_bodies->makeMenu(adding, walls);
   m_bodies->addToWallMenu(walls);
+  file->insertAction(m_actions.find(QStringLiteral("file.restore")), m_actions.find(QStringLiteral("add.mesh")));
   m_library =
       new LibraryActions(*m_session, *m_selection, m_actions, *m_notices, *m_centre, *m_pane, m_options.presets, this);
   m_library->addTo(adding);

@@ -115,6 +115,7 @@ void addThings(Entries& entries, MainWindow& window) {
     }
   };
   const Project& project = window.session().document().project();
+  add(project.groups, OutlineKind::Group, "Group");
   add(project.bodies, OutlineKind::Body, "Body");
   add(project.emitters, OutlineKind::Emitter, "Tap");
   add(project.sinks, OutlineKind::Sink, "Drain");

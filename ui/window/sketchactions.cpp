@@ -32,6 +32,13 @@ void SketchActions::makeMenu(QMenu* menu) {
                 {QKeySequence(QStringLiteral("["))}, [this] { m_tools.stepBrush(-1); });
   m_actions.add(menu, QStringLiteral("sketch.larger"), QStringLiteral("Larger brush"),
                 {QKeySequence(QStringLiteral("]"))}, [this] { m_tools.stepBrush(1); });
+  // Keyboards on which a bracket takes Shift itself send braces, where these do.
+  m_actions.add(menu, QStringLiteral("sketch.lessFlow"), QStringLiteral("Less flow"),
+                {QKeySequence(QStringLiteral("Shift+[")), QKeySequence(QStringLiteral("Shift+{"))},
+                [this] { m_tools.stepFlow(-1); });
+  m_actions.add(menu, QStringLiteral("sketch.moreFlow"), QStringLiteral("More flow"),
+                {QKeySequence(QStringLiteral("Shift+]")), QKeySequence(QStringLiteral("Shift+}"))},
+                [this] { m_tools.stepFlow(1); });
   m_actions.add(menu, QStringLiteral("sketch.shape"), QStringLiteral("Next brush shape"),
                 {QKeySequence(QStringLiteral("N"))}, [this] { m_tools.stepShape(1); });
   m_actions.add(menu, QStringLiteral("sketch.mirror"), QStringLiteral("Mirror"), {QKeySequence(QStringLiteral("M"))},
