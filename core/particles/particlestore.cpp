@@ -42,7 +42,8 @@ constexpr OwnField kOwnFields[] = {
     {field::kSolidFraction, api::FieldType::Float32, "", "Share of the mass that is solid"},
     {field::kLiquidFraction, api::FieldType::Float32, "", "Share of the mass that is liquid"},
     {field::kGasFraction, api::FieldType::Float32, "", "Share of the mass that is vapour"},
-    {field::kCompression, api::FieldType::Float32, "", "Compression handed over when the solid melted"},
+    {field::kCompression, api::FieldType::Float32, "",
+     "Handed over when it melted: compression; when it froze: overlap, in spacings, -1 until it is known"},
     {field::kDensityError, api::FieldType::Float32, "", "Relative excess density at the end of the frame"},
     {field::kPressure, api::FieldType::Float32, "Pa", "Pressure of liquid and vapour, mean of the last frame"},
 };

@@ -263,6 +263,42 @@ class TestJoining : public QObject {
     for (size_t i = 0; i < p.size(); ++i) QVERIFY(p.compression()[i] >= 0 && p.compression()[i] < 0.01);
   }
 
+  /// Painted as it freezes, it is handed nothing that is meant for the other: a liquid no overlap, a solid no
+  /// compression; and what becomes solid by paint lies as still as what freezes.
+  void paintHandsOverNothingElse() {
+    Solver solver;
+    prepare(solver, settingsOf(kSpacing));
+    solver.setMaterials({ps::BakedMaterial(matterOf("wood", 2000), 101325), ps::BakedMaterial(matterOf("ice"), 101325),
+                         ps::BakedMaterial(matterOf("oil", 100), 101325)});
+    solver.setWalls(tray(0.2));
+    solver.setThermal({}, &m_enthalpy, "enthalpy", {});
+    solver.spawn(fixedPoints(lattice(10, 2, 10, kSpacing, 0)));
+    ps::Spawn grain = liquid(lattice(1, 1, 1, kSpacing, 2 * kSpacing), 273.2);
+    grain.body = grain.material = 1;
+    const std::vector<uint32_t> ids = solver.spawn(grain);
+    QVERIFY(runOn(solver, 120));
+    const ps::ParticleStore& p = solver.particles();
+    const auto i = [&] { return p.indexOf(ids[0]); };
+    const auto speed = [&] { return vectorOf(p.velocity()[i()]).norm(); };
+    setEnthalpy(solver, kFrozen, [&](size_t k) { return p.body()[k] == 1; });
+    QVERIFY(runOn(solver, 1));
+    QVERIFY(p.motion()[i()] == ps::api::Motion::Solid);
+    solver.paint(ids, 2);
+    QVERIFY(p.motion()[i()] == ps::api::Motion::Liquid);
+    QCOMPARE(p.compression()[i()], 0.0f);
+    QVERIFY(runOn(solver, 60));
+    QVERIFY2(speed() < 0.1, qPrintable(QString::number(speed())));
+    solver.paint(ids, 1);
+    QVERIFY(p.motion()[i()] == ps::api::Motion::Solid);
+    double fastest = 0;
+    for (int f = 0; f < 30; ++f) {
+      QVERIFY(runOn(solver, 1));
+      fastest = std::max(fastest, speed());
+    }
+    QVERIFY2(fastest < 0.2, qPrintable(QString::number(fastest)));
+    QVERIFY(p.compression()[i()] >= 0);
+  }
+
   void meltedThroughIsTwoAndPressedTogetherIsOne_data() {
     QTest::addColumn<bool>("rigid");
     QTest::newRow("bonds") << false;

@@ -488,7 +488,7 @@ class TestContentWindow : public SampleWindowTest {
       QVERIFY2(entry->toolTip().endsWith(QLatin1Char('.')), qPrintable(entry->text()));
       ++tips;
     }
-    QCOMPARE(tips, 19);
+    QCOMPARE(tips, 20);
   }
 
   void matterOfTapsAndDrainsIsInTheLedger() {

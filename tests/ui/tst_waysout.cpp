@@ -252,7 +252,9 @@ class TestWaysOut : public SampleWindowTest {
     for (const auto tab : {MainWindow::kSceneTab, MainWindow::kTuneTab, MainWindow::kSketchTab}) {
       m_window->showWorkspace(tab);
       m_window->selection().setMaterial("water");
-      QTRY_VERIFY(line->noteRect().isValid());
+      // Other workspaces lay the line out anew, as soon as it is painted there.
+      QTRY_VERIFY(line->noteRect().isValid() && line->parts().join(QLatin1Char(' ')).contains(QStringLiteral("Wood")));
+      line->repaint();
       QTest::mouseClick(line, Qt::LeftButton, {}, line->noteRect().center().toPoint());
       QCOMPARE(m_window->selection().material(), std::string("wood"));
       ParameterPanel* panel = m_window->inspector().materialPanel();

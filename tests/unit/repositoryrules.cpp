@@ -278,11 +278,11 @@ std::vector<std::string> defined(View text) {
   std::vector<std::string> found, spaces;
   eachLine(text, [&](size_t, View line) {
     std::cmatch match;
-    if (std::regex_match(line.begin(), line.end(), match, kNamespace)) {
+    if (std::regex_match(line.data(), line.data() + line.size(), match, kNamespace)) {
       spaces.push_back(match[1]);
-    } else if (std::regex_match(line.begin(), line.end(), kEnd) && !spaces.empty()) {
+    } else if (std::regex_match(line.data(), line.data() + line.size(), kEnd) && !spaces.empty()) {
       spaces.pop_back();
-    } else if (std::regex_match(line.begin(), line.end(), match, kDefined)) {
+    } else if (std::regex_match(line.data(), line.data() + line.size(), match, kDefined)) {
       std::string name;
       bool shared = true;
       for (const std::string& space : spaces) {

@@ -246,8 +246,8 @@ void StrokesList::onStroke(const StrokeChanged& event) {
   m_drawn = stroke.body;
   if (!m_anew || !stroke.material.empty() || stroke.erase || !stroke.deed.empty()) return;
   // Once the step that drew it stands: it is taken back, and what takes its place is the only one.
-  QTimer::singleShot(0, this, [this, body = stroke.body, before = m_document.undoStack().index()] {
-    takeAnew(body, m_document.undoStack().index() == before + 1);
+  QTimer::singleShot(0, this, [this, body = stroke.body, before = m_document.undoStack().position()] {
+    takeAnew(body, m_document.undoStack().position() == before + 1);
   });
 }
 

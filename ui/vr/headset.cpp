@@ -94,7 +94,7 @@ class Headset::Loop {
       m_mask.notice(event);
     });
     m_told.m_hertz = m_rate.hertz();
-    m_told.m_worn = !m_session.running() ? Worn::Off : m_session.focused() ? Worn::On : Worn::BehindMenu;
+    m_told.m_worn = m_session.focused() ? Worn::On : m_session.visible() ? Worn::BehindMenu : Worn::Off;
   }
 
   void frame() {

@@ -50,20 +50,20 @@ void Moving::follow(const HeadsetFrame& frame, bool busy, const std::array<bool,
   go(frame, busy);
 }
 
-/// While neither draws: then a grip means the opposite of what the brush does. What a hand took just before the other
-/// one came is put back by whoever gave it.
+/// While neither draws: then a grip means the opposite of what the brush does. A body that a hand took just before the
+/// other one came is put back by whoever gave it, and loose matter let go.
 void Moving::carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps) {
   const auto& [left, right] = frame.hands;
   const auto holds = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld; };
   for (const size_t hand : {kLeft, kRight}) {
-    if (!holds(frame.hands[hand]))
+    if (frame.hands[hand].hold <= kHeld)
       m_gripped[hand].reset(), m_usesGrip[hand] = false;
-    else if (!m_gripped[hand])
+    else if (!m_gripped[hand] && holds(frame.hands[hand]))
       m_gripped[hand] = frame.time;
   }
-  if (!m_gripped[kLeft] || !m_gripped[kRight]) return m_carrying.reset();
+  if (!holds(left) || !holds(right)) return m_carrying.reset();
   const bool idle = left.draw < kIdle && right.draw < kIdle, kept = keeps[kLeft] || keeps[kRight];
-  const bool together = std::abs(*m_gripped[kLeft] - *m_gripped[kRight]) < kTogether;
+  const bool together = frame.time - std::min(*m_gripped[kLeft], *m_gripped[kRight]) < kTogether;
   if (!m_carrying && !(idle && (together || !kept))) return;
   m_usesGrip = {true, true};
   const std::array<Vector3, 2> hands{left.grip->position, right.grip->position};

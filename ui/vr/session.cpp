@@ -21,8 +21,8 @@ void requireVersion(const XrGraphicsRequirementsOpenGLKHR& requirements) {
   const XrVersion asked = requirements.minApiVersionSupported;
   if (XR_MAKE_VERSION(major, minor, 0) >= asked) return;
   throw Error("The headset asks for OpenGL " + std::to_string(XR_VERSION_MAJOR(asked)) + "." +
-              std::to_string(XR_VERSION_MINOR(asked)) + ", and there is " + std::to_string(major) + "." +
-              std::to_string(minor) + " here; a newer graphics driver may bring it.");
+              std::to_string(XR_VERSION_MINOR(asked)) + ", and the window draws with " + std::to_string(major) + "." +
+              std::to_string(minor) + "; a newer graphics driver may bring it.");
 }
 
 }  // namespace

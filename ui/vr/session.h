@@ -26,6 +26,7 @@ class Session {
   void handleEvents(const std::function<void(const XrEventDataBuffer&)>& others = {});
   bool running() const { return m_running; }  ///< there are frames to draw
   bool focused() const { return m_state == XR_SESSION_STATE_FOCUSED; }
+  bool visible() const { return m_state == XR_SESSION_STATE_VISIBLE; }  ///< behind a menu of the headset
   const std::optional<Ending>& ending() const { return m_ending; }
   void requestExit();
 

@@ -190,6 +190,8 @@ void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
   menu->addSeparator();
   m_adding.push_back(m_actions.add(menu, QStringLiteral("add.mesh"), QStringLiteral("Import mesh…"),
                                    {QKeySequence(QStringLiteral("Ctrl+I"))}, [this] { chooseMesh(MeshUse::Matter); }));
+  m_adding.back()->setToolTip(
+      QStringLiteral("Makes a body of a file of another program: OBJ, STL, PLY, glTF, FBX, 3MF and others."));
   menu->setToolTipsVisible(true);
   showCounts();
   for (QAction* action : m_adding) action->setEnabled(m_session.isReady());

@@ -106,6 +106,7 @@ void VrMode::begin() {
 void VrMode::enter() {
   if (m_window) leave();
   m_entersNext = m_headset && m_leaving;
+  m_triesNext = false;
   if (active()) return showState();
   try {
     begin();

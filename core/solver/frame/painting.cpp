@@ -2,6 +2,7 @@
 // Matter is made of another material by hand while the scene runs, and of its own again by undo.
 #include "core/base/error.h"
 #include "core/matter/stablephase.h"
+#include "core/solver/contact/frozenoverlap.h"
 #include "core/solver/frame/solverimpl.h"
 
 #include <algorithm>
@@ -54,7 +55,11 @@ void Solver::Impl::startAnew(std::span<const uint32_t> indices, std::span<const 
     const double room = store.motion()[i] == api::Motion::Gas ? cell : store.position()[i].w;
     const bool stays = store.velocity()[i].w == 0;
     store.mass()[i] = mass[k] > 0 ? mass[k] : static_cast<float>(phase.restDensity(store, i) * room);
+    const api::Motion before = store.motion()[i];
     phase.initialise(store, i, i + size_t{1}, false);
+    // What is handed over to a solid and to a fluid are not the same: see frozenoverlap.h.
+    const bool holds = store.motion()[i] == api::Motion::Solid;
+    if (holds != (before == api::Motion::Solid)) store.compression()[i] = holds ? overlap::kUnknown : 0;
     if (stays) store.velocity()[i].w = 0;
   }
 }
