@@ -33,7 +33,7 @@ inline constexpr const char* kTemperature = "temperature";         ///< Float64:
 inline constexpr const char* kSolidFraction = "solid_fraction";    ///< Float32
 inline constexpr const char* kLiquidFraction = "liquid_fraction";  ///< Float32
 inline constexpr const char* kGasFraction = "gas_fraction";        ///< Float32
-inline constexpr const char* kCompression = "compression_offset";  ///< Float32: C0 handed over when a solid melts
+inline constexpr const char* kCompression = "compression_offset";  ///< Float32: see core/solver/contact/handover.h
 inline constexpr const char* kDensityError = "density_error";      ///< Float32: C of the last iteration
 inline constexpr const char* kPressure = "pressure";               ///< Float32: Pa, mean of the last frame
 }  // namespace field

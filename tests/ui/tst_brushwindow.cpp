@@ -131,7 +131,7 @@ class TestBrushWindow : public SampleWindowTest {
     m_window->tools().setBrush(brush);
   }
 
-  /// Brackets with Shift, as keyboards send them; brushes without a flow stay as they are.
+  /// Brackets with Shift, as keyboards send them; brushes without a flow stay as they are, and say so.
   void bracketsWithShiftChangeTheFlow() {
     Toolbox& tools = m_window->tools();
     const BrushSettings before = tools.brush();
@@ -150,8 +150,10 @@ class TestBrushWindow : public SampleWindowTest {
     QCOMPARE(tools.brush().radius, before.radius);
     brush.shape = "cube";
     tools.setBrush(brush);
+    QSignalSpy refused(&tools, &Toolbox::refused);
     QTest::keyClick(view(), Qt::Key_BraceRight, Qt::ShiftModifier);
     QVERIFY(tools.brush() == brush);
+    QCOMPARE(refused.count(), 1);
     tools.setBrush(before);
   }
 

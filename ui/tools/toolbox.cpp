@@ -255,7 +255,10 @@ void Toolbox::stepFlow(int direction) {
   if (!m_document.plugins()) return;
   const api::ParameterList own = m_document.plugins()->parameters(m_brush.shape);
   const api::ParameterDeclaration* flow = findDeclaration(own, kFlow);
-  if (!flow || flow->kind != api::ParameterKind::Number) return;
+  if (!flow || flow->kind != api::ParameterKind::Number) {
+    const QString label = pluginLabel(m_document.plugins(), m_brush.shape);
+    return refuse(QStringLiteral("The flow stays."), QStringLiteral("The brush “%1” has none.").arg(label));
+  }
   BrushSettings brush = m_brush;
   const double now = std::get<double>(valueOf(m_brush.shapeParameters(), *flow));
   const double next = now * (direction > 0 ? kBrushStep : 1 / kBrushStep);

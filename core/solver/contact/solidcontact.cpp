@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/solidcontact.h"
 
-#include "core/solver/contact/frozenoverlap.h"
+#include "core/solver/contact/handover.h"
 #include "core/solver/contact/nearneighbours.h"
 
 #include <algorithm>
@@ -280,7 +280,7 @@ void SolidContact::handOver(ParticleStore& store) {
   float* offset = store.compression();
   everywhere([&](Chunk& chunk, size_t k) {
     float& own = offset[chunk.who[k]];
-    if (own != overlap::kUnknown) return;
+    if (own != handover::kUnknownOverlap) return;
     own = 0;
     for (uint32_t q = chunk.begin[k]; q < chunk.begin[k + 1]; ++q) {
       if (chunk.facing[q].w == kRound) continue;
@@ -289,21 +289,10 @@ void SolidContact::handOver(ParticleStore& store) {
   });
 }
 
-void SolidContact::decayOverlap(ParticleStore& store, double dt) const {
-  const float factor = static_cast<float>(1 / (1 + dt / overlap::kHandOverTime));
-  float* offset = store.compression();
-  forChunks(m_solids.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) {
-      float& own = offset[m_solids[k]];
-      own = own < 1e-5f ? 0 : own * factor;
-    }
-  });
-}
-
 SolidContact::Touch SolidContact::touchOf(const ParticleStore& store, const Chunk& chunk, size_t k, size_t q) const {
   Touch touch = overlapOf(store, chunk, k, q);
   if (!(touch.depth > 0) || chunk.facing[q].w == kRound) return touch;
-  const float allowed = static_cast<float>(m_spacing) * overlap::allowed(store, chunk.who[k], chunk.other[q]);
+  const float allowed = static_cast<float>(m_spacing) * handover::allowedOverlap(store, chunk.who[k], chunk.other[q]);
   touch.depth = std::max(0.0f, touch.depth - allowed);
   return touch;
 }

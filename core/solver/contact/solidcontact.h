@@ -39,11 +39,9 @@ class SolidContact {
   /// Before the substeps of a frame: what is fixed may have been put elsewhere.
   void startFrame() { std::fill(m_stood.begin(), m_stood.end(), uint8_t{0}); }
   /// Once per substep, when positions have been predicted: finds along what the pairs meet. What has just frozen is
-  /// handed its overlap, see frozenoverlap.h.
+  /// handed its overlap, see handover.h.
   void begin(ParticleStore& store);
   void project(ParticleStore& store);
-  /// Once per substep: takes back what overlap was handed over.
-  void decayOverlap(ParticleStore& store, double dt) const;
   /// Share of the solids inside a lattice that is squeezed so far that its own, untied particles meet, when the lists
   /// were made: by a third at least.
   double squeezedShare() const { return m_squeezedShare; }

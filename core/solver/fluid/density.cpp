@@ -22,7 +22,6 @@ constexpr float kSolidLeast = 1, kSolidMost = 1.45f;
 constexpr float kStaticLeast = 0.1f, kStaticMost = 1.6f;
 /// One Jacobi step alone must be gentler, or resting liquid boils.
 constexpr double kSingleStepRelaxation = 0.4;
-constexpr double kHandOverTime = 0.1;  // s
 
 bool isFluid(api::Motion m) { return m == api::Motion::Liquid || m == api::Motion::Gas; }
 
@@ -425,17 +424,6 @@ void DensityStage::handOver(ParticleStore& store, const Neighbours& neighbours, 
       const uint32_t i = melted[k];
       const float walls = m_walls.of(i, m_points[i]).excess;
       store.compression()[i] = std::max(0.0f, m_volume[i] + m_sums[k].excess - 1 + walls);
-    }
-  });
-}
-
-void DensityStage::decayCompression(ParticleStore& store, double dt) const {
-  const float factor = static_cast<float>(1 / (1 + dt / kHandOverTime));
-  float* offset = store.compression();
-  forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) {
-      const uint32_t i = m_fluid[k];
-      offset[i] = offset[i] < 1e-5f ? 0 : offset[i] * factor;
     }
   });
 }

@@ -52,9 +52,8 @@ class DensityStage {
   /// and is left out of the error.
   DensityError measure(ParticleStore& store, const Neighbours& neighbours, const Bounds& bounds);
   /// Hands the present compression over to particles that have just become fluid: they start without a push, and the
-  /// offset decays (see decayCompression). Call after refresh().
+  /// offset decays (see handover.h). Call after refresh().
   void handOver(ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> melted);
-  void decayCompression(ParticleStore& store, double dt) const;
 
   /// Liquid and gas particles, ascending.
   std::span<const uint32_t> fluid() const { return m_fluid; }

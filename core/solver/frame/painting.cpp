@@ -2,7 +2,7 @@
 // Matter is made of another material by hand while the scene runs, and of its own again by undo.
 #include "core/base/error.h"
 #include "core/matter/stablephase.h"
-#include "core/solver/contact/frozenoverlap.h"
+#include "core/solver/contact/handover.h"
 #include "core/solver/frame/solverimpl.h"
 
 #include <algorithm>
@@ -57,9 +57,9 @@ void Solver::Impl::startAnew(std::span<const uint32_t> indices, std::span<const 
     store.mass()[i] = mass[k] > 0 ? mass[k] : static_cast<float>(phase.restDensity(store, i) * room);
     const api::Motion before = store.motion()[i];
     phase.initialise(store, i, i + size_t{1}, false);
-    // What is handed over to a solid and to a fluid are not the same: see frozenoverlap.h.
+    // What is handed over to a solid and to a fluid are not the same: see handover.h.
     const bool holds = store.motion()[i] == api::Motion::Solid;
-    if (holds != (before == api::Motion::Solid)) store.compression()[i] = holds ? overlap::kUnknown : 0;
+    if (holds != (before == api::Motion::Solid)) store.compression()[i] = holds ? handover::kUnknownOverlap : 0;
     if (stays) store.velocity()[i].w = 0;
   }
 }

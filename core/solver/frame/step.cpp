@@ -2,6 +2,7 @@
 // One frame: substepped XPBD (Macklin et al. 2019), then heat, then phase changes, which edit the structure. Every loop
 // writes only its own particle, so that the result does not depend on the number of threads.
 #include "core/base/parallel.h"
+#include "core/solver/contact/handover.h"
 #include "core/solver/frame/solverimpl.h"
 
 #include <algorithm>
@@ -343,8 +344,7 @@ void Solver::Impl::changeVelocities(uint32_t index, double dt) {
   for (ExternalImpulse* impulse :
        {&viscosity.externalImpulse(), &impacts.externalImpulse(), &rebound.externalImpulse(), &rigid.externalImpulse()})
     external.add(impulse->drain());
-  timed(Stage::Density, [&] { density.decayCompression(store, dt); });
-  timed(Stage::Contact, [&] { contact.decayOverlap(store, dt); });
+  timed(Stage::Density, [&] { handover::decay(store, dt); });
 }
 
 /// What walls and fixed particles moved in this substep, as impulse.

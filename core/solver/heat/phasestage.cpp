@@ -3,7 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "core/math/thesis.h"
-#include "core/solver/contact/frozenoverlap.h"
+#include "core/solver/contact/handover.h"
 
 #include <algorithm>
 #include <functional>
@@ -146,7 +146,7 @@ bool PhaseStage::update(ParticleStore& store, std::vector<uint32_t>& melted) {
       const Motion next = nextMotion(store, i);
       if ((motion == Motion::Solid) != (next == Motion::Solid)) {
         m_turns[i] = next == Motion::Solid ? Turn::Froze : Turn::Melted;
-        if (next == Motion::Solid) store.compression()[i] = overlap::kUnknown;
+        if (next == Motion::Solid) store.compression()[i] = handover::kUnknownOverlap;
       }
       motion = next;
     }
