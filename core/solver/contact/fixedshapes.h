@@ -16,8 +16,9 @@ namespace ps {
 /// nearest place and faces the particle; the next at the nearest place that is half a spacing before it, as in a
 /// corner. So both sides of a thin wall are met, and edges are round. Errors: half a space is more than there is behind
 /// a wall that bends away, as at the rim of a cup, where liquid is held back within a spacing; liquids on both sides of
-/// a wall thinner than a spacing see each other. It cannot do: shapes that move, and periodic boxes, where bodies are
-/// met as their particles.
+/// a wall thinner than a spacing see each other. A shape that is led to other places goes where three of its particles
+/// go, as long as all of them keep their places in it; what is near of it is then found in every substep. It cannot do:
+/// periodic boxes, and moving bodies whose particles lie in a line; these are met as their particles.
 class FixedShapes {
  public:
   /// Planes of a particle, at most.
@@ -34,6 +35,8 @@ class FixedShapes {
     WallPlane plane;
     uint32_t body = 0;
   };
+  /// Which of the shapes are meant: all, those that do not move in this frame, or one of movers().
+  static constexpr int kAll = -1, kStill = -2;
 
   /// For stages on their own.
   static const FixedShapes& none();
@@ -47,11 +50,16 @@ class FixedShapes {
   void configure(const SolverSettings& settings);
   /// Lists are others than they were, as of another state.
   void forget() { m_stood.clear(); }
-  /// Once per frame, when indices may have changed: which shapes stand for their particles.
-  void refresh(const ParticleStore& store);
+  /// Once per frame, when indices may have changed: which shapes stand for their particles. `led`: some fixed particles
+  /// will be set in motion in it.
+  void refresh(const ParticleStore& store, bool led);
   /// After refresh(), or with new lists: what is near each fluid particle. Without new ones, and where neither shapes
   /// nor who is fluid have changed, that is what it was.
   void refreshLists(const ParticleStore& store, const Neighbours& neighbours, bool newLists);
+  /// When positions have been predicted: shapes go where their particles went in this substep.
+  void advance(const ParticleStore& store);
+  /// After advance(), when fluids have got out of the way: what is near of those that moved, of fluids where they are.
+  void follow(const ParticleStore& store, const Neighbours& neighbours);
   bool any() const { return !m_standing.empty(); }
   /// A fixed particle for which its body's surface stands.
   bool isShaped(size_t i) const { return any() && m_shaped[i] != 0; }
@@ -63,17 +71,45 @@ class FixedShapes {
   /// Fluid particles, ascending, and m from each of them to the nearest surface, or as far as was looked.
   std::span<const uint32_t> fluids() const { return m_fluids; }
   float clearance(size_t fluid) const { return m_clearance[fluid]; }
+  /// Where what is near of it was found.
+  const Vector3& noted(size_t fluid) const { return m_noted[fluid]; }
+  /// m that shapes have gone, at most, since its clearance was noted; of a fluid whose clearance says nothing of those
+  /// that move, endless where a way between two places comes within `reach` m of the box of one.
+  double drift(size_t fluid, const Vector3& from, const Vector3& to, double reach) const;
+  /// Shapes that move in this frame.
+  bool moves() const { return !m_movers.empty(); }
+  std::span<const uint32_t> movers() const { return m_movers; }
+  /// Whether a way ends or begins within `reach` m of the box of a mover, as it was or is.
+  bool isBeside(uint32_t mover, const Vector3& from, const Vector3& to, double reach) const;
+  /// Where a place would be, had a mover carried it through this substep.
+  Vector3 carried(uint32_t mover, const Vector3& place) const;
+  /// m that what is at a place of a body's surface went in this substep.
+  Vector3 wayOf(uint32_t body, const Vector3& place) const;
   /// What is within `reach` m of a place, nearest first; returns how many.
-  size_t facesAt(const Vector3& place, double reach, Faces& faces) const;
+  size_t facesAt(const Vector3& place, double reach, Faces& faces, int which = kAll) const;
 
  private:
+  /// Particles of a shape that tell where it is: not in a line.
+  using Marks = std::array<uint32_t, 3>;
   struct Standing {
-    const FixedShape* shape;
-    Vector3 low, high;  ///< m, corners of the box around it in the scene
+    const FixedShape* shape = nullptr;
+    RigidMove pose, before;  ///< now, and when the substep began
+    Marks marks{};           ///< of one that may move
+    bool mayMove = false, moves = false;
+    Vector3 low, high;              ///< m, corners of the box around it in the scene
+    Vector3 lowBefore, highBefore;  ///< m, when the substep began
   };
-  bool nearest(const Vector3& place, double reach, std::span<const Plane> over, Face& face) const;
-  bool isInPlace(const ParticleStore& store, const FixedShape& shape, std::span<const uint32_t> particles) const;
-  void findNear(const Vector3& place, size_t fluid, Near* near);
+  static void setBox(Standing& standing);
+  bool nearest(const Vector3& place, double reach, std::span<const Plane> over, int which, Face& face) const;
+  bool isMeant(const Standing& standing, int which) const;
+  bool isMarked(const ParticleStore& store, const FixedShape& shape, std::span<const uint32_t> particles) const;
+  bool fits(const ParticleStore& store, const RigidMove& pose, std::span<const uint32_t> particles) const;
+  bool findMarks(const ParticleStore& store, std::span<const uint32_t> particles, Marks& marks) const;
+  RigidMove poseOf(const ParticleStore& store, const Marks& marks) const;
+  bool findPose(const ParticleStore& store, std::span<const uint32_t> particles, bool led, Standing& standing) const;
+  void findMovers();
+  void noteAll(const ParticleStore& store, const Neighbours& neighbours);
+  void note(const ParticleStore& store, const Neighbours& neighbours, size_t fluid);
 
   std::vector<FixedShape> m_shapes;
   std::vector<Standing> m_standing, m_stood;       ///< m_stood: those that m_near is of
@@ -83,7 +119,12 @@ class FixedShapes {
   std::vector<uint32_t> m_fluids, m_present, m_begin;
   std::vector<uint8_t> m_count;
   std::vector<float> m_clearance;
+  std::vector<Vector3> m_noted;   ///< m, by place among the fluids
+  std::vector<uint8_t> m_beside;  ///< likewise: 1 where a mover was near, and lists say nothing of where that was
   std::vector<Near> m_near;
+  std::vector<uint32_t> m_movers;             ///< places in m_standing
+  double m_drift = 0;                         ///< m
+  bool m_isNoted = false, m_started = false;  ///< in this substep; since the last noteAll()
 };
 
 }  // namespace ps

@@ -22,12 +22,12 @@ constexpr double kStands = 1e-6;  ///< half spacings
 void ShapeContact::configure(const SolverSettings& settings) { m_rest = 0.5 * settings.spacing; }
 
 /// Where a way ends that slides along what it meets; `body` is set to what it met last.
-Vector3 ShapeContact::slid(const FixedShapes& shapes, Vector3 at, Vector3 way, uint32_t& body) const {
+Vector3 ShapeContact::slid(const FixedShapes& shapes, Vector3 at, Vector3 way, uint32_t& body, int which) const {
   for (int piece = 0; piece < kMostPieces; ++piece) {
     const double length = way.norm();
     if (!(length > kStands * m_rest)) return at + way;
     FixedShapes::Faces faces;
-    const size_t count = shapes.facesAt(at, length + (1 + kTouch) * m_rest, faces);
+    const size_t count = shapes.facesAt(at, length + (1 + kTouch) * m_rest, faces, which);
     if (count == 0) return at + way;
     const double gap = faces[0].distance - m_rest;
     if (gap > kTouch * m_rest) {
@@ -53,8 +53,20 @@ Vector3 ShapeContact::slid(const FixedShapes& shapes, Vector3 at, Vector3 way, u
   return at;
 }
 
-bool ShapeContact::isBelieved(const api::Float4& at, const api::Float4& noted) const {
-  return (vectorOf(at) - vectorOf(noted)).squaredNorm() < kBelieved * kBelieved * m_rest * m_rest;
+/// The same of a whole substep, past what moves in it: whoever it meets, goes on along it as seen by it.
+Vector3 ShapeContact::sweptOf(const FixedShapes& shapes, const Vector3& from, const Vector3& to, uint32_t& body) const {
+  Vector3 end = slid(shapes, from, to - from, body, FixedShapes::kStill);
+  for (const uint32_t mover : shapes.movers()) {
+    if (!shapes.isBeside(mover, from, end, (1 + kTouch) * m_rest)) continue;
+    const Vector3 carried = shapes.carried(mover, from);
+    const Vector3 along = slid(shapes, carried, end - carried, body, static_cast<int>(mover));
+    if (isApart(along, end)) end = slid(shapes, from, along - from, body, FixedShapes::kStill);
+  }
+  return end;
+}
+
+bool ShapeContact::isBelieved(const Vector3& at, const Vector3& noted) const {
+  return (at - noted).squaredNorm() < kBelieved * kBelieved * m_rest * m_rest;
 }
 
 /// By more than rounding.
@@ -63,12 +75,12 @@ bool ShapeContact::isApart(const Vector3& a, const Vector3& b) const {
 }
 
 /// Whether a way comes near no surface.
-bool ShapeContact::isFree(const FixedShapes& shapes, std::span<const api::Float4> built, size_t fluid,
-                          const api::Float4& from, const api::Float4& to) const {
-  const double room = double{shapes.clearance(fluid)} - (1 + kTouch) * m_rest;
+bool ShapeContact::isFree(const FixedShapes& shapes, size_t fluid, const Vector3& from, const Vector3& to) const {
+  const double rest = (1 + kTouch) * m_rest;
+  const double room = double{shapes.clearance(fluid)} - rest - shapes.drift(fluid, from, to, rest);
   if (!(room > 0)) return false;
-  const Vector3 noted = vectorOf(built[shapes.fluids()[fluid]]);
-  return (vectorOf(from) - noted).squaredNorm() < room * room && (vectorOf(to) - noted).squaredNorm() < room * room;
+  const Vector3& noted = shapes.noted(fluid);
+  return (from - noted).squaredNorm() < room * room && (to - noted).squaredNorm() < room * room;
 }
 
 template <class Body>
@@ -92,9 +104,9 @@ void ShapeContact::move(ParticleStore& store, uint32_t i, const Vector3& to, uin
 }
 
 /// What began nearer to a face than it may rest.
-void ShapeContact::giveRoom(ParticleStore& store, const FixedShapes& shapes, uint32_t i,
-                            const api::Float4& noted) const {
-  if (!isBelieved(store.previous()[i], noted)) return;
+void ShapeContact::giveRoom(ParticleStore& store, const FixedShapes& shapes, size_t fluid) const {
+  const uint32_t i = shapes.fluids()[fluid];
+  if (!isBelieved(vectorOf(store.previous()[i]), shapes.noted(fluid))) return;
   for (const FixedShapes::Near& near : shapes.near(i)) {
     const double missing = m_rest - double{near.plane.heightOf(store.previous()[i])};
     if (!(missing > 0)) continue;
@@ -104,19 +116,18 @@ void ShapeContact::giveRoom(ParticleStore& store, const FixedShapes& shapes, uin
   }
 }
 
-void ShapeContact::sweep(ParticleStore& store, const FixedShapes& shapes, const Neighbours& neighbours) {
+void ShapeContact::sweep(ParticleStore& store, const FixedShapes& shapes) {
   if (!shapes.any()) return;
   m_swept.resize(shapes.fluids().size());
   forFluids(shapes, [&](size_t fluid, uint32_t i, size_t chunk) {
-    giveRoom(store, shapes, i, neighbours.built()[i]);
-    api::Float4& position = store.position()[i];
-    const api::Float4& from = store.previous()[i];
-    if (!isFree(shapes, neighbours.built(), fluid, from, position)) {
+    giveRoom(store, shapes, fluid);
+    const Vector3 from = vectorOf(store.previous()[i]), to = vectorOf(store.position()[i]);
+    if (!isFree(shapes, fluid, from, to)) {
       uint32_t body = 0;
-      const Vector3 way = vectorOf(position) - vectorOf(from), end = slid(shapes, vectorOf(from), way, body);
-      if (isApart(end, vectorOf(position))) move(store, i, end, body, chunk);
+      const Vector3 end = sweptOf(shapes, from, to, body);
+      if (isApart(end, to)) move(store, i, end, body, chunk);
     }
-    m_swept[fluid] = position;
+    m_swept[fluid] = store.position()[i];
   });
 }
 
@@ -135,27 +146,23 @@ void ShapeContact::projectNear(ParticleStore& store, const FixedShapes& shapes) 
   forFluids(shapes, [&](size_t, uint32_t i, size_t chunk) { project(store, shapes.near(i), i, chunk); });
 }
 
-void ShapeContact::finish(ParticleStore& store, const FixedShapes& shapes, const Neighbours& neighbours,
-                          const WallStage& walls) {
+void ShapeContact::finish(ParticleStore& store, const FixedShapes& shapes, const WallStage& walls) {
   if (!shapes.any()) return;
-  const std::span<const api::Float4> built = neighbours.built();
   forFluids(shapes, [&](size_t fluid, uint32_t i, size_t chunk) {
-    api::Float4& position = store.position()[i];
-    const api::Float4& from = m_swept[fluid];
-    if (isFree(shapes, built, fluid, from, position)) return;
-    const Vector3 asked = vectorOf(position);
+    const Vector3 from = vectorOf(m_swept[fluid]), asked = vectorOf(store.position()[i]), &noted = shapes.noted(fluid);
+    if (isFree(shapes, fluid, from, asked)) return;
     uint32_t body = 0;
-    if (isBelieved(position, built[i]) && isBelieved(from, built[i])) {
+    if (isBelieved(asked, noted) && isBelieved(from, noted)) {
       project(store, shapes.near(i), i, chunk);
       if (!shapes.near(i).empty()) body = shapes.near(i)[0].body;
     } else {
-      const Vector3 end = slid(shapes, vectorOf(from), asked - vectorOf(from), body);
+      const Vector3 end = slid(shapes, from, asked - from, body, FixedShapes::kAll);
       if (isApart(end, asked)) move(store, i, end, body, chunk);
     }
-    Vector3 kept = vectorOf(position);
+    Vector3 kept = vectorOf(store.position()[i]);
     if (kept == asked) return;
     walls.clamp(kept);
-    if (isApart(kept, vectorOf(position))) move(store, i, kept, body, chunk);
+    if (isApart(kept, vectorOf(store.position()[i]))) move(store, i, kept, body, chunk);
   });
 }
 

@@ -142,6 +142,7 @@ void ImplicitViscosity::findGroups(const Neighbours& neighbours) {
     v->resize(rows);
   }
   m_own.resize(rows);
+  m_drag.resize(rows);
   m_inverse.resize(rows);
   m_shear.resize(rows);
   m_touched.resize(segments);
@@ -182,13 +183,27 @@ bool ImplicitViscosity::addWall(const WallPlane& p, const api::Float4& at, float
 
 template <class Visit>
 void ImplicitViscosity::forPlanes(uint32_t i, Visit&& visit) const {
-  for (size_t w = 0; w < m_held.size(); ++w) visit(m_held[w].at(m_points[i]), m_reactions->ofWall(m_wallOf[w]));
-  for (const FixedShapes::Near& face : m_shapes->near(i)) visit(face.plane, m_reactions->ofBody(face.body));
+  constexpr api::Float4 kStill{0, 0, 0, 0};
+  for (size_t w = 0; w < m_held.size(); ++w) visit(m_held[w].at(m_points[i]), kStill, m_reactions->ofWall(m_wallOf[w]));
+  const double rate = m_settings.substeps / m_settings.dt;
+  for (const FixedShapes::Near& face : m_shapes->near(i)) {
+    api::Float4 velocity = kStill;
+    if (m_shapes->moves()) velocity = float4Of(rate * m_shapes->wayOf(face.body, vectorOf(m_points[i])), 0);
+    visit(face.plane, velocity, m_reactions->ofBody(face.body));
+  }
 }
 
-bool ImplicitViscosity::addWalls(uint32_t i, float weight, SymmetricBlock& block) const {
+bool ImplicitViscosity::addWalls(uint32_t i, float weight, SymmetricBlock& block, api::Float4& drag) const {
   bool touched = false;
-  forPlanes(i, [&](const WallPlane& p, int) { touched = addWall(p, m_points[i], weight, block) || touched; });
+  forPlanes(i, [&](const WallPlane& p, const api::Float4& velocity, int) {
+    SymmetricBlock own{0, 0, 0, 0, 0, 0};
+    if (!addWall(p, m_points[i], weight, own)) return;
+    touched = true;
+    block.xx += own.xx, block.yy += own.yy, block.zz += own.zz;
+    block.xy += own.xy, block.xz += own.xz, block.yz += own.yz;
+    const api::Float4 d = times(own, velocity);
+    drag.x += d.x, drag.y += d.y, drag.z += d.z;
+  });
   return touched;
 }
 
@@ -204,10 +219,11 @@ void ImplicitViscosity::tellHeld(const ParticleStore& store, const PairLists& li
       if (m_roles[i] != Role::Viscous) continue;
       const Vector3 place = vectorOf(store.position()[i]), velocity = vectorOf(store.velocity()[i]);
       const auto weight = static_cast<float>(dt * double{m_points[i].w} / scale * viscosity[i]);
-      forPlanes(i, [&](const WallPlane& p, int slot) {
+      forPlanes(i, [&](const WallPlane& p, const api::Float4& of, int slot) {
         SymmetricBlock block{0, 0, 0, 0, 0, 0};
+        const api::Float4& v = store.velocity()[i];
         if (slot != Reactions::kNone && addWall(p, m_points[i], weight, block))
-          m_reactions->add(s, slot, place, vectorOf(times(block, store.velocity()[i])));
+          m_reactions->add(s, slot, place, vectorOf(times(block, {v.x - of.x, v.y - of.y, v.z - of.z, 0})));
       });
       for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
         const uint32_t j = lists.index[q];
@@ -236,9 +252,10 @@ void ImplicitViscosity::assemble(const ParticleStore& store, const PairLists& li
       const uint32_t i = row(k);
       const float mass = store.mass()[i];
       SymmetricBlock own{mass, mass, mass, 0, 0, 0};
+      m_drag[k] = {0, 0, 0, 0};
       if (m_roles[i] == Role::Viscous) {
         const double volume = double{m_points[i].w} / scale;
-        touched = addWalls(i, static_cast<float>(dt * volume * viscosity[i]), own) || touched;
+        touched = addWalls(i, static_cast<float>(dt * volume * viscosity[i]), own, m_drag[k]) || touched;
       }
       m_own[k] = own;
       const api::Float4 &d = m_diagonal[k], &o = m_offDiagonal[k];
@@ -268,7 +285,8 @@ void ImplicitViscosity::multiply(const ParticleStore& store, const PairLists& li
   }
 }
 
-/// Right side b = -dt K v*, the first guess and its residual.
+/// Right side b = -dt K v*, where surfaces that move count by how fast v* is beside them; the first guess and its
+/// residual.
 void ImplicitViscosity::start(ParticleStore& store, const PairLists& lists, const api::Float4* guess) {
   const size_t n = store.size();
   const api::Float4* velocity = store.velocity();
@@ -280,7 +298,8 @@ void ImplicitViscosity::start(ParticleStore& store, const PairLists& lists, cons
     double reference = 0, rounding = 0;
     for (size_t k = segment.first; k < segment.last; ++k) {
       const uint32_t i = row(k);
-      const api::Float4& q = m_product[k];
+      api::Float4 &q = m_product[k], &drag = m_drag[k];
+      q = {q.x - drag.x, q.y - drag.y, q.z - drag.z, 0};
       m_rest[k] = {-q.x, -q.y, -q.z, 0};
       reference += dot(q, times(m_inverse[k], q));
       const double v2 = dot(velocity[i], velocity[i]);
@@ -401,9 +420,14 @@ void ImplicitViscosity::shearRates(const ParticleStore& store, const Neighbours&
     for (size_t k = segment.first; k < segment.last; ++k) {
       const uint32_t i = row(k);
       if (m_roles[i] != Role::Viscous) continue;
-      SymmetricBlock wall{0, 0, 0, 0, 0, 0};
-      addWalls(i, 0.5f, wall);
-      rates[i] = std::sqrt(scale * m_shear[k] + static_cast<float>(dot(velocity[i], times(wall, velocity[i]))));
+      double wall = 0;
+      forPlanes(i, [&](const WallPlane& p, const api::Float4& of, int) {
+        SymmetricBlock block{0, 0, 0, 0, 0, 0};
+        const api::Float4& own = velocity[i];
+        const api::Float4 v{own.x - of.x, own.y - of.y, own.z - of.z, 0};
+        if (addWall(p, m_points[i], 0.5f, block)) wall += dot(v, times(block, v));
+      });
+      rates[i] = std::sqrt(scale * m_shear[k] + static_cast<float>(wall));
     }
   });
 }

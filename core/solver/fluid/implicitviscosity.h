@@ -18,9 +18,10 @@ struct SymmetricBlock {
 /// kStressNormalisation).
 /// Solved matrix-free by conjugate gradients with the 3 x 3 diagonal blocks as preconditioner, from the last dv.
 ///
-/// Walls, and the surfaces of fixed bodies, hold the liquid still at their plane: half a space of liquid whose velocity
-/// goes on linearly through zero there (Morris, Fox & Zhu 1997), with a fifth more drag along them, since films bend.
-/// Solids, fixed or not, hold it at their surface, halfway between the two particles of a pair.
+/// Walls, and the surfaces of fixed bodies, hold the liquid at their plane, at the velocity that these have: half a
+/// space of liquid whose velocity goes on linearly through zero there (Morris, Fox & Zhu 1997), with a fifth more drag
+/// along them, since films bend. Solids, fixed or not, hold it at their surface, halfway between the two particles of a
+/// pair.
 ///
 /// An unfinished iteration would leak momentum through its residual. Groups of particles that touch no boundary are
 /// therefore solved in the space of motions without linear and angular momentum of their own (preconditioner P D^-1,
@@ -64,8 +65,9 @@ class ImplicitViscosity {
   void loadPoints(const ParticleStore& store, const DensityStage& density);
   void assemble(const ParticleStore& store, const PairLists& lists, double scale, const float* viscosity);
   bool addWall(const WallPlane& plane, const api::Float4& at, float weight, SymmetricBlock& block) const;
-  bool addWalls(uint32_t i, float weight, SymmetricBlock& block) const;
-  /// visit(plane, slot of its owner's reaction) for each that liquid sticks to near particle i.
+  /// And to `drag` what those that move pull it along with, N s or as the weight is.
+  bool addWalls(uint32_t i, float weight, SymmetricBlock& block, api::Float4& drag) const;
+  /// visit(plane, its velocity in m/s, slot of its owner's reaction) for each that liquid sticks to near particle i.
   template <class Visit>
   void forPlanes(uint32_t i, Visit&& visit) const;
   void tellHeld(const ParticleStore& store, const PairLists& lists, const float* viscosity, double scale);
@@ -97,6 +99,7 @@ class ImplicitViscosity {
   std::vector<api::Float4> m_points, m_direction;  ///< by particle
   std::vector<float> m_coefficient;                ///< by slot of the lists
   std::vector<SymmetricBlock> m_own, m_inverse;    ///< by row, as all below
+  std::vector<api::Float4> m_drag;                 ///< N s, of surfaces that move
   std::vector<api::Float4> m_diagonal, m_offDiagonal, m_change, m_rest, m_preconditioned, m_product;
   std::vector<float> m_shear;
   std::vector<uint8_t> m_touched;                ///< by segment: a wall holds some of it

@@ -22,10 +22,11 @@ void Solver::Impl::freshLists() {
     reordered = false;
     structureChanged = true;
   }
-  shapes.refresh(store);
+  const bool led = motion.movesWithin(time, settings.dt);
+  shapes.refresh(store, led);
   shapes.refreshLists(store, neighbours, newLists);
   density.refresh(store, neighbours);
-  swept.refresh(store, motion.movesWithin(time, settings.dt));
+  swept.refresh(store, led);
   if (structureChanged) return listsChanged(true);
   refreshLiquidContact();  // liquid may have become vapour, or vapour liquid
 }

@@ -285,7 +285,8 @@ void Solver::Impl::substep(uint32_t index) {
     balance.mark(store, Part::Scheme, 1 / dt);  // places are rounded
     impacts.sweep(store, neighbours, {constraints, pieceOf, rigid.members()});
     wallStage.project(store);
-    shapeContact.sweep(store, shapes, neighbours);
+    shapes.advance(store);
+    shapeContact.sweep(store, shapes);
   });
   balance.mark(store, Part::Contact, 1 / dt);
   timed(Stage::Neighbours, [&] {
@@ -294,7 +295,10 @@ void Solver::Impl::substep(uint32_t index) {
       listsChanged(false);
     }
   });
-  timed(Stage::Contact, [&] { rigid.strike(store); });
+  timed(Stage::Contact, [&] {
+    shapes.follow(store, neighbours);
+    rigid.strike(store);
+  });
   balance.mark(store, Part::Impact, 1 / dt);
   structure([&] { constraints.predict(store, index); }, dt);
   balance.mark(store, Part::Structure, 1 / dt);
@@ -311,7 +315,7 @@ void Solver::Impl::substep(uint32_t index) {
   timed(Stage::Contact, [&] {
     wallStage.project(store);
     swept.apply(store, neighbours, wallStage, contact, constraints.graph(store.size()), rigid.members());
-    shapeContact.finish(store, shapes, neighbours, wallStage);
+    shapeContact.finish(store, shapes, wallStage);
     external.add(1 / dt * rigid.hold(store, swept.held(), swept.heldBy()));
     external.add(1 / dt * rigid.keepInside(store));
     balance.mark(store, Part::Contact, 1 / dt);
