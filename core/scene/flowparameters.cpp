@@ -23,11 +23,13 @@ constexpr api::ParameterDeclaration kEmitter[] = {
     number({"start", "Opens at", "", "s"}, {0, 0, 60, 0, 1e9}, {"Time", "When it begins to pour.", "0 at once", ""}),
     related("should be > start", number({"stop", "Closes at", "", "s"}, {1e9, 0, 60, 0, 1e9},
                                         {"Time", "When it stops pouring.", "10 for ten seconds of rain", ""})),
-    integer({"most", "At most", "", ""}, {20000, 100, 100000, 0, 20000000},
-            {"Time",
-             "Particles of this emitter that may live at a time: it waits while there are so many, so that a tap left "
-             "open does not fill the computer.",
-             "20000; with a sink below it never stops", ""}),
+    integer(
+        {"most", "Most particles", "", ""}, {20000, 100, 100000, 0, 20000000},
+        {"Time",
+         "Particles of this tap that may be there at a time: it waits while there are so many, and goes on when some "
+         "have been drained, so that a tap left open does not fill the computer. To pour so much and no more, say "
+         "when it closes.",
+         "20000; with a drain below it never stops", ""}),
 };
 
 constexpr api::ParameterDeclaration kSink[] = {

@@ -95,6 +95,11 @@ void MatterFlow::takeBack(Solver& solver, Layer ids) {
   m_born.energy += solver.heatLedger().sources - before;
 }
 
+void MatterFlow::empty(Solver& solver, Pipe& pipe) {
+  for (const Layer& layer : pipe.layers) takeBack(solver, layer);
+  pipe.layers.clear();
+}
+
 void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
   bool changed = false;
   for (auto at = m_pipes.begin(); at != m_pipes.end();) {
@@ -106,8 +111,7 @@ void MatterFlow::steer(Solver& solver, const Project& project, double dt) {
         pipe.diameter != numberOf(*emitter, "diameter") ||
         !(openBetween(*emitter, solver.time(), solver.time() + dt) > 0)) {
       changed = changed || !pipe.layers.empty();
-      for (const Layer& layer : pipe.layers) takeBack(solver, layer);
-      pipe.layers.clear();
+      empty(solver, pipe);
       pipe.last.clear();
       at = gone ? m_pipes.erase(at) : std::next(at);
       continue;
@@ -273,7 +277,8 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
   for (const Emitter& emitter : project.emitters) {
     const double open = openBetween(emitter, solver.time() - dt, solver.time());
     if (!(open > 0)) continue;
-    const double pitch = mouthOf(numberOf(emitter, "diameter"), spacing).pitch;
+    const Mouth mouth = mouthOf(numberOf(emitter, "diameter"), spacing);
+    const double pitch = mouth.pitch;
     const Job job{solver, project, materials, emitter, spacing, pitch, numberOf(emitter, "most"), birth};
     Pipe& pipe = m_pipes.try_emplace(emitter.id, Pipe{pitch, {}, {}, {}, {}, 0}).first->second;  // the first at once
     pipe.point = emitter.point, pipe.direction = emitter.direction;
@@ -288,7 +293,10 @@ void MatterFlow::pour(Solver& solver, const Project& project, std::span<const Ba
     if (due > most) m_limits.push_back({emitter.id + ".speed", speed, speed * most / due, "m/s", -1});
     pipe.travelled = std::min(pipe.travelled + due, most);
     for (; pipe.travelled >= pitch; pipe.travelled -= pitch) cross(job, pipe, pipe.travelled - pitch, living);
-    fill(job, pipe);
+    if (living + static_cast<double>(mouth.places.size()) > job.most)
+      empty(solver, pipe);
+    else
+      fill(job, pipe);
   }
   settle(solver);
 }

@@ -19,7 +19,8 @@ class StateWriter;
 ///
 /// A mouth is the end of a short pipe: the layers that come next, as many as a particle's reach is long, are there
 /// already, held at the speed of the jet, so that what has just left leans on them instead of on nothing. A layer is
-/// poured when it crosses the mouth. A tap that is shut holds nothing.
+/// poured when it crosses the mouth. A tap that is shut holds nothing, nor does one that waits until there are fewer
+/// particles.
 class MatterFlow {
  public:
   /// Gives birth to an emitter's particles; returns their ids, or none where there can be none.
@@ -66,6 +67,7 @@ class MatterFlow {
   Spawn crossed(const Job& job, const Pipe& pipe, double offset) const;
   void born(const Job& job, const Spawn& layer, const std::vector<size_t>& places, Layer& ids);
   void takeBack(Solver& solver, Layer ids);
+  void empty(Solver& solver, Pipe& pipe);
   void settle(const Solver& solver);
 
   std::map<std::string, Pipe> m_pipes;  ///< by Emitter::id

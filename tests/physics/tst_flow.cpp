@@ -284,7 +284,9 @@ class TestFlow : public QObject {
     const uint64_t half = run(scene, 120).flow.poured.count;
     QCOMPARE(half, uint64_t{25 * 13});  // the first at once, 24 more in half a second
     scene["emitters"][0]["most"] = 30;
-    QCOMPARE(run(scene, 120).flow.poured.count, uint64_t{26});  // a third layer would make 39
+    const ps::FlowTotal waiting = run(scene, 120).flow;
+    QCOMPARE(waiting.poured.count, uint64_t{26});  // a third layer would make 39
+    QCOMPARE(waiting.held.count, uint64_t{0});     // nothing hangs in the mouth
     scene["emitters"][0]["speed"] = 0;
     QCOMPARE(run(scene, 120).flow.poured.count, uint64_t{0});
   }

@@ -105,6 +105,27 @@ class TestBodies : public SampleWindowTest {
     QCOMPARE(idsNow(session()).size(), 6000 + fillSolid(solid, 0.02).cells.size());
   }
 
+  /// A bowl of what would run away is made of what stands; undoing that chooses what was chosen before, not the first
+  /// of all materials.
+  void bowlsAreOfWhatStands() {
+    const std::string tin = document().addMaterial("tin");
+    m_window->selection().setMaterial(tin);
+    m_window->selection().setMaterial("water");
+    m_window->action(QStringLiteral("add.bowl"))->trigger();
+    const std::string stands = document().project().bodies.back().material;
+    QVERIFY(stands != "water" && stands != tin);
+    QCOMPARE(m_window->selection().material(), stands);
+    document().undoStack().undo();
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    m_window->selection().setMaterial(tin);
+    m_window->action(QStringLiteral("add.rope"))->trigger();
+    QVERIFY(m_window->selection().material() != tin);
+    document().undoStack().undo();
+    QCOMPARE(m_window->selection().material(), tin);
+    m_window->action(QStringLiteral("add.bowl"))->trigger();
+    QCOMPARE(document().project().bodies.back().material, tin);
+  }
+
   void aDroppedMeshIsImported() {
     const std::string before = writeProject(document().project());
     drop(QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj"));

@@ -314,6 +314,11 @@ class TestSession : public QObject {
     QCOMPARE(m_window->windowTitle(), QStringLiteral("mine [*][*].json[*] – Ice on a plate – PhaseSketch"));
     press(*m_window, Qt::Key_N, Qt::ControlModifier);
     QCOMPARE(m_window->windowTitle(), QStringLiteral("New scene[*] – PhaseSketch"));
+    // One without a title of its own is called as its file, in its panel too.
+    const auto* header = m_window->inspector().scenePanel()->findChild<PanelHeader*>();
+    QVERIFY(header->accessibleName().contains(QStringLiteral("New scene")));
+    m_window->saveTo(file(QStringLiteral("another.json")));
+    QTRY_VERIFY(header->accessibleName().contains(QStringLiteral("another")));
   }
 
   /// Nothing runs, a sentence says how to begin, and graphs have no axes of nothing.

@@ -341,6 +341,8 @@ void Inspector::onChanged(const ChangeEvent& event) {
   } else if (std::holds_alternative<PinsChanged>(event)) {
     markPinned();
     rebuildMaterial();
+  } else if (std::holds_alternative<FileChanged>(event) || std::holds_alternative<AboutChanged>(event)) {
+    showSceneHeader();  // the project is called after both
   }
 }
 

@@ -119,6 +119,8 @@ void Selection::setMaterial(const std::string& id) {
   std::vector<std::string> alone;
   if (!id.empty()) alone.push_back(id);
   if (alone == m_materials) return;
+  std::erase(m_formerMaterials, material());
+  m_formerMaterials.push_back(material());
   m_materials = std::move(alone);
   Q_EMIT materialChanged();
 }
@@ -128,6 +130,15 @@ void Selection::toggleMaterial(const std::string& id) {
   if (std::erase(m_materials, id) == 0) m_materials.push_back(id);
   Q_EMIT materialChanged();
   Q_EMIT materialPicked();
+}
+
+/// Of those that were chosen the latest that is there, or the first of all.
+std::string Selection::latestMaterial() const {
+  const auto latest = std::find_if(m_formerMaterials.rbegin(), m_formerMaterials.rend(),
+                                   [this](const std::string& id) { return hasMaterial(id); });
+  if (latest != m_formerMaterials.rend()) return *latest;
+  const std::vector<SceneMaterial>& materials = m_document.project().materials;
+  return materials.empty() ? std::string() : materials.front().id;
 }
 
 void Selection::pickMaterial(const std::string& id) {
@@ -164,10 +175,10 @@ void Selection::onChanged(const ChangeEvent& event) {
   m_gone = std::move(gone);
   if (!opened && !std::holds_alternative<MaterialsChanged>(event)) return;
   std::vector<std::string> kept = m_materials;
-  if (opened) kept.clear();
+  if (opened) kept.clear(), m_formerMaterials.clear();
   std::erase_if(kept, [this](const std::string& id) { return !hasMaterial(id); });
-  const std::vector<SceneMaterial>& materials = m_document.project().materials;
-  if (kept.empty() && !materials.empty()) kept.push_back(materials.front().id);
+  const std::string latest = latestMaterial();
+  if (kept.empty() && !latest.empty()) kept.push_back(latest);
   if (kept == m_materials) return;
   m_materials = std::move(kept);
   Q_EMIT materialChanged();

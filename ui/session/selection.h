@@ -82,9 +82,11 @@ class Selection : public QObject {
   void onChanged(const ChangeEvent& event);
   bool isThere(const SelectedItem& item) const;
   bool hasMaterial(const std::string& id) const;
+  std::string latestMaterial() const;
   Document& m_document;
   std::vector<SelectedItem> m_items, m_gone;  ///< selected, and what was until it left the document
   std::vector<std::string> m_materials;
+  std::vector<std::string> m_formerMaterials;  ///< chosen before, the latest last
   std::optional<std::pair<uint64_t, uint32_t>> m_marked;
 };
 

@@ -2,6 +2,7 @@
 #include "ui/window/bodyactions.h"
 
 #include "core/matter/material.h"
+#include "core/matter/stablephase.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
@@ -118,6 +119,14 @@ std::string lastToMelt(const PluginRegistry& plugins) {
     if (melting > highest) highest = melting, last = id;
   }
   return last;
+}
+
+/// Whether what is made of a material of the scene stands at a temperature.
+bool isSolid(const Document& document, const std::string& id, double kelvin) {
+  const std::vector<SceneMaterial>& all = document.project().materials;
+  const auto at = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& m) { return m.id == id; });
+  const Material* base = at == all.end() ? nullptr : document.plugins()->material(at->base);
+  return base && stablePhase(base->caloric(), kelvin) == api::Phase::Solid;
 }
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }
@@ -250,6 +259,10 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
       body.material = sceneMaterial(document, thin->second->material);
     }
   }
+  // A bowl of what is liquid would run away.
+  const double kelvin = numberOf(body.parameters, bodyParameters(), "temperature");
+  if (kind == Kind::Bowl && !isSolid(document, m_selection.material(), kelvin))
+    body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
   add(std::move(body));
   document.undoStack().endMacro();
 }
