@@ -32,10 +32,18 @@ constexpr api::ParameterDeclaration kEmitter[] = {
          "20000; with a drain below it never stops", ""}),
 };
 
+constexpr api::ParameterDeclaration turn(Names names, const char* help) {
+  return number(names, {0, -180, 180, -3600, 3600}, {"Place", help, "30 along a slope", ""});
+}
+
 constexpr api::ParameterDeclaration kSink[] = {
     toggle({"open", "Open", "", ""}, true,
            {"Sink", "Takes away every particle whose centre comes into the box. Matter held in place stays.",
             "a drain, the end of a river", ""}),
+    turn({"rotation_x", "Rotation about x", "", "°"},
+         "Turned about the scene's x axis, about its middle, before those about y and z."),
+    turn({"rotation_y", "Rotation about y", "", "°"}, "Turned about the scene's y axis, after that about x."),
+    turn({"rotation_z", "Rotation about z", "", "°"}, "Turned about the scene's z axis, after those about x and y."),
 };
 
 }  // namespace

@@ -2,25 +2,21 @@
 #include "core/scene/pose.h"
 
 #include "core/scene/solidform.h"
+#include "core/scene/turnedbox.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace ps {
 namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kNowhere = 1e-9;       // m
-constexpr double kLeastCell = 5e-4;     // m, that a file may say
-constexpr double kLargestCell = 10;     // m
-constexpr double kUpright = 1 - 1e-12;  // sine of the turn about y from which those about x and z are one
+constexpr double kNowhere = 1e-9;    // m
+constexpr double kLeastCell = 5e-4;  // m, that a file may say
+constexpr double kLargestCell = 10;  // m
 
 std::string key(const char* what, size_t axis) { return std::string(what) + "_" + kAxes[axis]; }
-
-double tidy(double degrees) { return std::round(degrees * 1e9) / 1e9 + 0.0; }
 
 void place(SolidShape& solid, const char* what, const Vector3& values) {
   const api::ParameterList list = solidParameters();
@@ -32,15 +28,6 @@ void place(SolidShape& solid, const char* what, const Vector3& values) {
     else
       solid.parameters.values[name] = values[axis];
   }
-}
-
-/// Degrees about x, then y, then z, of a turn.
-Vector3 anglesOf(const Matrix3& m) {
-  const double sine = std::clamp(-m(2, 0), -1.0, 1.0);
-  if (std::abs(sine) > kUpright)
-    return {0, tidy(std::copysign(90, sine)), tidy(kDegrees * std::atan2(-m(0, 1), m(1, 1)))};
-  return {tidy(kDegrees * std::atan2(m(2, 1), m(2, 2))), tidy(kDegrees * std::asin(sine)),
-          tidy(kDegrees * std::atan2(m(1, 0), m(0, 0)))};
 }
 
 std::array<int, 3> cellsOf(const VoxelShape& voxels, const Vector3& shift) {
@@ -230,9 +217,7 @@ Vector3 centroidOf(const Body& body) {
 
 RigidMove poseOf(const VoxelShape& voxels) {
   if (voxels.rotation == Vector3::Zero()) return {Quaternion::Identity(), voxels.shift};
-  const Vector3 angle = voxels.rotation / kDegrees;
-  const auto about = [&](Eigen::Index axis) { return Quaternion(Eigen::AngleAxisd(angle[axis], Vector3::Unit(axis))); };
-  return {(about(2) * about(1) * about(0)).normalized(), voxels.shift};
+  return {turnOf(voxels.rotation), voxels.shift};
 }
 
 VoxelShape latticeOf(const VoxelShape& voxels) {

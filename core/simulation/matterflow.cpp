@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/matterflow.h"
 
+#include "core/scene/turnedbox.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/mouth.h"
@@ -69,7 +70,7 @@ void MatterFlow::drain(Solver& solver, const Project& project) {
   std::vector<uint32_t> ids;
   for (const Sink& sink : project.sinks) {
     if (!toggleOf(sink.parameters, sinkParameters(), "open")) continue;
-    const Region box{sink.minimum, sink.maximum};
+    const TurnedBox box(sink);
     for (size_t i = 0; i < store.size(); ++i) {
       const api::Double3 p = store.wrappedPosition(i);
       if (isFree(store, i) && box.contains({p.x, p.y, p.z})) ids.push_back(store.id()[i]);

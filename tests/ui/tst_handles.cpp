@@ -359,6 +359,41 @@ class TestHandles : public SampleWindowTest {
     QTest::keyClicks(view(), QStringLiteral("90"));
     QTest::keyClick(view(), Qt::Key_Return);
     QVERIFY((document().emitter(placed.id)->direction - Vector3(1, 0, 0)).norm() < 1e-9);
+    // Its mouth becomes twice as wide, its row says so, and the engine has it; a drain is turned likewise.
+    m_window->tools().activate("scale");
+    const int steps = document().undoStack().count();
+    dragPart({GizmoPart::Kind::Middle, 0}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("2"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    const Address width{Owner::Emitter, placed.id, "diameter"};
+    QCOMPARE(std::get<double>(document().value(width)), 0.12);
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    QCOMPARE(
+        std::get<double>(m_window->inspector().scenePanel()->row(QString::fromStdString(width.text()))->model().value),
+        0.12);
+    QCOMPARE(onEngine<double>(session(),
+                              [](Engine& engine) {
+                                return numberOf(engine.project().emitters.back().parameters, emitterParameters(),
+                                                "diameter");
+                              }),
+             0.12);
+    document().undoStack().undo();
+    QCOMPARE(std::get<double>(document().value(width)), 0.06);
+    Sink drain;
+    drain.minimum = {-0.1, 0.1, -0.05}, drain.maximum = {0.1, 0.14, 0.05};
+    const Port sink = document().addSink(drain);
+    m_window->selection().select(sink);
+    m_window->tools().activate("rotate");
+    dragPart({GizmoPart::Kind::Ring, 2}, {0, 0}, {}, false);
+    QTest::keyClicks(view(), QStringLiteral("30"));
+    QTest::keyClick(view(), Qt::Key_Return);
+    const Address turn{Owner::Sink, sink.id, "rotation_z"};
+    QVERIFY(std::abs(std::get<double>(document().value(turn)) - 30) < 1e-9);
+    view()->update();
+    QTest::qWait(100);
+    viewPicture(QStringLiteral("handles-drain.png"));
+    document().undoStack().undo();
+    QCOMPARE(std::get<double>(document().value(turn)), 0.0);
   }
 
   void shiftAndFrameSelectMore() {

@@ -2,6 +2,7 @@
 // What has no matter is picked where it is seen: walls, and pins, which are put elsewhere by the handles.
 #include "core/scene/pose.h"
 #include "core/scene/scenewall.h"
+#include "core/scene/turnedbox.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
 #include "ui/document/wallside.h"
@@ -186,6 +187,72 @@ class TestPicking : public QObject {
     const Placeable both = placeable(*m_document, {kRope, kPin}, Gizmo::Kind::Move, {});
     QVERIFY(std::none_of(both.items.begin(), both.items.end(),
                          [](const auto& item) { return item.first.kind == OutlineKind::Pin; }));
+  }
+
+  /// A drain is turned about its middle and stretched along its own edges; each is one step.
+  void drainsAreTurnedAndStretched() {
+    Project project = scene();
+    Sink drain;
+    drain.id = "drain", drain.minimum = Vector3(-0.2, 0, -0.1), drain.maximum = Vector3(0.2, 0.1, 0.1);
+    project.sinks = {drain};
+    m_document->open(project, {});
+    const std::vector<SelectedItem> items{{OutlineKind::Sink, "drain"}};
+    const Placeable alone = placeable(*m_document, items, Gizmo::Kind::Rotate, {});
+    QVERIFY(alone.items.size() == 1 && alone.note.isEmpty());
+    const auto box = [&] { return TurnedBox(*m_document->sink("drain")); };
+    const auto turn = [&](double degrees) {
+      const Quaternion slope(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vector3(0, 0, 1)));
+      const Placement before = placementOf(*m_document, alone);
+      m_document->place(turned(before, {}, std::nullopt, slope), QStringLiteral("turning"));
+    };
+    turn(30);
+    QCOMPARE(m_document->undoStack().count(), 1);
+    const Vector3 along(std::cos(std::numbers::pi / 6), 0.5, 0);
+    QVERIFY(std::abs(std::get<double>(m_document->sink("drain")->parameters.values.at("rotation_z")) - 30) < 1e-9);
+    QVERIFY(box().contains(box().middle() + 0.19 * along));
+    QVERIFY(!box().contains(box().middle() + Vector3(0.19, 0, 0)));
+    const Placeable edges = placeable(*m_document, items, Gizmo::Kind::Scale, {});
+    QVERIFY(edges.along && (edges.axes.col(0) - along).norm() < 1e-9);
+    m_document->place(stretched(placementOf(*m_document, edges), {2, 1, 1}), QStringLiteral("scaling"));
+    QVERIFY((box().size() - Vector3(0.8, 0.1, 0.2)).norm() < 1e-9);
+    turn(60);  // what lies along the axes again is not turned
+    QVERIFY(!box().isTurned() && (box().size() - Vector3(0.1, 0.8, 0.2)).norm() < 1e-9);
+    QVERIFY(!m_document->sink("drain")->parameters.values.contains("rotation_z"));
+    while (m_document->undoStack().canUndo()) m_document->undoStack().undo();
+    QVERIFY(m_document->sink("drain")->minimum == drain.minimum && !box().isTurned());
+  }
+
+  /// The corner opposite to the one that is dragged stays, of a drain that is turned too.
+  void aTurnedDrainIsDraggedByItsCorner() {
+    Sink drain;
+    drain.minimum = Vector3(-0.2, 0, -0.1), drain.maximum = Vector3(0.2, 0.1, 0.1);
+    drain.parameters.values["rotation_z"] = 30.0;
+    const Vector3 from = cornerOf(drain, 7), opposite = cornerOf(drain, 0), way(0.05, 0.07, 0.02);
+    const Sink larger = dragged(drain, {{true, ""}, PortHandle::Part::Corner, 7, from}, from + way, 0.01);
+    QVERIFY((cornerOf(larger, 7) - from - way).norm() < 1e-12 && (cornerOf(larger, 0) - opposite).norm() < 1e-12);
+  }
+
+  /// Of a tap that pours down: an arm along its jet does nothing.
+  void aMouthIsScaledAcrossItsJet() {
+    Project project = scene();
+    Emitter tap;
+    tap.id = "tap", tap.parameters.values["diameter"] = 0.04;
+    project.emitters = {tap};
+    m_document->open(project, {});
+    const Placeable one = placeable(*m_document, {{OutlineKind::Emitter, "tap"}}, Gizmo::Kind::Scale, {});
+    QVERIFY(one.note.isEmpty());
+    const auto width = [&](const Vector3& factors) {
+      return numberOf(stretched(placementOf(*m_document, one), factors).emitters[0].parameters, emitterParameters(),
+                      "diameter");
+    };
+    QCOMPARE(width({1, 3, 1}), 0.04);
+    QCOMPARE(width({2, 1, 1}), 0.08);
+    QCOMPARE(width({3, 3, 3}), 0.12);
+    QCOMPARE(width({1e9, 1, 1}), findDeclaration(emitterParameters(), "diameter")->hardMaximum);
+    m_document->place(stretched(placementOf(*m_document, one), {2, 1, 1}), QStringLiteral("scaling"));
+    QCOMPARE(m_document->undoStack().count(), 1);
+    m_document->undoStack().undo();
+    QCOMPARE(std::get<double>(m_document->emitter("tap")->parameters.values.at("diameter")), 0.04);
   }
 
   /// Turned and scaled about the middle of all, each about its own, about the last one, or about the scene's origin.

@@ -62,8 +62,12 @@ void BodiesCommand::redo() { apply(true); }
 void BodiesCommand::apply(bool forward) { m_document.applyBodies(m_edits, forward, m_matter); }
 
 namespace {
-bool samePlace(const Emitter& a, const Emitter& b) { return a.point == b.point && a.direction == b.direction; }
-bool samePlace(const Sink& a, const Sink& b) { return a.minimum == b.minimum && a.maximum == b.maximum; }
+bool samePlace(const Emitter& a, const Emitter& b) {
+  return a.point == b.point && a.direction == b.direction && a.parameters == b.parameters;
+}
+bool samePlace(const Sink& a, const Sink& b) {
+  return a.minimum == b.minimum && a.maximum == b.maximum && a.parameters == b.parameters;
+}
 }  // namespace
 
 PortCommand::PortCommand(Document& document, AnyPortEdit edit, int gesture, const QString& text)

@@ -105,23 +105,22 @@ void Document::applyPlacement(const Placement& to) {
     at(m_project.bodies, pins.id)->pins = pins.boxes;
     notify(BodyChanged{pins.id, {}, {}, {}, true});
   }
+  const auto put = [this](Owner owner, auto& all, const auto& item, api::ParameterList list) {
+    const auto before = std::exchange(*at(all, item.id), item);
+    for (size_t k = 0; k < list.count; ++k) {
+      const Value was = valueOf(before.parameters, list[k]), is = valueOf(item.parameters, list[k]);
+      if (!(was == is)) notify(ParameterChanged{{owner, item.id, list[k].key}, is, was});
+    }
+  };
   for (const Emitter& emitter : to.emitters) {
-    *at(m_project.emitters, emitter.id) = emitter;
+    put(Owner::Emitter, m_project.emitters, emitter, emitterParameters());
     notify(PortChanged{true, emitter.id, {}});
   }
   for (const Sink& sink : to.sinks) {
-    *at(m_project.sinks, sink.id) = sink;
+    put(Owner::Sink, m_project.sinks, sink, sinkParameters());
     notify(PortChanged{true, sink.id, {}});
   }
-  for (const SceneWall& wall : to.walls) {
-    SceneWall& here = *at(m_project.environment.walls, wall.id);
-    const SceneWall before = std::exchange(here, wall);
-    const api::ParameterList list = wallParameters();
-    for (size_t k = 0; k < list.count; ++k) {
-      const Value was = valueOf(before.parameters, list[k]), is = valueOf(wall.parameters, list[k]);
-      if (!(was == is)) notify(ParameterChanged{{Owner::Wall, wall.id, list[k].key}, is, was});
-    }
-  }
+  for (const SceneWall& wall : to.walls) put(Owner::Wall, m_project.environment.walls, wall, wallParameters());
   if (!to.walls.empty()) notify(WallsChanged{true});
   for (const Probe& probe : to.probes) {
     *at(m_project.probes, probe.id) = probe;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/arrange.h"
 
+#include "core/scene/turnedbox.h"
 #include "ui/document/wallside.h"
 #include "ui/render/framing.h"
 #include "ui/tools/placing.h"
@@ -29,7 +30,7 @@ BodyBounds boxOf(const Emitter& emitter, const MatterBoxes&) {
 }
 template <class Box>
 BodyBounds boxOf(const Box& box, const MatterBoxes&) {
-  return {box.minimum, box.maximum};
+  return TurnedBox(box).bounds();
 }
 
 /// visit(thing's box, a placement of it alone) for each that has an extent.
@@ -266,7 +267,11 @@ RigidMove moveOf(const SceneWall& before, const SceneWall& now) {
 }
 template <class Box>
 RigidMove moveOfBox(const Box& before, const Box& now) {
-  return {Quaternion::Identity(), 0.5 * (now.minimum + now.maximum - before.minimum - before.maximum)};
+  const TurnedBox from(before), to(now);
+  RigidMove move;
+  if (from.axes() != to.axes()) move.turn = Quaternion(to.axes() * from.axes().transpose()).normalized();
+  move.shift = to.middle() - (move.turns() ? Vector3(move.turn * from.middle()) : from.middle());
+  return move;
 }
 RigidMove moveOf(const Sink& before, const Sink& now) { return moveOfBox(before, now); }
 RigidMove moveOf(const Probe& before, const Probe& now) {
@@ -282,9 +287,9 @@ void go(SceneWall& wall, const RigidMove& move) {
   wall.point = move.of(wall.point);
   wall.normal = move.turn * wall.normal;
 }
-void go(Sink& sink, const RigidMove& move) { sink.minimum += move.shift, sink.maximum += move.shift; }
+void go(Sink& sink, const RigidMove& move) { sink = carried(std::move(sink), move); }
 void go(Probe& probe, const RigidMove& move) {
-  if (probe.region) probe.region->minimum += move.shift, probe.region->maximum += move.shift;
+  if (probe.region) *probe.region = carried(std::move(*probe.region), move);
 }
 
 /// visit(as it was, as it is) for each.

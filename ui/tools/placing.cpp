@@ -4,6 +4,7 @@
 #include "core/scene/pose.h"
 #include "core/scene/scenewall.h"
 #include "core/scene/solidform.h"
+#include "core/scene/turnedbox.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
@@ -20,7 +21,7 @@ QString quoted(const QString& name, const QString& why) { return QStringLiteral(
 
 template <class Box>
 Vector3 middleOf(const Box& box) {
-  return 0.5 * (box.minimum + box.maximum);
+  return TurnedBox(box).middle();
 }
 
 /// Where a body's matter is, as far as that is known.
@@ -52,9 +53,9 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
   if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
     to.add(item, placeOf(*body, matter), nameOf(*body), unless(false, ""));
   } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
-    to.add(item, emitter->point, nameOf(*emitter), unless(kind == Kind::Scale, "its width is its row “Diameter”"));
+    to.add(item, emitter->point, nameOf(*emitter), unless(false, ""));
   } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
-    to.add(item, middleOf(*sink), nameOf(*sink), unless(kind == Kind::Rotate, "a drain stands along the axes"));
+    to.add(item, middleOf(*sink), nameOf(*sink), unless(false, ""));
   } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
     to.add(item, wall->point, nameOf(*wall),
            unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));
@@ -69,14 +70,24 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
   }
 }
 
-/// What stretching goes along: a single solid's own axes. Of several, those of the scene, while none is turned.
+/// Of what is turned and can be stretched along axes of its own.
+std::optional<Matrix3> ownAxes(const Document& document, const SelectedItem& item) {
+  const auto turned = [](const auto& form) { return form.isTurned() ? std::optional(form.axes()) : std::nullopt; };
+  if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
+    const auto* solid = std::get_if<SolidShape>(&body->shape);
+    return solid ? turned(SolidForm(*solid)) : std::nullopt;
+  }
+  const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr;
+  return sink ? turned(TurnedBox(*sink)) : std::nullopt;
+}
+
+/// What stretching goes along: a single thing's own axes. Of several, those of the scene, while none is turned.
 void chooseAxes(Placeable& out, const Document& document) {
   for (const auto& [item, place] : out.items) {
-    const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr;
-    const auto* solid = body ? std::get_if<SolidShape>(&body->shape) : nullptr;
-    if (!solid || !SolidForm(*solid).isTurned()) continue;
+    const std::optional<Matrix3> own = ownAxes(document, item);
+    if (!own) continue;
     out.along = out.items.size() == 1;
-    if (out.along) out.axes = SolidForm(*solid).axes();
+    if (out.along) out.axes = *own;
   }
 }
 
@@ -91,23 +102,51 @@ void choose(std::vector<BodyPins>& all, const Document& document, const PinAddre
 /// About its middle, which goes by `way`.
 template <class Box>
 void stretch(Box& box, const Vector3& factors, const Vector3& way) {
-  const Vector3 middle = middleOf(box), half = (box.maximum - middle).cwiseProduct(factors);
-  box.minimum = middle + way - half;
-  box.maximum = middle + way + half;
+  TurnedBox there(box);
+  there.resize(there.size().cwiseProduct(factors), there.middle() + way);
+  there.putInto(box);
 }
 
-/// A curved wall stays round: the greatest change counts, of a cylinder across its axis.
-void stretch(SceneWall& wall, const Vector3& factors) {
-  const WallFace face = faceOf(wall);
-  if (!face.isCurved()) return;
+/// Of what stays round: the greatest change across its axis.
+double changeAcross(const Vector3& axis, const Vector3& factors) {
   constexpr double kAlong = 0.9;
   double factor = 1;
   for (int a = 0; a < 3; ++a) {
-    const bool across = std::abs(face.axis()[a]) < kAlong;
+    const bool across = std::abs(axis[a]) < kAlong;
     if (across && std::abs(factors[a] - 1) > std::abs(factor - 1)) factor = factors[a];
   }
-  const api::ParameterDeclaration& declared = *findDeclaration(wallParameters(), "radius");
-  wall.parameters.values["radius"] = std::clamp(factor * face.radius(), declared.hardMinimum, declared.hardMaximum);
+  return factor;
+}
+
+void setWithin(ParameterSet& set, api::ParameterList list, const char* key, double value) {
+  const api::ParameterDeclaration& declared = *findDeclaration(list, key);
+  set.values[key] = std::clamp(value, declared.hardMinimum, declared.hardMaximum);
+}
+
+void stretch(SceneWall& wall, const Vector3& factors) {
+  const WallFace face = faceOf(wall);
+  if (!face.isCurved()) return;
+  setWithin(wall.parameters, wallParameters(), "radius", changeAcross(face.axis(), factors) * face.radius());
+}
+
+/// Its mouth.
+void stretch(Emitter& emitter, const Vector3& factors) {
+  const double factor = changeAcross(emitter.direction.normalized(), factors);
+  if (factor == 1) return;
+  const double diameter = numberOf(emitter.parameters, emitterParameters(), "diameter");
+  setWithin(emitter.parameters, emitterParameters(), "diameter", factor * diameter);
+}
+
+/// visit(box) for drains, regions of probes and those pins that are meant.
+template <class Visit>
+void eachBox(Placement& things, Visit&& visit) {
+  for (Sink& sink : things.sinks) visit(sink);
+  for (Probe& probe : things.probes) {
+    if (probe.region) visit(*probe.region);
+  }
+  for (BodyPins& pins : things.pins) {
+    for (const size_t k : pins.chosen) visit(pins.boxes[k]);
+  }
 }
 
 }  // namespace
@@ -185,14 +224,8 @@ Placement shifted(Placement things, const Vector3& way) {
     body = moved(std::move(body), move);
   }
   for (Emitter& emitter : things.emitters) emitter.point += way;
-  for (Sink& sink : things.sinks) sink.minimum += way, sink.maximum += way;
   for (SceneWall& wall : things.walls) wall.point += way;
-  for (Probe& probe : things.probes) {
-    if (probe.region) probe.region->minimum += way, probe.region->maximum += way;
-  }
-  for (BodyPins& pins : things.pins) {
-    for (const size_t k : pins.chosen) pins.boxes[k].minimum += way, pins.boxes[k].maximum += way;
-  }
+  eachBox(things, [&](auto& box) { box = carried(std::move(box), {Quaternion::Identity(), way}); });
   return things;
 }
 
@@ -215,6 +248,12 @@ Placement turned(Placement things, const MatterPlaces& matter, const std::option
     wall.point = gone(wall.point);
     wall.normal = turn * wall.normal;
   }
+  for (Sink& sink : things.sinks) {
+    const Vector3 stands = middleOf(sink);
+    RigidMove move = RigidMove::about(stands, turn);
+    move.shift += gone(stands) - stands;
+    sink = carried(std::move(sink), move);
+  }
   return things;
 }
 
@@ -232,13 +271,11 @@ Placement stretched(Placement things, const Vector3& factors, const MatterPlaces
     const Vector3 shift = way(placeOf(body, matter));
     body = scaled(std::move(body), factors, shift);
   }
-  for (Sink& sink : things.sinks) stretch(sink, factors, way(middleOf(sink)));
-  for (Probe& probe : things.probes) {
-    if (probe.region) stretch(*probe.region, factors, way(middleOf(*probe.region)));
+  for (Emitter& emitter : things.emitters) {
+    stretch(emitter, factors);
+    emitter.point += way(emitter.point);
   }
-  for (BodyPins& pins : things.pins) {
-    for (const size_t k : pins.chosen) stretch(pins.boxes[k], factors, way(middleOf(pins.boxes[k])));
-  }
+  eachBox(things, [&](auto& box) { stretch(box, factors, way(middleOf(box))); });
   return things;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/porthandles.h"
 
+#include "core/scene/turnedbox.h"
 #include "ui/tools/aim.h"
 
 #include <Eigen/Geometry>
@@ -64,9 +65,10 @@ PortShape shapeOf(const Emitter& emitter, double least) {
 
 PortShape shapeOf(const Sink& sink, double /*least*/) {
   PortShape shape;
+  const TurnedBox box(sink);
   for (int k = 0; k < 8; ++k) {
     for (int bit = 1; bit < 8; bit *= 2) {
-      if (!(k & bit)) shape.lines.emplace_back(cornerOf(sink, k), cornerOf(sink, k | bit));
+      if (!(k & bit)) shape.lines.emplace_back(box.corner(k), box.corner(k | bit));
     }
   }
   return shape;
@@ -89,11 +91,7 @@ Vector3 arrowTip(const Emitter& emitter, double least) {
   return emitter.point + std::max(2 * diameterOf(emitter), least) * emitter.direction.normalized();
 }
 
-Vector3 cornerOf(const Sink& sink, int corner) {
-  Vector3 p;
-  for (int a = 0; a < 3; ++a) p[a] = corner >> a & 1 ? sink.maximum[a] : sink.minimum[a];
-  return p;
-}
+Vector3 cornerOf(const Sink& sink, int corner) { return TurnedBox(sink).corner(corner); }
 
 std::optional<PortHandle> handleAt(const PortSet& ports, const Pointer& pointer) {
   std::optional<PortHandle> found;
@@ -129,17 +127,22 @@ Emitter dragged(Emitter emitter, const PortHandle& handle, const Vector3& to) {
   return emitter;
 }
 
+/// A corner goes along the box's own axes; the one opposite stays.
 Sink dragged(Sink sink, const PortHandle& handle, const Vector3& to, double least) {
-  for (int a = 0; a < 3; ++a) {
-    if (handle.part == PortHandle::Part::Whole) {
-      sink.minimum[a] += to[a] - handle.place[a];
-      sink.maximum[a] += to[a] - handle.place[a];
-    } else if (handle.corner >> a & 1) {
-      sink.maximum[a] = std::max(to[a], sink.minimum[a] + least);
-    } else {
-      sink.minimum[a] = std::min(to[a], sink.maximum[a] - least);
+  TurnedBox box(sink);
+  if (handle.part == PortHandle::Part::Whole) {
+    box.go({Quaternion::Identity(), to - handle.place});
+  } else {
+    const Vector3 opposite = box.corner(7 - handle.corner);
+    Vector3 way = box.axes().transpose() * (to - opposite), size;
+    for (int a = 0; a < 3; ++a) {
+      const double sign = (handle.corner >> a & 1) != 0 ? 1 : -1;
+      size[a] = std::max(sign * way[a], least);
+      way[a] = sign * size[a];
     }
+    box.resize(size, opposite + box.axes() * (0.5 * way));
   }
+  box.putInto(sink);
   return sink;
 }
 
