@@ -355,6 +355,42 @@ class TestPicking : public QObject {
     QVERIFY(floor && floor->item == kFloor);
   }
 
+  /// A frame takes pins that show, and walls that lie in it as a whole, but not what hands are to leave alone.
+  void aFrameTakesWallsAndPins() {
+    Project project = scene();
+    project.environment.walls[0].point = Vector3(0, -2, 0);  // below the scene
+    SceneWall ball;
+    ball.id = "ball", ball.point = Vector3(0, 0.4, 0);
+    ball.parameters.values = {{"shape", std::string("sphere")}, {"radius", 0.05}, {"matter", std::string("outside")}};
+    project.environment.walls.push_back(ball);
+    m_document->open(project, {});
+    Toolbox tools(*m_document, *m_selection);
+    SelectTool tool(tools);
+    const auto frame = [&](double reach) {
+      Pointer from, to;
+      from.ray = {{0, 0.45, 3}, Vector3(-reach, -reach, -1).normalized()};
+      to.ray = {{0, 0.45, 3}, Vector3(reach, reach, -1).normalized()};
+      from.control = to.control = true;
+      QVERIFY(tool.press(from));
+      tool.drag(to);
+      tool.release(to);
+    };
+    frame(0.15);
+    QVERIFY(m_selection->items() == (std::vector<SelectedItem>{{OutlineKind::Wall, "ball"}}));
+    m_selection->select(OutlineKind::Body, "rope");  // its pins show
+    frame(0.15);
+    QVERIFY(m_selection->has(OutlineKind::Wall, "ball") && m_selection->has(OutlineKind::Pin, "rope/0") &&
+            m_selection->has(OutlineKind::Pin, "rope/1") && !m_selection->has(OutlineKind::Wall, "side"));
+    frame(0.01);  // the ball does not lie in it as a whole, nor the pins with their middles
+    QVERIFY(m_selection->empty());
+    frame(1.2);
+    QVERIFY(m_selection->has(OutlineKind::Wall, "side"));
+    m_document->setLocked({{Owner::Wall, "ball", ""}, {Owner::Body, "rope", ""}}, true);
+    m_selection->select(OutlineKind::Body, "rope");
+    frame(0.15);
+    QVERIFY(m_selection->empty());
+  }
+
   /// Nor is a tap in front of the section, unless it is the one that is selected.
   void aTapThatIsCutAwayIsNotTakenHoldOf() {
     Emitter tap;

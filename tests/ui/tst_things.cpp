@@ -439,8 +439,21 @@ class TestThings : public SampleWindowTest {
     QVERIFY(!document().body(ids[0])->visible && !document().body(ids[1])->visible);
     document().undoStack().undo();
     QVERIFY(document().body(ids[0])->visible && document().body(ids[1])->visible);
+    // Alone is alone: walls, taps, drains and probes are hidden with the bodies, as one step.
+    const int steps = document().undoStack().count();
     trigger("edit.isolate");
     QVERIFY(!document().body("ice")->visible && !document().body(ids[2])->visible && document().body(ids[0])->visible);
+    for (const SceneWall& wall : project().environment.walls) QVERIFY(!wall.visible);
+    for (const Probe& probe : project().probes) QVERIFY(!probe.visible);
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    trigger("edit.isolate");
+    QVERIFY(document().body("ice")->visible);
+    for (const SceneWall& wall : project().environment.walls) QVERIFY(wall.visible);
+    for (const Probe& probe : project().probes) QVERIFY(probe.visible);
+    // Of a wall likewise.
+    m_window->selection().select(OutlineKind::Wall, project().environment.walls[0].id);
+    trigger("edit.isolate");
+    QVERIFY(project().environment.walls[0].visible && !document().body("ice")->visible);
     trigger("edit.isolate");
     QVERIFY(document().body("ice")->visible);
     // What is deleted leaves it, and comes back into it.

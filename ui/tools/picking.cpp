@@ -2,6 +2,7 @@
 #include "ui/tools/picking.h"
 
 #include "core/scene/scenewall.h"
+#include "core/scene/turnedbox.h"
 #include "ui/document/pinaddress.h"
 #include "ui/render/furniture.h"
 #include "ui/tools/aim.h"
@@ -61,8 +62,7 @@ std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointe
     const SceneWall& wall = environment.walls[k];
     if (!canPick(wall)) continue;
     const render::Face face = render::leftOf(environment, k, pointer.section);
-    const Lines lines = faceOf(wall).isCurved() ? leftOf(wallLines(environment, k), pointer.section) : edgesOf(face);
-    const double near = distanceOf(pointer, lines);
+    const double near = distanceOf(pointer, seenLines(environment, k, pointer.section));
     const double far = isPlate(wall) ? depthOf(pointer, wall, face) : std::numeric_limits<double>::infinity();
     if (near < line) line = near, onLine = Pick{{OutlineKind::Wall, wall.id}, true};
     if (far < depth) depth = far, onFace = Pick{{OutlineKind::Wall, wall.id}, false};
@@ -79,16 +79,17 @@ Lines wallLines(const Environment& environment, size_t wall, bool whole) {
   return edgesOf(render::seenFace(environment, wall));
 }
 
+Lines seenLines(const Environment& environment, size_t wall, const std::optional<Section>& section) {
+  if (faceOf(environment.walls[wall]).isCurved()) return leftOf(wallLines(environment, wall), section);
+  return edgesOf(render::leftOf(environment, wall, section));
+}
+
 Lines boxLines(const Region& box) {
-  const auto corner = [&](int k) {
-    Vector3 p;
-    for (int a = 0; a < 3; ++a) p[a] = k >> a & 1 ? box.maximum[a] : box.minimum[a];
-    return p;
-  };
+  const TurnedBox corners(box);
   Lines lines;
   for (int k = 0; k < 8; ++k) {
     for (int bit = 1; bit < 8; bit *= 2) {
-      if (!(k & bit)) lines.emplace_back(corner(k), corner(k | bit));
+      if (!(k & bit)) lines.emplace_back(corners.corner(k), corners.corner(k | bit));
     }
   }
   return lines;

@@ -20,6 +20,8 @@ bool canPick(const auto& thing) { return thing.visible && !thing.locked; }
 
 /// The edges of a wall as it is seen, m; none where nothing of it is. `whole`: those of a sphere behind planes too.
 Lines wallLines(const Environment& environment, size_t wall, bool whole = false);
+/// Those that a section leaves of it.
+Lines seenLines(const Environment& environment, size_t wall, const std::optional<Section>& section);
 Lines boxLines(const Region& box);
 
 /// Something that lies under a pointer.

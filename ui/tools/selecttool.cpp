@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/selecttool.h"
 
+#include "core/scene/turnedbox.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
 #include "ui/render/camera.h"
@@ -10,9 +11,44 @@
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
 
 namespace ps {
-namespace {}  // namespace
+namespace {
+
+using Within = std::function<bool(const Vector3&)>;
+
+/// Those that lie in it with all that is seen of them: a floor is not meant by a frame around what stands on it.
+std::vector<SelectedItem> wallsWithin(const Environment& environment, const std::optional<Section>& section,
+                                      const Within& within) {
+  std::vector<SelectedItem> items;
+  for (size_t k = 0; k < environment.walls.size(); ++k) {
+    const SceneWall& wall = environment.walls[k];
+    const Lines lines = canPick(wall) ? seenLines(environment, k, section) : Lines();
+    const bool all = std::all_of(lines.begin(), lines.end(),
+                                 [&](const auto& line) { return within(line.first) && within(line.second); });
+    if (!lines.empty() && all) items.push_back({OutlineKind::Wall, wall.id});
+  }
+  return items;
+}
+
+/// Ids of bodies and taps of whose matter some lies in it.
+std::set<std::string> matterWithin(const Snapshot& scene, const Within& within) {
+  std::set<std::string> found;
+  std::vector<uint8_t> seen(scene.bodyIds ? scene.bodyIds->size() : 0);
+  for (size_t i = 0; i < scene.position.size(); ++i) {
+    const uint32_t body = scene.body[i];
+    if (body < seen.size() && seen[body] == 0 && within(vectorOf(scene.position[i]))) seen[body] = 1;
+  }
+  for (size_t k = 0; k < seen.size(); ++k) {
+    if (seen[k] != 0) found.insert((*scene.bodyIds)[k]);
+  }
+  return found;
+}
+
+}  // namespace
 
 void SelectTool::hover(const Pointer& pointer) {
   m_handles.hover(pointer);
@@ -65,36 +101,33 @@ bool SelectTool::cancel() {
 std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
   const auto across = aimTo(*m_corner, to.ray.origin + to.ray.direction);
   if (!across) return {};
-  const auto within = [&](const Vector3& place) {
+  const Within within = [&](const Vector3& place) {
     const auto at = aimTo(*m_corner, place);
     return at && at->x >= std::min(0.0, across->x) && at->x <= std::max(0.0, across->x) &&
-           at->y >= std::min(0.0, across->y) && at->y <= std::max(0.0, across->y);
+           at->y >= std::min(0.0, across->y) && at->y <= std::max(0.0, across->y) &&
+           (!to.section || to.section->shows(place));
   };
   const Project& project = box().document().project();
-  std::vector<SelectedItem> items;
-  if (const Snapshot* scene = to.scene.get(); scene && scene->bodyIds) {
-    std::vector<uint8_t> seen(scene->bodyIds->size());
-    for (size_t i = 0; i < scene->position.size(); ++i) {
-      const uint32_t body = scene->body[i];
-      if (body >= seen.size() || seen[body] != 0) continue;
-      const Vector3 place = vectorOf(scene->position[i]);
-      if (within(place) && (!to.section || to.section->shows(place))) seen[body] = 1;
-    }
-    for (size_t k = 0; k < seen.size(); ++k) {
-      const std::string& id = (*scene->bodyIds)[k];
-      const Body* body = seen[k] != 0 ? box().document().body(id) : nullptr;
-      if (body && !body->locked) items.push_back({OutlineKind::Body, id});
-    }
+  // Matter comes last: of what is selected the last is what panels show.
+  std::vector<SelectedItem> items = wallsWithin(project.environment, to.section, within);
+  for (const SelectedItem& pin : shownPins(project, box().selection().items())) {
+    const Body& body = *box().document().body(thingOf(pin)->id);
+    if (canPick(body) && within(TurnedBox(*findPin(project, pin.id)).middle())) items.push_back(pin);
   }
-  for (const Emitter& emitter : project.emitters) {
-    if (canPick(emitter) && within(emitter.point)) items.push_back({OutlineKind::Emitter, emitter.id});
+  for (const Probe& probe : project.probes) {
+    if (canPick(probe) && probe.region && within(TurnedBox(*probe.region).middle()))
+      items.push_back({OutlineKind::Probe, probe.id});
   }
   for (const Sink& sink : project.sinks) {
     if (canPick(sink) && within(anchorOf(sink))) items.push_back({OutlineKind::Sink, sink.id});
   }
-  for (const Probe& probe : project.probes) {
-    if (canPick(probe) && probe.region && within(0.5 * (probe.region->minimum + probe.region->maximum)))
-      items.push_back({OutlineKind::Probe, probe.id});
+  const std::set<std::string> matter = to.scene ? matterWithin(*to.scene, within) : std::set<std::string>();
+  for (const Emitter& emitter : project.emitters) {
+    if (canPick(emitter) && (within(emitter.point) || matter.contains(emitter.id)))
+      items.push_back({OutlineKind::Emitter, emitter.id});
+  }
+  for (const Body& body : project.bodies) {
+    if (canPick(body) && matter.contains(body.id)) items.push_back({OutlineKind::Body, body.id});
   }
   return items;
 }
@@ -167,7 +200,9 @@ std::vector<Gesture> SelectTool::gestures() const {
        QStringLiteral("Select the body, tap, drain, wall, pin or box of a probe, and tell the temperature"),
        {}},
       {QStringLiteral("Shift+Click"), QStringLiteral("Select it too, or no longer"), {}},
-      {QStringLiteral("Ctrl+Drag"), QStringLiteral("Select what lies in the frame"), {}}};
+      {QStringLiteral("Ctrl+Drag"),
+       QStringLiteral("Select what lies in the frame; walls that lie in it as a whole"),
+       {}}};
   for (Gesture& gesture : m_handles.gestures()) list.push_back(std::move(gesture));
   return list;
 }

@@ -80,6 +80,20 @@ void unlock(Project& things) {
   each(things.probes);
 }
 
+/// All that can be hidden.
+std::vector<Address> addressesOf(const Project& project) {
+  std::vector<Address> things;
+  const auto each = [&](Owner owner, const auto& items) {
+    for (const auto& item : items) things.push_back({owner, item.id, ""});
+  };
+  each(Owner::Body, project.bodies);
+  each(Owner::Emitter, project.emitters);
+  each(Owner::Sink, project.sinks);
+  each(Owner::Wall, project.environment.walls);
+  each(Owner::Probe, project.probes);
+  return things;
+}
+
 /// Those of the same ids, as they are now.
 Placement standing(const Document& document, Placement things) {
   const auto each = [](auto& items, const auto& find) {
@@ -386,26 +400,21 @@ void ThingActions::ungroup() {
   if (!ids.empty()) m_session.document().removeGroups(ids);
 }
 
-/// All other bodies are hidden; where they are already, all are shown.
+/// All that is not selected is hidden; where it is already, all is shown. Pins show with their body.
 void ThingActions::isolate() {
   Document& document = m_session.document();
-  const std::vector<std::string> chosen = m_selection.bodies();
-  std::vector<std::string> others, all;
-  bool alone = true;
-  for (const Body& body : document.project().bodies) {
-    all.push_back(body.id);
-    if (std::find(chosen.begin(), chosen.end(), body.id) != chosen.end()) continue;
-    others.push_back(body.id);
-    alone = alone && !body.visible;
+  std::vector<Address> chosen, others, all = addressesOf(document.project());
+  for (const SelectedItem& item : m_selection.items()) {
+    if (const auto thing = thingOf(item)) chosen.push_back(*thing);
   }
-  if (chosen.empty() || alone) {
-    document.setBodiesVisible(all, true);
-    return;
-  }
-  document.undoStack().beginMacro(
-      QStringLiteral("showing %1 alone").arg(whatOf(excerptOf(document.project(), m_selection.items()))));
-  document.setBodiesVisible(others, false);
-  document.setBodiesVisible(chosen, true);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(others),
+               [&](const Address& thing) { return std::find(chosen.begin(), chosen.end(), thing) == chosen.end(); });
+  const bool alone =
+      std::none_of(others.begin(), others.end(), [&](const Address& thing) { return document.marks(thing)->visible; });
+  if (chosen.empty() || alone) return document.setVisible(all, true);
+  document.undoStack().beginMacro(QStringLiteral("showing %1 alone").arg(selectedName()));
+  document.setVisible(others, false);
+  document.setVisible(chosen, true);
   document.undoStack().endMacro();
 }
 
