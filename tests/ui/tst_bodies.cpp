@@ -2,6 +2,7 @@
 // Solids and meshes come into the running scene by hands, are shaped by their rows, and go again.
 #include "core/geometry/solidfill.h"
 #include "core/io/projectio.h"
+#include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
@@ -13,6 +14,7 @@
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
+#include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
 
@@ -250,13 +252,75 @@ class TestBodies : public SampleWindowTest {
     QCOMPARE(document().project().bodies.size(), size_t{1});
   }
 
+  /// One after the other, each above the one before, whatever page was shown; what is wrong with one of them is said.
+  void severalMeshesAreDroppedAtOnce() {
+    QTemporaryDir folder;
+    QStringList paths;
+    for (const char* name : {"one.obj", "broken.stl", "two.obj"}) {
+      paths << folder.filePath(QString::fromLatin1(name));
+      QFile file(paths.back());
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(paths.back().endsWith(QStringLiteral("stl")) ? QByteArray("solid") : tetrahedron());
+    }
+    m_window->action(QStringLiteral("add.library"))->trigger();
+    QVERIFY(!m_window->viewport()->isVisible());
+    drop(paths);
+    QVERIFY(m_window->viewport()->isVisible());
+    QTRY_VERIFY2_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("2 of 3 meshes are in the scene")),
+                              qPrintable(m_window->notice()->text()), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("“broken.stl”: ")),
+             qPrintable(m_window->notice()->text()));
+    picture(QStringLiteral("meshes-several.png"));
+    QCOMPARE(document().project().bodies.size(), size_t{3});
+    QCOMPARE(document().undoStack().count(), 2);
+    const BodyBounds first = boundsOf(document().project().bodies[1]),
+                     second = boundsOf(document().project().bodies[2]);
+    QVERIFY(second.minimum.y() >= first.maximum.y());
+  }
+
+  /// A project takes the place of the scene, so that it is not taken with others, nor is a folder.
+  void whatCannotBeTakenIsTold() {
+    QTemporaryDir folder;
+    const std::string before = writeProject(document().project());
+    drop({folder.path(), QStringLiteral("/nowhere/a.json"), QStringLiteral("/nowhere/b.json")});
+    const QString told = m_window->notice()->text();
+    QVERIFY2(told.contains(QStringLiteral("No file was taken.")) && told.contains(QStringLiteral("is a folder")) &&
+                 told.contains(QStringLiteral("“a.json” is no mesh")),
+             qPrintable(told));
+    QCOMPARE(writeProject(document().project()), before);
+  }
+
+  /// Cancelled, none of those that wait comes.
+  void aQueueOfMeshesIsCancelled() {
+    QTemporaryDir folder;
+    QStringList paths;
+    for (const char* name : {"one.obj", "two.obj", "three.obj"}) {
+      paths << folder.filePath(QString::fromLatin1(name));
+      QFile file(paths.back());
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(tetrahedron());
+    }
+    drop(paths);
+    QTest::keyClick(m_window.get(), Qt::Key_Escape);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("and 2 more was given up")),
+             qPrintable(m_window->notice()->text()));
+    QTest::qWait(500);
+    QCOMPARE(document().project().bodies.size(), size_t{1});
+  }
+
  private:
+  static QByteArray tetrahedron() {
+    return "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  }
   size_t particlesOf(const std::string& id) {
     return fillSolid(std::get<SolidShape>(document().body(id)->shape), 0.02).cells.size();
   }
-  void drop(const QString& path) {
+  void drop(const QString& path) { drop(QStringList{path}); }
+  void drop(const QStringList& paths) {
     QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(path)});
+    QList<QUrl> urls;
+    for (const QString& path : paths) urls << QUrl::fromLocalFile(path);
+    data.setUrls(urls);
     const QPoint place(400, 300);
     QDragEnterEvent enter(place, Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(m_window.get(), &enter);

@@ -23,6 +23,7 @@
 #include "ui/viewport/viewport.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QFile>
 #include <QtCore/QMimeData>
 #include <QtCore/QProcess>
 #include <QtCore/QStandardPaths>
@@ -438,6 +439,23 @@ class TestSession : public QObject {
     start();
     QCOMPARE(floorOf(*m_window), 301.0);
     QVERIFY(m_window->action(QStringLiteral("file.new"))->isEnabled());
+  }
+
+  /// It waits for the first scene, and comes into that.
+  void aMeshThatIsDroppedEarlyWaits() {
+    make();
+    m_window->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    const QString mesh = file(QStringLiteral("early.obj"));
+    QFile out(mesh);
+    QVERIFY(out.open(QIODevice::WriteOnly));
+    out.write("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    out.close();
+    drop(mesh);
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("“early.obj” waits")));
+    start();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), size_t{2}, kLong);
+    QCOMPARE(document().project().bodies.back().name, std::string("early"));
   }
 
   void aDroppedFileOpens() {

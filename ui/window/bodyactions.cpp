@@ -4,6 +4,7 @@
 #include "core/matter/material.h"
 #include "core/matter/stablephase.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
 #include "core/simulation/snapshot.h"
@@ -14,7 +15,6 @@
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
-#include "ui/session/worker.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
 #include "ui/window/filenames.h"
@@ -67,8 +67,7 @@ constexpr UnitRow kUnits[] = {{"m", "metres"}, {"cm", "centimetres"}, {"mm", "mi
 constexpr double kOfScene = 0.2;      ///< size of a new solid, of the scene's narrower side
 constexpr double kToolOfScene = 0.4;  ///< length of a new tool, likewise
 constexpr double kOverRoom = 1.25;    ///< of the scene's room, what a mesh whose unit is not known may be
-constexpr int kPatience = 300;        ///< ms until reading is told of, and until that is told anew
-constexpr const char* kTopic = "mesh";
+constexpr const char* kTopic = MeshQueue::kTopic;
 constexpr const char* kMeshes =
     "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.blend);;All files (*)";
 
@@ -168,20 +167,27 @@ QString countText(const Body& body, const Document& document) {
 
 BodyActions::BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
                          QObject* parent)
-    : QObject(parent), m_session(session), m_selection(selection), m_actions(actions), m_notices(notices) {
+    : QObject(parent),
+      m_session(session),
+      m_selection(selection),
+      m_actions(actions),
+      m_notices(notices),
+      m_meshes(session, notices) {
   connect(&session, &Session::ready, this, [this] {
     for (QAction* action : m_adding) action->setEnabled(true);
   });
-  m_clock.setInterval(kPatience);
-  connect(&m_clock, &QTimer::timeout, this, &BodyActions::showReading);
+  connect(&m_meshes, &MeshQueue::reading, this, &BodyActions::reading);
+  connect(&m_meshes, &MeshQueue::failed, this, &BodyActions::onUnread);
+  connect(&m_meshes, &MeshQueue::ended, this, &BodyActions::onAllRead);
+  connect(
+      &m_meshes, &MeshQueue::read, this,
+      [this](const MeshQueue::File& file, const std::shared_ptr<ImportedMesh>& imported) { onRead(file, *imported); });
   connect(&session.document(), &Document::changed, this, [this] {
     if (m_asked.empty() || m_session.document().body(m_asked)) return;
     m_asked.clear();
     m_notices.bar().close(QString::fromLatin1(kTopic));
   });
 }
-
-BodyActions::~BodyActions() { stopReading(); }
 
 void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
   for (const SolidRow& row : kSolids) {
@@ -237,7 +243,7 @@ void BodyActions::chooseMesh(MeshUse use) {
       fileToRead(&m_actions.window(),
                  use == MeshUse::Wall ? QStringLiteral("A wall from a mesh") : QStringLiteral("Import a mesh"),
                  folderBeside(m_session), QString::fromLatin1(kMeshes));
-  if (!path.isEmpty()) importMesh(path, use);
+  if (!path.isEmpty()) importMeshes({path}, use);
 }
 
 /// How many particles each would be, before it is chosen.
@@ -324,6 +330,23 @@ double BodyActions::scaledToFit(Body& body, const ImportedMesh& imported) const 
   return metres;
 }
 
+/// m, above all in a column about the middle of the scene but one body: matter as it is, and what has just come.
+double BodyActions::heightFree(const Vector3& middle, const Vector3& size, const std::string& without) const {
+  const Project& project = m_session.document().project();
+  const SnapshotPtr now = m_session.newest();
+  double top = topOf(now.get(), without, middle, size, roomOf(project.environment).minimum[1]);
+  const auto known = [&](const std::string& id) {
+    return now && now->bodyIds && std::find(now->bodyIds->begin(), now->bodyIds->end(), id) != now->bodyIds->end();
+  };
+  for (const Body& body : project.bodies) {
+    if (body.id == without || known(body.id)) continue;
+    const BodyBounds box = boundsOf(body);
+    const Vector3 apart = (box.middle() - middle).cwiseAbs() - 0.5 * (box.size() + size);
+    if (apart.x() <= 0 && apart.z() <= 0) top = std::max(top, box.maximum.y());
+  }
+  return top;
+}
+
 /// Above what is there but `without`, and within the scene where that is high enough. Returns its id.
 std::string BodyActions::add(Body body, const std::string& without) {
   Document& document = m_session.document();
@@ -331,7 +354,7 @@ std::string BodyActions::add(Body body, const std::string& without) {
   const SolidForm form(solidOf(body));
   const Vector3 middle = (room.minimum + room.maximum) / 2;
   const double spacing = spacingOf(document);
-  const double floor = room.minimum[1], top = topOf(m_session.newest().get(), without, middle, form.size(), floor);
+  const double floor = room.minimum[1], top = heightFree(middle, form.size(), without);
   const double lowest = floor + form.size()[1] / 2, highest = room.maximum[1] - form.size()[1] / 2;
   auto& values = solidOf(body).parameters.values;
   values["position_x"] = middle[0];
@@ -358,92 +381,61 @@ std::string BodyActions::add(Body body, const std::string& without) {
   return id;
 }
 
-void BodyActions::importMesh(const QString& path, MeshUse use) {
-  stopReading();
-  m_reading = std::make_shared<Progress>();
-  m_reading->expect(1);
-  m_name = QFileInfo(path).fileName();
-  m_since.start();
-  m_clock.start();
-  m_worker.run([this, path, use, reading = m_reading] {
-    const ProgressScope scope(reading.get());
-    auto imported = std::make_shared<ImportedMesh>();
-    QString problem;
-    try {
-      *imported = ps::importMesh(path.toStdString());
-    } catch (const Cancelled&) {
-      return;
-    } catch (const std::exception& error) {
-      problem = QString::fromUtf8(error.what());
-    }
-    QMetaObject::invokeMethod(this, [this, path, use, reading, imported, problem] {
-      if (reading == m_reading) onImported(path, use, imported, problem);
-    });
-  });
+void BodyActions::onUnread(const MeshQueue::File& file, const QString& problem) {
+  m_session.log().add(MessageLevel::Error, file.name(), problem);
 }
 
-void BodyActions::showReading() {
-  const Progress::State state = m_reading->state();
-  const QString stage = QString::fromUtf8(state.stage ? state.stage : "Beginning");
-  const double left = secondsLeft(static_cast<double>(m_since.elapsed()) / 1000, state.done);
-  const QString text = stage + QStringLiteral(", ") + progressText(state.done, left);
-  if (std::exchange(m_tells, true)) {
-    m_notices.bar().setText(QString::fromLatin1(kTopic), text);
-  } else {
-    m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info, QStringLiteral("Reading “%1”.").arg(m_name),
-                         text, {NoticeBar::cancelButton([this] { cancelReading(); })});
-  }
-  Q_EMIT reading(stage, static_cast<int>(100 * state.done));
-}
-
-void BodyActions::stopReading() {
-  if (m_reading) m_reading->cancel();
-  m_reading.reset();
-  m_clock.stop();
-  if (std::exchange(m_tells, false)) Q_EMIT reading({}, -1);
-}
-
-bool BodyActions::cancelReading() {
-  if (!m_reading) return false;
-  stopReading();
-  m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Info,
-                       QStringLiteral("Reading “%1” was given up.").arg(m_name),
-                       QStringLiteral("The scene is as it was."));
-  return true;
-}
-
-void BodyActions::onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
-                             const QString& problem) {
-  stopReading();
-  m_notices.bar().close(QString::fromLatin1(kTopic));
-  const QString name = QFileInfo(path).fileName();
-  if (!problem.isEmpty()) {
-    m_session.log().add(MessageLevel::Error, name, problem);
-    m_notices.bar().show(QString::fromLatin1(kTopic), MessageLevel::Error,
-                         QStringLiteral("“%1” was not imported.").arg(name),
-                         QString(problem).remove(path + QStringLiteral(": ")) + QLatin1Char('.'),
-                         {{QStringLiteral("Import another…"), [this, use] { chooseMesh(use); }}});
-    return;
-  }
+void BodyActions::onRead(const MeshQueue::File& file, const ImportedMesh& imported) {
   Document& document = m_session.document();
-  const bool wall = use == MeshUse::Wall;
-  Body body = wall ? wallOf(*imported) : bodyOf(*imported);
-  const double unit = imported->unitIsOfFile ? imported->metresPerUnit : scaledToFit(body, *imported);
+  const bool wall = file.use == MeshUse::Wall;
+  Body body = wall ? wallOf(imported) : bodyOf(imported);
+  const double unit = imported.unitIsOfFile ? imported.metresPerUnit : scaledToFit(body, imported);
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromStdString(body.name)));
   if (wall) body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
   const std::string id = add(std::move(body));
   document.undoStack().endMacro();
-  m_session.log().add(MessageLevel::Ok, name,
+  m_session.log().add(MessageLevel::Ok, file.name(),
                       QStringLiteral("Imported %1. %2 triangles, %3.")
-                          .arg(QString::fromStdString(imported->mesh->origin))
-                          .arg(imported->facts.triangles)
-                          .arg(imported->facts.closed() ? QStringLiteral("closed")
-                               : wall                   ? QStringLiteral("open")
-                                                        : QStringLiteral("open; filled where it encloses most")));
-  if (imported->unitIsOfFile)
+                          .arg(QString::fromStdString(imported.mesh->origin))
+                          .arg(imported.facts.triangles)
+                          .arg(imported.facts.closed() ? QStringLiteral("closed")
+                               : wall                  ? QStringLiteral("open")
+                                                       : QStringLiteral("open; filled where it encloses most")));
+  if (m_meshes.outcome().wanted > 1) {
+    if (!imported.unitIsOfFile) m_meshes.noteGuess(QString::fromStdString(document.body(id)->name));
+  } else if (imported.unitIsOfFile) {
     showImported(id);
-  else
+  } else {
     askUnit(id, unit);
+  }
+}
+
+/// What became of several, or why the only one is not there.
+void BodyActions::onAllRead() {
+  const MeshQueue::Outcome outcome = m_meshes.outcome();
+  const QStringList& guessed = outcome.guessed;
+  const auto unread = static_cast<int>(outcome.unread.size()), come = outcome.wanted - unread;
+  if (outcome.wanted == 1 && unread == 0) return;
+  constexpr int kMost = 2;
+  QStringList text;
+  for (const auto& [name, why] : outcome.unread) {
+    if (text.size() < kMost) text << (outcome.wanted == 1 ? why : QStringLiteral("“%1”: %2").arg(name, why));
+  }
+  if (unread > kMost) text << QStringLiteral("Messages says why %1 more are not.").arg(unread - kMost);
+  if (guessed.size() == 1)
+    text << QStringLiteral("“%1” does not say its unit: its rows of size set another.").arg(guessed.front());
+  if (guessed.size() > 1)
+    text << QStringLiteral("%1 of them do not say their units: their rows of size set others.").arg(guessed.size());
+  const QString title = outcome.wanted == 1 ? QStringLiteral("“%1” was not imported.").arg(outcome.unread[0].first)
+                        : come == 0         ? QStringLiteral("None of %1 meshes was imported.").arg(unread)
+                        : unread == 0
+                            ? QStringLiteral("%1 meshes are in the scene.").arg(come)
+                            : QStringLiteral("%1 of %2 meshes are in the scene.").arg(come).arg(outcome.wanted);
+  std::vector<NoticeBar::Button> buttons;
+  if (unread > 0)
+    buttons.push_back({QStringLiteral("Import another…"), [this, use = outcome.use] { chooseMesh(use); }});
+  m_notices.bar().show(QString::fromLatin1(kTopic), unread > 0 ? MessageLevel::Error : MessageLevel::Info, title,
+                       text.join(QLatin1Char(' ')), std::move(buttons));
 }
 
 void BodyActions::showImported(const std::string& id) {

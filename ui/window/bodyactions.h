@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/base/progress.h"
 #include "core/geometry/toolbodies.h"
-#include "core/io/meshimport.h"
 #include "core/scene/solidform.h"
-#include "ui/session/worker.h"
+#include "ui/window/meshqueue.h"
 
-#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 #include <QtCore/QString>
-#include <QtCore/QTimer>
+#include <QtCore/QStringList>
 
-#include <memory>
+#include <string>
 #include <vector>
 
 class QAction;
@@ -31,17 +28,13 @@ class BodyActions : public QObject {
  public:
   BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
               QObject* parent = nullptr);
-  ~BodyActions() override;
   void makeMenu(QMenu* menu, QMenu* walls);  ///< `walls`: stands beside the bodies
-  /// What a mesh comes in as: matter that fills it, or a wall of its shape, which is a fixed body of its surface alone
-  /// that lets no heat through.
-  enum class MeshUse : uint8_t { Matter, Wall };
   /// The entry that brings walls.
   void addToWallMenu(QMenu* menu);
-  /// Reads a mesh in the background and adds it; what goes wrong is told over the view.
-  void importMesh(const QString& path, MeshUse use = MeshUse::Matter);
-  /// Gives up the mesh that is being read. False where none is.
-  bool cancelReading();
+  /// Reads meshes in the background and adds them one by one; what goes wrong is told over the view.
+  void importMeshes(const QStringList& paths, MeshUse use = MeshUse::Matter) { m_meshes.add(paths, use); }
+  /// Gives up those that are being read. False where none is.
+  bool cancelReading() { return m_meshes.cancel(); }
   /// By its ending, one of those that meshes have.
   static bool isMesh(const QString& path);
 
@@ -58,27 +51,22 @@ class BodyActions : public QObject {
   void addTool(const ToolForm& form);
   Body newSolid(SolidForm::Kind kind, const QString& name) const;
   std::string add(Body body, const std::string& without = {});
-  void onImported(const QString& path, MeshUse use, const std::shared_ptr<ImportedMesh>& imported,
-                  const QString& problem);
+  void onRead(const MeshQueue::File& file, const ImportedMesh& imported);
+  void onUnread(const MeshQueue::File& file, const QString& problem);
+  void onAllRead();
+  double heightFree(const Vector3& middle, const Vector3& size, const std::string& without) const;
   double scaledToFit(Body& body, const ImportedMesh& imported) const;
   void showImported(const std::string& id);
   void askUnit(const std::string& id, double metresPerUnit);
   void setUnit(std::string id, double from, double to);  ///< a copy: the notice that asks goes meanwhile
-  void showReading();
-  void stopReading();
 
   Session& m_session;
   Selection& m_selection;
   const Actions& m_actions;
   Notices& m_notices;
-  std::vector<QAction*> m_adding;       ///< need plugins; solids first
-  std::string m_asked;                  ///< body whose unit was asked for last; "": none
-  std::shared_ptr<Progress> m_reading;  ///< of the mesh that is being read; nullptr: none is
-  QString m_name;                       ///< of its file
-  QElapsedTimer m_since;                ///< it is being read
-  QTimer m_clock;                       ///< tells how far it is
-  bool m_tells = false;                 ///< that has begun
-  Worker m_worker;                      ///< reads meshes; ends first
+  std::vector<QAction*> m_adding;  ///< need plugins; solids first
+  std::string m_asked;             ///< body whose unit was asked for last; "": none
+  MeshQueue m_meshes;
 };
 
 }  // namespace ps

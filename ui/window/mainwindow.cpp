@@ -28,6 +28,7 @@
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
+#include "ui/window/droppedfiles.h"
 #include "ui/window/editactions.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
@@ -409,15 +410,21 @@ void MainWindow::updateTitle() {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (urls.size() == 1 && urls.front().isLocalFile()) event->acceptProposedAction();
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
-  const QString path = event->mimeData()->urls().front().toLocalFile();
-  if (BodyActions::isMesh(path)) return m_bodies->importMesh(path);
-  openFile(path);
+  const DroppedFiles files(event->mimeData()->urls());
+  if (!files.meshes.isEmpty() || !files.problems.isEmpty()) {  // told of over the scene
+    m_welcome->leave();
+    m_centre->setCurrentWidget(m_pane);
+  }
+  const bool any = !files.meshes.isEmpty() || !files.project.isEmpty();
+  m_notices->refuse(any ? QStringLiteral("Not all files were taken.") : QStringLiteral("No file was taken."),
+                    files.problems);
+  if (!files.meshes.isEmpty()) m_bodies->importMeshes(files.meshes);
+  if (!files.project.isEmpty()) openFile(files.project);
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
