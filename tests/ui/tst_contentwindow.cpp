@@ -24,7 +24,9 @@
 #include <QtCore/QMimeData>
 #include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
+#include <QtGui/QClipboard>
 #include <QtGui/QContextMenuEvent>
+#include <QtGui/QGuiApplication>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
@@ -149,10 +151,62 @@ class TestContentWindow : public SampleWindowTest {
   /// Enter adds what the arrows have walked to; walking alone adds nothing.
   void materialsAreAddedWithoutAMouse() {
     auto* panel = m_window->findChild<MaterialsPanel*>();
+    view()->setFocus();
+    panel->setFocus(Qt::TabFocusReason);
     QTest::keyClick(panel, Qt::Key_Down);
     QCOMPARE(document().project().materials.size(), size_t{1});
     QTest::keyClick(panel, Qt::Key_Return);
     QCOMPARE(document().project().materials.size(), size_t{2});
+  }
+
+  /// A click among the materials says that they are meant; single keys stay the view's, in which one draws with them.
+  void aClickOnAMaterialIsFollowedByItsCommands() {
+    auto* panel = m_window->findChild<MaterialsPanel*>();
+    panel->addInstalled("wax");
+    m_window->selection().select(OutlineKind::Body, "ice");
+    m_window->activateWindow();
+    view()->setFocus();
+    QTRY_VERIFY(view()->hasFocus());
+    QTest::mouseClick(panel, Qt::LeftButton, {}, panel->tileOf("wax").center());
+    QVERIFY(panel->hasFocus());
+    QGuiApplication::clipboard()->clear();
+    QTest::keyClick(panel, Qt::Key_X, Qt::ControlModifier);
+    QVERIFY(document().body("ice"));
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QVERIFY(QGuiApplication::clipboard()->text().contains(QStringLiteral("wax")));
+    QTest::keyClick(panel, Qt::Key_V, Qt::ControlModifier);
+    QCOMPARE(document().project().materials.size(), size_t{2});
+    const size_t bodies = document().project().bodies.size();
+    QTest::keyClick(panel, Qt::Key_D, Qt::ControlModifier);
+    QCOMPARE(document().project().bodies.size(), bodies);
+    QTest::mouseClick(panel, Qt::LeftButton, {}, panel->tileOf("wax").center());
+    QTest::keyClick(panel, Qt::Key_Delete);
+    QCOMPARE(document().project().materials.size(), size_t{1});
+    QVERIFY(document().body("ice"));
+
+    QTest::mouseClick(panel, Qt::LeftButton, {}, panel->tileOf("water").center());
+    QTest::keyClick(panel, Qt::Key_W);
+    QCOMPARE(m_window->tools().active(), std::string("move"));
+    session().pause();
+    QTest::keyClick(panel, Qt::Key_Space);
+    QVERIFY(session().playing());
+    QTest::keyClick(panel, Qt::Key_Space);
+    const double before = session().now();
+    QTest::keyClick(panel, Qt::Key_Right);
+    QTRY_VERIFY_WITH_TIMEOUT(session().now() > before, kLong);
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    QTest::keyClick(panel, Qt::Key_Tab);
+    QVERIFY(m_window->tools().tool().usesBrush());
+    QTest::keyClick(panel, Qt::Key_Tab);
+    // By keys it walks.
+    view()->setFocus();
+    panel->setFocus(Qt::TabFocusReason);
+    QVERIFY(panel->walks());
+    QTest::mouseClick(view(), Qt::LeftButton, {}, QPoint(view()->width() / 2, 60));
+    QVERIFY(view()->hasFocus());
+    m_window->selection().select(OutlineKind::Body, "ice");
+    QTest::keyClick(view(), Qt::Key_C, Qt::ControlModifier);
+    QVERIFY(QGuiApplication::clipboard()->text().contains(QStringLiteral("bodies")));
   }
 
   void aWallIsDeletedAndAdded() {

@@ -74,7 +74,7 @@ MaterialsPanel::MaterialsPanel(Session& session, Selection& selection, QWidget* 
     : QWidget(parent), m_document(session.document()), m_swatches(session.swatches()), m_selection(selection) {
   installAccessibility();
   setMouseTracking(true);
-  setFocusPolicy(Qt::TabFocus);
+  setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(QStringLiteral("Materials"));
   QSizePolicy policy = sizePolicy();
   policy.setHeightForWidth(true);  // the area that scrolls it asks
@@ -249,7 +249,7 @@ bool MaterialsPanel::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
     const auto* key = static_cast<QKeyEvent*>(event);
     const bool arrow = key->key() >= Qt::Key_Left && key->key() <= Qt::Key_Down;
-    if (arrow && (key->modifiers() & ~Qt::KeypadModifier) == Qt::ShiftModifier) {
+    if (m_walks && arrow && (key->modifiers() & ~Qt::KeypadModifier) == Qt::ShiftModifier) {
       event->accept();
       return true;
     }
@@ -318,6 +318,12 @@ void MaterialsPanel::leaveEvent(QEvent*) {
   m_hover = -1;
   update();
 }
+void MaterialsPanel::focusInEvent(QFocusEvent* event) {
+  const bool back = event->reason() == Qt::ActiveWindowFocusReason || event->reason() == Qt::PopupFocusReason;
+  if (!back) m_walks = event->reason() != Qt::MouseFocusReason;
+  QWidget::focusInEvent(event);
+}
+
 
 void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
   m_cursor = -1;
@@ -326,6 +332,7 @@ void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
 
 /// Arrows pick among the scene's materials, with Shift one more each, and only walk among what can be added: Enter adds
 /// it.
+  if (!m_walks) return QWidget::keyPressEvent(event);
 void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
   const bool enters = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space;
   if (enters && m_cursor >= 0) {

@@ -31,6 +31,9 @@ class MaterialsPanel : public QWidget {
   void addInstalled(const std::string& base);
   /// Of a scene's material by its id, or of one that can be added by its base; empty when there is none.
   QRect tileOf(const std::string& id) const;
+  /// Arrows and Enter are its own: it got the focus by keys. After a click on it the commands of Edit are for
+  /// materials, and single keys stay the view's, where one draws with what was clicked.
+  bool walks() const { return m_walks; }
   QSize sizeHint() const override { return {204, 140}; }
   QSize minimumSizeHint() const override { return {120, 90}; }
   bool hasHeightForWidth() const override { return true; }
@@ -49,6 +52,7 @@ class MaterialsPanel : public QWidget {
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
@@ -83,6 +87,7 @@ class MaterialsPanel : public QWidget {
   int m_hover = -1, m_cursor = -1;  ///< m_cursor: where the keyboard is among what can be added
   int m_held = -1;                  ///< tile under the pressed button, to be picked where it goes up
   QPoint m_pressed;
+  bool m_walks = true;
 };
 
 }  // namespace ps

@@ -15,24 +15,37 @@
 
 namespace ps {
 
+namespace {
+
+/// Of materials that were clicked: single keys go on to the view.
+bool leavesKeys(const QObject* widget) {
+  const auto* materials = qobject_cast<const MaterialsPanel*>(widget);
+  return materials && !materials->walks();
+}
+
+}  // namespace
+
+bool leadsTab(const QObject* widget) { return qobject_cast<const Viewport*>(widget) || leavesKeys(widget); }
+
 bool takesKey(const QObject* widget, int key) {
   switch (key) {
     case Qt::Key_Delete:
-      // Deletes where what is selected can be seen to be: in the outliner and in the view.
+      // Deletes where what is selected, or chosen, can be seen to be: in the outliner, the view and among materials.
       return widget == QApplication::focusWidget() && !qobject_cast<const Viewport*>(widget) &&
-             !qobject_cast<const Outliner*>(widget->parent());
+             !qobject_cast<const MaterialsPanel*>(widget) && !qobject_cast<const Outliner*>(widget->parent());
     case Qt::Key_Return:
     case Qt::Key_Enter:
       // "Make it real" is for the view; everywhere else Enter takes what is typed or chosen. An open list takes it from
       // this very event.
       return !QApplication::activePopupWidget() && widget == QApplication::focusWidget() &&
-             !qobject_cast<const Viewport*>(widget);
+             !qobject_cast<const Viewport*>(widget) && !leavesKeys(widget);
     case Qt::Key_Space:
       return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QComboBox*>(widget);
     case Qt::Key_Left:
     case Qt::Key_Right:
     case Qt::Key_Up:
     case Qt::Key_Down:
+      if (leavesKeys(widget)) return false;
       if (qobject_cast<const QTabBar*>(widget) || qobject_cast<const QMenuBar*>(widget) ||
           qobject_cast<const MaterialsPanel*>(widget) || qobject_cast<const Card*>(widget))
         return true;

@@ -493,7 +493,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
       event->accept();
       return true;
     }
-    if (plain && event->type() == QEvent::KeyPress && key->key() == Qt::Key_Tab && watched == viewport()) {
+    if (plain && event->type() == QEvent::KeyPress && key->key() == Qt::Key_Tab && leadsTab(watched)) {
       showWorkspace(workspaceTab() == kSketchTab ? kSceneTab : kSketchTab);
       return true;
     }

@@ -260,6 +260,12 @@ void ThingActions::paste() {
 }
 
 void ThingActions::duplicate() {
+  if (ofMaterials()) {
+    m_notices.refuse(
+        QStringLiteral("Nothing was copied."),
+        QStringLiteral("The scene has the same material once. Click in the view to copy what is selected."));
+    return;
+  }
   if (m_pins.alone()) return m_pins.duplicate();
   const Document& document = m_session.document();
   Project things = excerptOf(document.project(), m_selection.items());
