@@ -119,6 +119,11 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
     const std::string present = structureOf(*body, plugins);
     if (present != kNoStructure && std::find(choices.begin(), choices.end(), present) == choices.end())
       choices.push_back(present);
+    for (const BodyConstraint& constraint : body->constraints) {  // one more that is not installed
+      const std::string& plugin = constraint.plugin;
+      if (plugins && plugin != present && !contains(plugins->ids(PluginKind::Constraint), plugin))
+        neighbours.push_back(plugin);
+    }
   }
   const std::lock_guard lock(g_lists);
   auto& list = lists[{choices, materials, neighbours}];

@@ -10,6 +10,7 @@
 #include "ui/panels/messagespage.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/fileproblem.h"
 #include "ui/session/messagelog.h"
@@ -26,6 +27,7 @@
 
 #include <algorithm>
 #include <clocale>
+#include <nlohmann/json.hpp>
 
 using namespace ps;
 
@@ -137,6 +139,50 @@ class TestWaysOut : public SampleWindowTest {
     QVERIFY(row && labelOf(*row).contains(QStringLiteral("plugin:org.example.net")));
     inspector.setMaterial("water");
     QVERIFY(!labelOf(*inspector.materialPanel()).contains(QStringLiteral("material:paste")));
+  }
+
+  /// What plugins that are not here were given stands in rows that nobody can edit, and goes into the file as it was.
+  void whatIsKeptForThemIsShown() {
+    nlohmann::json file = nlohmann::json::parse(writeProject(sceneOfMissing()));
+    const nlohmann::json law = {{"points", {{1, 2}, {3, 4}}}};
+    auto& net = file["bodies"].back();
+    net["constraints"][0]["parameters"] = {{"tear_strain", 0.25}, {"sticky", true}, {"weave", "plain"}, {"law", law}};
+    net["constraints"].push_back({{"plugin", "org.example.other"}});
+    file["solver"]["thermal"]["sources"] = {{{"plugin", "org.example.lamp"}, {"parameters", {{"power", 40}}}}};
+    const Project project = parseProject(file.dump(), "kept.json", *session().plugins()).project;
+    openProject(project);
+    const std::string before = writeProject(document().project());
+    m_window->selection().selectBody("net");
+    const auto rowOf = [&](ParameterPanel* panel, const char* key) { return panel->row(QString::fromLatin1(key)); };
+    ParameterPanel* body = m_window->inspector().bodyPanel();
+    const auto shows = [&](const char* key, const QString& text) {
+      const ParameterRow* row = rowOf(body, key);
+      return row && row->valueText() == text && row->has(RowState::Disabled) &&
+             row->model().disabledReason.contains(QStringLiteral("Values are kept"));
+    };
+    QVERIFY(shows("constraint/net/org.example.net/tear_strain", QStringLiteral("0.250")));
+    QVERIFY(shows("constraint/net/org.example.net/weave", QStringLiteral("plain")));
+    QVERIFY(shows("constraint/net/org.example.net/law", QString::fromStdString(law.dump())));
+    QVERIFY(rowOf(body, "constraint/net/org.example.net/sticky")->model().value == Value(true));
+    QVERIFY(rowOf(body, "constraint/net/org.example.other/values"));
+    ParameterRow* other = rowOf(body, "body/net/uses.org.example.other");
+    QVERIFY(other && labelOf(*other).contains(QStringLiteral("plugin:org.example.other")));
+    const auto panels = m_window->findChildren<ParameterPanel*>();
+    QVERIFY(std::any_of(panels.begin(), panels.end(), [&](ParameterPanel* panel) {
+      return rowOf(panel, "heat_source/org.example.lamp/power") != nullptr;
+    }));
+    m_window->inspector().setMaterial("paste");
+    QVERIFY(rowOf(m_window->inspector().materialPanel(), "material/paste/yield"));
+    QTest::qWait(100);
+    picture(QStringLiteral("kept-rows.png"));
+    // A click and a key change nothing.
+    ParameterRow* tear = rowOf(body, "constraint/net/org.example.net/tear_strain");
+    QTest::mouseDClick(tear, Qt::LeftButton, {}, tear->rect().center());
+    QTest::keyClick(tear, Qt::Key_Up);
+    QCOMPARE(document().undoStack().count(), 0);
+    QCOMPARE(writeProject(document().project()), before);
+    const nlohmann::json saved = nlohmann::json::parse(before);
+    QVERIFY(saved["bodies"].back()["constraints"][0] == net["constraints"][0]);
   }
 
   void theLinkOfAMessageLeadsToThePlugin() {

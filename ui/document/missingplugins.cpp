@@ -54,7 +54,9 @@ std::vector<MissingPlugin> missingPlugins(const Project& project, const PluginRe
   for (const Body& body : project.bodies) {
     for (const BodyConstraint& constraint : body.constraints) {
       if (plugins.constraint(constraint.plugin)) continue;
-      entryOf(list, constraint.plugin, PluginKind::Constraint).rows.push_back({Owner::Body, body.id, kStructureKey});
+      const bool structure = structureOf(body, &plugins) == constraint.plugin;
+      entryOf(list, constraint.plugin, PluginKind::Constraint)
+          .rows.push_back({Owner::Body, body.id, structure ? kStructureKey : kNeighbourKey + constraint.plugin});
     }
   }
   const std::string& thermal = project.solver.thermalModel;

@@ -8,6 +8,7 @@
 #include "core/simulation/rules.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/keptrows.h"
 #include "ui/panels/rowmodels.h"
 #include "ui/panels/wayout.h"
 #include "ui/session/selection.h"
@@ -18,8 +19,16 @@
 #include "ui/theme/units.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ps {
+namespace {
+
+void append(std::vector<RowModel>& rows, std::vector<RowModel> more) {
+  rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
 
 Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
     : QObject(parent),
@@ -197,6 +206,8 @@ void Inspector::rebuildBody() {
         m_document.plugins() ? m_document.plugins()->constraint(constraint.plugin) : nullptr;
     if (plugin)
       addRows(rows, any, m_document.plugins()->parameters(constraint.plugin), QString::fromUtf8(plugin->label()));
+    else if (m_document.plugins())
+      append(rows, keptRows(constraint.parameters, constraint.unknown, "", any, constraint.plugin));
   }
   shareRows(rows, shown());
   m_body->setModel(std::move(rows));
@@ -237,10 +248,13 @@ void Inspector::rebuildSolver() {
   std::vector<RowModel> rows;
   if (auto choice = rowModelOf(m_document, {Owner::Scene, "", "thermal_model"})) rows.push_back(std::move(*choice));
   addRows(rows, {Owner::Solver, "", ""}, solverParameters());
-  const std::string& id = m_document.project().solver.thermalModel;
+  const SolverOptions& solver = m_document.project().solver;
+  const std::string& id = solver.thermalModel;
   const api::ThermalPlugin* model = m_document.plugins() ? m_document.plugins()->thermal(id) : nullptr;
   if (model)
     addRows(rows, {Owner::Thermal, "", ""}, m_document.plugins()->parameters(id), QString::fromUtf8(model->label()));
+  else if (m_document.plugins() && !id.empty())
+    append(rows, keptRows(solver.thermalParameters, solver.unknown, "thermal", {Owner::Thermal, "", ""}, id));
   const api::ParameterList scene = declarationsOf(m_document.project(), m_document.plugins(), {Owner::Scene, "", ""});
   for (size_t i = 0; i < scene.count; ++i) {
     const std::string source = pluginBehind(scene[i].key, kHeatSourceKey);
@@ -248,6 +262,11 @@ void Inspector::rebuildSolver() {
     if (auto row = rowModelOf(m_document, {Owner::Scene, "", scene[i].key})) rows.push_back(std::move(*row));
     addRows(rows, {Owner::HeatSource, source, ""}, m_document.plugins()->parameters(source),
             QString::fromUtf8(scene[i].label));
+  }
+  for (const UsedHeatSource& source : solver.heatSources) {
+    if (m_document.plugins() && !m_document.plugins()->heatSource(source.plugin))
+      append(rows,
+             keptRows(source.parameters, source.unknown, "", {Owner::HeatSource, source.plugin, ""}, source.plugin));
   }
   m_solver->setHeader(QStringLiteral("Solver"), model ? QStringLiteral("Heat by ") + QString::fromUtf8(model->label())
                                                       : QStringLiteral("No heat"));

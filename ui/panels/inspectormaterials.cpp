@@ -6,6 +6,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/keptrows.h"
 #include "ui/panels/rowmodels.h"
 #include "ui/panels/wayout.h"
 #include "ui/session/session.h"
@@ -62,6 +63,10 @@ void Inspector::rebuildMaterial() {
   if (const api::MaterialPlugin* plugin = plugins ? plugins->materialPlugin(material->base) : nullptr) {
     addRows(rows, any, plugins->parameters(material->base), QString::fromUtf8(plugin->label()));
   }
+  if (plugins && !plugins->material(material->base)) {
+    for (RowModel& row : keptRows(material->parameters, material->unknown, "", any, material->base))
+      rows.push_back(std::move(row));
+  }
   for (const SceneMaterial& other : project.materials) {
     if (auto row = rowModelOf(m_document, {Owner::Material, material->id, kAdheresKey + other.id}))
       rows.push_back(std::move(*row));
@@ -100,11 +105,14 @@ void Inspector::showMaterialHeader() {
     if (emitter.material == material->id) bodies << ownerLabel(project, {Owner::Emitter, emitter.id, "speed"});
   }
   m_grade = gradeText(plugins, material->base);
+  const bool missing = plugins && !plugins->material(material->base);
+  const SwatchPainter swatch = missing ? SwatchPainter(paintPlaceholder)
+                                       : m_session.swatches().painterOf(swatchOf(project, plugins, material->id));
   m_material->setHeader(QString::fromStdString(shownName(*material)), bodies.join(QStringLiteral(", ")),
-                        materialDetail(), m_session.swatches().painterOf(swatchOf(project, plugins, material->id)));
-  if (!plugins || plugins->material(material->base)) return;
-  for (const MissingPlugin& missing : missingPlugins(project, *plugins)) {
-    if (missing.material == material->id) m_material->setHeaderNote(wayout::note(missing, m_document));
+                        materialDetail(), swatch);
+  if (!missing) return;
+  for (const MissingPlugin& each : missingPlugins(project, *plugins)) {
+    if (each.material == material->id) m_material->setHeaderNote(wayout::note(each, m_document));
   }
 }
 

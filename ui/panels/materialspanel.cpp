@@ -6,6 +6,7 @@
 #include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/keptrows.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/swatches.h"
@@ -211,9 +212,7 @@ void MaterialsPanel::paintTile(QPainter& painter, size_t index) const {
   constexpr double kEdge = (kSwatch - kBall) / 2.0;  // that a swatch leaves free
   const QRectF ball = square.adjusted(kEdge, kEdge, -kEdge, -kEdge);
   if (tile.missing) {
-    painter.setPen(QPen(theme[Token::Muted], 1));
-    painter.setBrush(QBrush(theme[Token::Muted], Qt::BDiagPattern));
-    painter.drawEllipse(ball);
+    paintPlaceholder(painter, ball);
   } else {
     paintSwatch(painter, square, tile.swatch, m_swatches);
   }
@@ -318,12 +317,12 @@ void MaterialsPanel::leaveEvent(QEvent*) {
   m_hover = -1;
   update();
 }
+
 void MaterialsPanel::focusInEvent(QFocusEvent* event) {
   const bool back = event->reason() == Qt::ActiveWindowFocusReason || event->reason() == Qt::PopupFocusReason;
   if (!back) m_walks = event->reason() != Qt::MouseFocusReason;
   QWidget::focusInEvent(event);
 }
-
 
 void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
   m_cursor = -1;
@@ -332,8 +331,8 @@ void MaterialsPanel::focusOutEvent(QFocusEvent* event) {
 
 /// Arrows pick among the scene's materials, with Shift one more each, and only walk among what can be added: Enter adds
 /// it.
-  if (!m_walks) return QWidget::keyPressEvent(event);
 void MaterialsPanel::keyPressEvent(QKeyEvent* event) {
+  if (!m_walks) return QWidget::keyPressEvent(event);
   const bool enters = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space;
   if (enters && m_cursor >= 0) {
     pick(static_cast<size_t>(m_cursor));

@@ -167,12 +167,16 @@ void Outliner::addBodies(QStandardItem* scene) {
   for (const Body& body : project.bodies) {
     const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
     const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
-    const QString icon = fixed ? QStringLiteral("plate") : sketched ? QStringLiteral("brush") : QStringLiteral("body");
+    const bool placeholder = plugins && isPlaceholder(project, body, *plugins);
+    const QString icon = placeholder ? QStringLiteral("plugin")
+                         : fixed     ? QStringLiteral("plate")
+                         : sketched  ? QStringLiteral("brush")
+                                     : QStringLiteral("body");
     QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), icon);
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(QString::fromStdString(body.material), outline::kMaterial);
     mark(item, body.visible, body.locked);
-    item->setData(plugins && isPlaceholder(project, body, *plugins), outline::kPlaceholder);
+    item->setData(placeholder, outline::kPlaceholder);
     addPins(item, body);
   }
 }
