@@ -52,14 +52,14 @@ constexpr api::ParameterDeclaration kBody[] = {
     actingWhen(
         "fixed = on & scene/thermal_model != none",
         choice(
-            {"heat", "Heat", "", ""}, "conducts|fixed_temperature|adiabatic|convective", 0,
+            {"heat", "Heat", "", ""}, "conducts|fixed_temperature|adiabatic|convective|fixed_flux", 0,
             {"Heat",
              "Whether a body that is held in place warms and cools as its material does, keeps a temperature "
              "whatever touches it, lets no heat through (then it takes none from the air either, and radiates as "
-             "much as it receives), or lets through what a fluid behind its surface gives and takes. Like a wall of "
-             "any shape.",
+             "much as it receives), lets through what a fluid behind its surface gives and takes, or gives the same "
+             "heat per area of its surface whatever touches it. Like a wall of any shape.",
              "a pan: conducts; a mould that is cooled, a hot plate: fixed temperature; a foam box: adiabatic; a jacket "
-             "with cooling water: convective",
+             "with cooling water: convective; an electric heater: fixed flux",
              ""})),
     actingWhen("fixed = on & heat = fixed_temperature|convective",
                number({"held_temperature", "Temperature held", "T", "K"}, {293.15, 173.15, 773.15, 1, 10000},
@@ -75,6 +75,12 @@ constexpr api::ParameterDeclaration kBody[] = {
                        "material conducts nothing then; it is as warm as that fluid.",
                        "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
                        "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"})),
+    actingWhen("fixed = on & heat = fixed_flux",
+               number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -60000, 60000, -1e9, 1e9},
+                      {"Heat",
+                       "Heat that a body of fixed flux gives to each square metre of matter that touches its surface; "
+                       "below zero it takes. A surface one particle thick gives that once, whichever side is touched.",
+                       "sunshine 1000, hob 20000 to 60000 W/m²", ""})),
     leastMeans("found",
                number({"surface_area", "Surface in air", "A", "m²"}, {0, 0, 0.1, 0, 1e6},
                       {"Heat",

@@ -17,6 +17,7 @@
 #include "core/simulation/lattice.h"
 #include "core/simulation/mouth.h"
 #include "core/simulation/sceneproblem.h"
+#include "core/simulation/truesurface.h"
 
 #include <Eigen/Geometry>
 
@@ -56,7 +57,8 @@ BodyHeat heatOf(const Body& body, bool fixed) {
   const bool convects = kind == "convective";
   if (convects || kind == "fixed_temperature") heat.held = numberOf(body.parameters, list, "held_temperature");
   if (convects) heat.convection = numberOf(body.parameters, list, "convection");
-  heat.insulated = kind == "adiabatic" || (convects && heat.convection == 0);
+  heat.insulated = kind == "adiabatic" || kind == "fixed_flux" || (convects && heat.convection == 0);
+  if (kind == "fixed_flux") heat.flux = numberOf(body.parameters, list, "heat_flux");
   return heat;
 }
 
@@ -352,9 +354,15 @@ BodyMotion compileMotion(const Body& body, double spacing) {
 std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
                                      std::span<const uint8_t> fixed) {
   std::vector<BodyHeat> heat(bodyIds.size());
+  const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
   for (const Body& body : project.bodies) {
     const auto index = static_cast<size_t>(std::find(bodyIds.begin(), bodyIds.end(), body.id) - bodyIds.begin());
-    if (index < heat.size()) heat[index] = heatOf(body, index < fixed.size() && fixed[index]);
+    if (index >= heat.size()) continue;
+    heat[index] = heatOf(body, index < fixed.size() && fixed[index]);
+    if (heat[index].flux == 0) continue;
+    const auto* solid = std::get_if<SolidShape>(&body.shape);
+    heat[index].oneLayer = solid && SolidForm(*solid).isOneLayer();
+    heat[index].area = surfaceAreaOf(body, spacing);
   }
   return heat;
 }

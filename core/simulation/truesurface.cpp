@@ -58,6 +58,22 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
   });
 }
 
+double surfaceAreaOf(const Body& body, double spacing) {
+  if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+    const Vector3& s = box->size;
+    return 2 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
+  }
+  const auto* solid = std::get_if<SolidShape>(&body.shape);
+  if (!solid) return 0;
+  const SolidForm form(*solid);
+  if (form.kind() == SolidForm::Kind::Rope) return 0;
+  if (form.isOneLayer()) return form.volume(1);
+  double area = 0;
+  for (const MeshNearest::Triangle& t : facetsOf(*solid, kFacetError * spacing))
+    area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  return area;
+}
+
 std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, double spacing) {
   const auto* solid = std::get_if<SolidShape>(&body.shape);
   if (!solid) return std::nullopt;

@@ -17,6 +17,9 @@ bool hasTrueSurface(const Body& body);
 /// Writes field::kTrueSurface of a body's particles that lie within a spacing of its surface.
 void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);
 
+/// m2 of a body's shape, of what is one layer thick on one side; 0 of sketches and ropes, whose cells alone show it.
+double surfaceAreaOf(const Body& body, double spacing);
+
 /// The surfaces that fluids meet in place of a body's particles: of every fixed solid but sheets and ropes. What was
 /// made is kept for as long as a body has that shape.
 class ShapeSurfaces {

@@ -11,6 +11,9 @@ struct BodyHeat {
   /// themselves.
   double convection = 0;
   bool insulated = false;  ///< its fixed particles conduct nothing, and give nothing to walls and air; they do radiate
+  double flux = 0;         ///< W/m2 that its fixed particles, insulated then, give to what touches their surface
+  double area = 0;         ///< m2 of that surface; 0: as they show it
+  bool oneLayer = false;   ///< they are a surface of one particle's thickness; `area` is that of one side
 };
 
 }  // namespace ps

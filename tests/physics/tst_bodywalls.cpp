@@ -157,6 +157,53 @@ class TestBodyWalls : public QObject {
     QVERIFY(std::abs(measured - 1) < 0.06);
   }
 
+  /// Two plates, two layers thick, of which nothing is known but their particles give q A t each; 4 %, as of fluids
+  /// behind bodies: the edges of the plates lack neighbours.
+  void fluxOfBodiesIsThatOfPlanes() {
+    Scene scene;
+    scene.addMaterial(heattest::materialOf({}));
+    addBetween(scene, 0);
+    scene.heat.bodyHeating().set(
+        std::vector<ps::BodyHeat>{{}, {.insulated = true, .flux = 1500}, {.insulated = true, .flux = -500}});
+    scene.start([](size_t) { return 300.0; });
+    const double energy = scene.heat.energy(scene.store);
+    scene.run(20);
+    const double gained = scene.heat.energy(scene.store) - energy, expected = (1500 - 500) * 0.12 * 0.12 * 20;
+    qInfo("%.4f of the heat", gained / expected);
+    QVERIFY(std::abs(gained / expected - 1) < 0.04);
+    QVERIFY(std::abs(scene.heat.ledger().heaters - gained) < 1e-12 * scene.mass() * 1e5);
+    for (size_t i = 20 * 24 * 24; i < scene.store.size(); ++i) QCOMPARE(scene.store.temperature()[i], 300.0);
+  }
+
+  /// Where its surface is known, all of it that matter covers counts: a cube in a bath gives q A t to rounding, on
+  /// several threads to the bit what it gives on one.
+  void fluxOfAKnownSurfaceIsExact() {
+    const auto gained = [](int threads) {
+      ps::setThreadCount(threads);
+      Scene scene;
+      scene.addMaterial(heattest::materialOf({}));
+      scene.addBox({-10, -10, -10}, {20, 20, 20}, 0);
+      for (size_t i = 0; i < scene.store.size(); ++i) {
+        const ps::Vector3 at = ps::vectorOf(scene.store.position()[i]) / scene.spacing;
+        if (at.cwiseAbs().maxCoeff() > 4) continue;
+        scene.store.body()[i] = 1;
+        scene.store.motion()[i] = ps::api::Motion::Static;
+      }
+      const double edge = 8 * scene.spacing;
+      scene.heat.bodyHeating().set(
+          std::vector<ps::BodyHeat>{{}, {.insulated = true, .flux = 2000, .area = 6 * edge * edge}});
+      scene.start([](size_t) { return 300.0; });
+      const double before = scene.heat.energy(scene.store);
+      scene.run(5);
+      ps::setThreadCount(0);
+      return (scene.heat.energy(scene.store) - before) / (2000 * 6 * edge * edge * 5);
+    };
+    const double one = gained(1);
+    qInfo("%.9f of the heat", one);
+    QVERIFY(std::abs(one - 1) < 1e-6);  // volumes are floats
+    QCOMPARE(gained(3), one);
+  }
+
   /// Rays meet such walls as they meet any matter: a cube in a shell that is held at 800 K sees nothing else, and takes
   /// in sigma A (T'^4 - T^4)/(1/eps + (A/A')(1/eps' - 1)), the shell's inner face A' and emissivity eps'. 6 %: chance,
   /// and what of a lattice is its surface.

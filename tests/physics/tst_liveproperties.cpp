@@ -12,7 +12,9 @@
 #include <QTest>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -65,6 +67,21 @@ Project between(const std::string& material, double timeScale = 1000) {
   project.bodies.push_back(cube("hot", material, {0.16, 0.03, 0}, 1200));
   project.bodies[1].parameters.values["heating_power"] = -500.0;
   return project;
+}
+
+std::shared_ptr<const SceneMesh> cubeMesh() {
+  SceneMesh mesh;
+  mesh.id = mesh.name = "cube";
+  for (int k = 0; k < 8; ++k) {
+    const auto side = [&](int axis) { return (k >> axis & 1) != 0 ? 0.5f : -0.5f; };
+    mesh.points.push_back({side(0), side(1), side(2)});
+  }
+  for (const std::array<uint32_t, 4>& face : std::initializer_list<std::array<uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    mesh.triangles.push_back({face[0], face[1], face[2]});
+    mesh.triangles.push_back({face[0], face[2], face[3]});
+  }
+  return std::make_shared<const SceneMesh>(std::move(mesh));
 }
 
 /// Properties that the heat of a material depends on.
@@ -251,6 +268,55 @@ class TestLiveProperties : public QObject {
     given();  // the body itself has become as cold
     QCOMPARE(runFor(engine, 1), QString());
     QVERIFY(given() < 0);
+  }
+
+  /// A wall of a mesh's surface around a block that fills it gives flux x area of the mesh x time, whichever way it
+  /// stands: 1 %, of which its corners are most. What the row says acts at the next frame.
+  void aMeshGivesItsFlux_data() {
+    QTest::addColumn<double>("turned");
+    QTest::newRow("along the lattice") << 0.0;
+    QTest::newRow("turned") << 30.0;
+  }
+  void aMeshGivesItsFlux() {
+    QFETCH(double, turned);
+    constexpr double kEdge = 0.24, kFlux = 3000;
+    Project project = between("iron", 1);
+    project.environment = scenes::tray(0.5, 0.6);
+    project.environment.parameters.values["air_convection"] = 0.0;
+    project.bodies.resize(1);
+    Body& block = project.bodies[0];
+    SolidShape filled;
+    filled.parameters.values = {
+        {"kind", std::string("block")}, {"size_x", kEdge}, {"size_y", kEdge}, {"size_z", kEdge}, {"position_y", 0.3},
+        {"rotation_z", turned}};
+    block.shape = filled;
+    block.parameters.values["fixed"] = true;
+    project.meshes = {cubeMesh()};
+    Body tank = block;
+    tank.id = tank.name = "tank";
+    SolidShape surface = filled;
+    surface.meshId = project.meshes[0]->id, surface.mesh = project.meshes[0];
+    surface.parameters.values["kind"] = std::string("mesh");
+    surface.parameters.values["inside"] = std::string("hollow");
+    tank.shape = surface;
+    tank.parameters.values["heat"] = std::string("fixed_flux");
+    tank.parameters.values["heat_flux"] = kFlux;
+    project.bodies.push_back(tank);
+    Engine engine(project, *m_plugins);
+    auto given = [&, last = 0.0]() mutable {
+      const double now = engine.solver().heatLedger().heaters;
+      return now - std::exchange(last, now);
+    };
+    const double energy = engine.solver().thermalEnergy();
+    QCOMPARE(runFor(engine, 6), QString());
+    const double seconds = engine.solver().thermalTime(), heat = given();
+    const double share = heat / (kFlux * 6 * kEdge * kEdge * seconds);
+    qInfo("%.4f of the heat", share);
+    QVERIFY(std::abs(share - 1) < 0.01);
+    QVERIFY(std::abs(engine.solver().thermalEnergy() - energy - heat) < 1e-9 * energy);
+    QVERIFY(engine.setParameter({Owner::Body, "tank", "heat_flux"}, -2 * kFlux));
+    QCOMPARE(runFor(engine, 6), QString());
+    QVERIFY(std::abs(given() + 2 * heat) < 1e-9 * heat);
   }
 
   /// What is not of the edited material is not touched, to the bit.

@@ -92,6 +92,7 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
   m_pairs.build(store, neighbours.view(), m_materials,
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
                  m_settings.momentCorrection, m_settings.contactConductance, m_insulated, m_convection});
+  if (m_bodyHeating.fluxes()) m_bodyFlux.measure(store, m_pairs, m_bodyHeating, m_solver);
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(airTemperature());
   const auto body = [&](size_t first, size_t last) {
@@ -176,6 +177,7 @@ void HeatStage::hold(ParticleStore& store) {
 /// Whether nothing warms or cools anything else, nor itself; vapour is never left alone, for the sake of nucleation.
 bool HeatStage::isBalanced(ParticleStore& store, const api::ParticleView& view, const api::NeighbourView& lists,
                            double time) {
+  if (m_bodyHeating.fluxes()) return false;
   const double *temperature = store.temperature(), *end = temperature + store.size();
   const auto [low, high] = std::minmax_element(temperature, end);
   m_surroundings.setAir(airTemperature());

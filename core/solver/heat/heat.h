@@ -7,6 +7,7 @@
 #include "core/base/shorttext.h"
 #include "core/matter/material.h"
 #include "core/particles/neighbours.h"
+#include "core/solver/heat/bodyflux.h"
 #include "core/solver/heat/enthalpycurves.h"
 #include "core/solver/heat/heatbody.h"
 #include "core/solver/heat/heatpairs.h"
@@ -49,6 +50,8 @@ class StateWriter;
 /// Fixed matter that is held at a temperature (BodyHeat) is a bath: what it gives and takes is booked as heaters', and
 /// it has none of its own inertia. Heat enters it from half a spacing before its outermost particles, through its own
 /// material: what conducts well has its temperature on its surface.
+///
+/// Fixed matter that gives a flux by its surface is insulated; what it gives is booked as heaters' (BodyFlux).
 ///
 /// What sources and walls of given flux take leaves each particle at 1 K at least.
 ///
@@ -240,12 +243,13 @@ class HeatStage {
 
   HeatPairs m_pairs;
   BodyHeating m_bodyHeating;
+  BodyFlux m_bodyFlux;
   PluginHeating m_sources;
   HeatInstant m_now, m_next;
   std::vector<Partial> m_partials;
   std::vector<double> m_joules;       ///< of the present substep
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
-  std::vector<double> m_watts;        ///< sources and bodies' power, W of thermal time
+  std::vector<double> m_watts;        ///< sources, bodies' power and flux, W of thermal time
   std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
   std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
   double m_pairRate = 0;              ///< and of all

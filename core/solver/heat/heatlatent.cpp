@@ -43,6 +43,7 @@ void HeatStage::collectFrameHeat(ParticleStore& store, const api::ParticleView& 
   m_bodyHeating.measure(store);
   const auto sources = [&](size_t first, size_t last) {
     m_bodyHeating.addTo(store, first, last, m_watts);
+    if (m_bodyHeating.fluxes()) m_bodyFlux.addTo(store, m_pairs, first, last, m_watts);
     if (!m_boiling) return;
     for (size_t i = first; i < last; ++i) filmHeat(store, i, frame, m_partials[first / grain::kNeighbours]);
     countBoiling(store, first, last);

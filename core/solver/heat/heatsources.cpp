@@ -16,6 +16,7 @@ void BodyHeating::set(std::span<const BodyHeat> bodies) {
   m_holds = std::any_of(bodies.begin(), bodies.end(), [](const BodyHeat& body) { return body.held > 0; });
   m_convects = std::any_of(bodies.begin(), bodies.end(),
                            [](const BodyHeat& body) { return body.held > 0 && body.convection > 0; });
+  m_fluxes = std::any_of(bodies.begin(), bodies.end(), [](const BodyHeat& body) { return body.flux != 0; });
   m_insulates = std::any_of(bodies.begin(), bodies.end(), [](const BodyHeat& body) { return body.insulated; });
 }
 

@@ -30,6 +30,11 @@ class BodyHeating {
     return isFixed(store, i) && of(store, i).held > 0 ? of(store, i).convection : 0;
   }
   bool isInsulated(const ParticleStore& store, size_t i) const { return isFixed(store, i) && of(store, i).insulated; }
+  bool fluxes() const { return m_fluxes; }  ///< some body gives heat by its surface
+  /// W/m2 that a particle's body gives by its surface; 0 for a particle of none.
+  double fluxAt(const ParticleStore& store, size_t i) const { return isFixed(store, i) ? of(store, i).flux : 0; }
+  size_t count() const { return m_bodies.size(); }
+  const BodyHeat& of(uint32_t body) const { return m_bodies[body]; }
   /// Makes ready for a frame: adds up the mass of heated bodies in the order of the store.
   void measure(const ParticleStore& store);
   /// Adds W to particles [first, last).
@@ -43,7 +48,7 @@ class BodyHeating {
 
   std::vector<BodyHeat> m_bodies;
   std::vector<double> m_perMass;  ///< W/kg by body; empty when nothing is heated
-  bool m_holds = false, m_insulates = false, m_convects = false;
+  bool m_holds = false, m_insulates = false, m_convects = false, m_fluxes = false;
 };
 
 /// Heat that plugins put into matter or take from it, in W of thermal time. One that throws, or answers with what is no
