@@ -140,6 +140,11 @@ Sink dragged(Sink sink, const PortHandle& handle, const Vector3& to, double leas
       size[a] = std::max(sign * way[a], least);
       way[a] = sign * size[a];
     }
+    if (!box.isTurned()) {  // the corner opposite stays to the last digit
+      sink.minimum = opposite.cwiseMin(opposite + way);
+      sink.maximum = opposite.cwiseMax(opposite + way);
+      return sink;
+    }
     box.resize(size, opposite + box.axes() * (0.5 * way));
   }
   box.putInto(sink);
