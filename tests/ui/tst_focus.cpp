@@ -100,6 +100,17 @@ class TestFocus : public SampleWindowTest {
     m_window->showWorkspace(MainWindow::kSceneTab);
   }
 
+  /// Of a panel that Sketch does not show: not to a field that is next in line.
+  void aPanelThatGoesLeavesTheKeysInTheView() {
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    auto* tree = m_window->findChild<Outliner*>()->findChild<QTreeView*>();
+    tree->setFocus();
+    QVERIFY(tree->hasFocus());
+    m_window->action(QStringLiteral("sketch.brush"))->trigger();
+    QVERIFY(!tree->isVisible() && view()->hasFocus());
+    m_window->showWorkspace(MainWindow::kSceneTab);
+  }
+
   /// The list that hangs open below a field, too.
   void returnChoosesFromAList() {
     m_window->showWorkspace(MainWindow::kFilmTab);

@@ -7,11 +7,13 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
+#include "ui/tools/tooltable.h"
 #include "ui/window/dock.h"
 
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
@@ -170,6 +172,104 @@ class TestLayout : public QObject {
     QTRY_VERIFY(view->look().outline);
   }
 
+  /// Brushes, the view, the brush's panel and a slim timeline.
+  void sketchHasDocksOfItsOwn_data() {
+    QTest::addColumn<QSize>("size");
+    for (const QSize& size : {QSize(1280, 800), QSize(1600, 1000), QSize(2560, 1440)})
+      QTest::addRow("%d", size.width()) << size;
+  }
+  void sketchHasDocksOfItsOwn() {
+    QFETCH(QSize, size);
+    open(size);
+    QCOMPARE(m_window->session().document().putKey({Owner::Scene, "", "gravity"}, 10, 3), QString());
+    const int rows = dock("dock.transport")->height(), wide = m_window->viewport()->width();
+    m_window->showWorkspace(MainWindow::kSketchTab);
+    QCOMPARE(m_window->size(), size);
+    QCOMPARE(shownDocks(), (QStringList{"dock.brushes", "dock.inspector", "dock.transport"}));
+    const Dock *brushes = dock("dock.brushes"), *inspector = dock("dock.inspector"), *time = dock("dock.transport");
+    QCOMPARE(brushes->width(), 98);
+    QCOMPARE(inspector->width(), 324);
+    QVERIFY(brushes->x() < 5 && inspector->geometry().right() > size.width() - 5);
+    QVERIFY(time->x() > brushes->geometry().right() && time->geometry().right() < inspector->x());
+    QVERIFY(brushes->geometry().bottom() == inspector->geometry().bottom() && time->height() < rows);
+    QVERIFY(m_window->viewport()->width() > wide);
+    const auto* tabs = inspector->findChild<QTabBar*>();
+    QCOMPARE(tabs->tabText(0), QStringLiteral("Brush"));
+    QCOMPARE(inspector->currentPage(), QStringLiteral("Brush"));
+    for (const QAbstractButton* button : brushes->findChildren<QAbstractButton*>()) {
+      if (!button->property("material").isNull()) QCOMPARE(button->visibleRegion(), QRegion(button->rect()));
+    }
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QCOMPARE(m_window->size(), size);
+    QCOMPARE(dock("dock.transport")->height(), rows);
+    QCOMPARE(tabs->tabText(tabs->count() - 1), QStringLiteral("Brush"));
+    QVERIFY(!dock("dock.brushes")->isVisible() && dock("dock.outliner")->isVisible());
+    QTRY_COMPARE(m_window->viewport()->width(), wide);
+  }
+
+  /// Those of the scene have a place in it too.
+  void docksOfSketchComeBackAsLeft() {
+    open({1600, 1000});
+    m_window->showWorkspace(MainWindow::kSketchTab);
+    m_window->action(QStringLiteral("window.dock.outliner"))->trigger();
+    m_window->action(QStringLiteral("window.dock.brushes"))->trigger();
+    const QStringList left{"dock.inspector", "dock.outliner", "dock.transport"};
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
+    QCOMPARE(shownDocks(), left);
+    m_window->tools().activate("select");
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+    QVERIFY(shownDocks().contains("dock.graphs") && shownDocks().contains("dock.outliner"));
+    m_window->tools().activate(kBrushTool);
+    QCOMPARE(shownDocks(), left);
+    QVERIFY(m_window->close());
+    m_window.reset();
+    open({1600, 1000}, true);
+    QVERIFY(shownDocks().contains("dock.graphs"));
+    m_window->showWorkspace(MainWindow::kSketchTab);
+    QCOMPARE(shownDocks(), left);
+    m_window->action(QStringLiteral("window.layout"))->trigger();
+    QCOMPARE(shownDocks(), (QStringList{"dock.brushes", "dock.inspector", "dock.transport"}));
+  }
+
+  /// The view stays as large as it was made, and gives way to the docks of whichever workspace that is by then.
+  void oneDrawsInTheFullViewport() {
+    open({1280, 800});
+    QAction* full = m_window->action(QStringLiteral("window.full"));
+    full->trigger();
+    const int wide = m_window->viewport()->width();
+    m_window->tools().activate(kBrushTool);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
+    QVERIFY(shownDocks().isEmpty());
+    QCOMPARE(m_window->viewport()->width(), wide);
+    full->trigger();
+    QCOMPARE(shownDocks(), (QStringList{"dock.brushes", "dock.inspector", "dock.transport"}));
+    full->trigger();
+    m_window->tools().activate("select");
+    QVERIFY(shownDocks().isEmpty());
+    full->trigger();
+    QVERIFY(shownDocks().contains("dock.outliner") && !shownDocks().contains("dock.brushes"));
+    full->trigger();
+    m_window->showWorkspace(MainWindow::kFilmTab);
+    QVERIFY(shownDocks().contains("dock.film"));
+  }
+
+  void messagesAreShownWhereverOneIs() {
+    open({1280, 800});
+    QAction* messages = m_window->action(QStringLiteral("help.messages"));
+    const auto shown = [this] {
+      return dock("dock.graphs")->isVisible() && dock("dock.graphs")->currentPage() == QStringLiteral("Messages");
+    };
+    m_window->showWorkspace(MainWindow::kSketchTab);
+    messages->trigger();
+    QVERIFY(shown());
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
+    m_window->showWorkspace(MainWindow::kFilmTab);
+    QVERIFY(!shown());
+    messages->trigger();
+    QVERIFY(shown());
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+  }
+
   void pagesOfOneDockComeBackAsThat() {
     open({1280, 800});
     QVERIFY(m_window->close());
@@ -218,6 +318,14 @@ class TestLayout : public QObject {
     QTest::qWait(50);  // docks follow when events are done
     QTest::mouseRelease(m_window.get(), Qt::LeftButton, {}, separator + QPoint(0, by));
     QTRY_COMPARE(dock("dock.outliner")->height(), before + by);
+  }
+  QStringList shownDocks() {
+    QStringList names;
+    for (const Dock* one : m_window->layoutOfDocks().docks()) {
+      if (one->isVisible()) names << one->objectName();
+    }
+    names.sort();
+    return names;
   }
   Dock* dock(const char* name) { return m_window->findChild<Dock*>(QString::fromLatin1(name)); }
   MaterialsPanel* materials() { return m_window->findChild<MaterialsPanel*>(); }

@@ -202,7 +202,7 @@ void BrushPanel::showMaterial() {
     return;
   }
   setHeader(ownerLabel(m_tools.document().project(), {Owner::Material, id, ""}),
-            QStringLiteral("Choose other matter under Materials"),
+            QStringLiteral("Choose other matter on the bar or under Materials"),
             QStringLiteral("The brush is no part of the scene: undo leaves it as it is"));
 }
 

@@ -33,6 +33,7 @@ namespace {
 
 constexpr int kLeastTile = 64, kTileHeight = 68, kMargin = 8, kSwatch = 34, kBall = 28, kLine = 14, kHint = 20,
               kHeading = 22;
+constexpr int kKeys = 10;  ///< of the scene's first materials, in Sketch
 
 int columnsIn(int width) { return std::max(1, (width - kMargin) / kLeastTile); }
 
@@ -307,7 +308,9 @@ void MaterialsPanel::mouseMoveEvent(QMouseEvent* event) {
   QString tip;
   if (at >= 0) {
     const Tile& tile = m_tiles[static_cast<size_t>(at)];
-    tip = tile.installed ? QStringLiteral("Add %1 to the scene").arg(tile.label) : tile.label;
+    tip = tile.installed ? QStringLiteral("Add %1 to the scene").arg(tile.label)
+          : at < kKeys   ? QStringLiteral("%1 (%2 in Sketch)").arg(tile.label, QString::number((at + 1) % kKeys))
+                         : tile.label;
   }
   setToolTip(tip);
   update();

@@ -52,6 +52,11 @@ std::vector<std::pair<QString, QString>> Timeline::gestures() {
           {QStringLiteral("Right-click"), QStringLiteral("Go on with an earlier run, compare, ghost, delete")}};
 }
 
+void Timeline::setSlim(bool slim) {
+  m_keys->setRowsShown(!slim);
+  fit();
+}
+
 /// The ruler stays where there are no keys: markers and the recorded part are on its scale.
 void Timeline::fit() {
   const int most = KeyRows::kRuler + kMostRows * KeyRows::kRow;

@@ -15,6 +15,8 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/sketchactions.h"
+#include "ui/window/workspacekeys.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QPainter>
@@ -32,9 +34,8 @@ namespace ps {
 namespace {
 
 constexpr int kIcon = 20, kGap = 2, kBall = 26;  // px
-constexpr size_t kMostMaterials = 10;
-constexpr const char* kShape = "shape";        // property of a button: id of its brush
-constexpr const char* kMaterial = "material";  // of its material
+constexpr const char* kShape = "shape";          // property of a button: id of its brush
+constexpr const char* kMaterial = "material";    // of its material
 
 /// A picture, or where there is none the first letters of its name; and in its corner the key that does the same.
 class BarButton : public QToolButton {
@@ -79,16 +80,23 @@ class BarButton : public QToolButton {
   std::function<void(QPainter&, const QRectF&)> m_picture;
 };
 
-/// The key that an action of the menus has; it may get it later than the bar gets its button.
+/// The key that an action of the menus has in Sketch; it may get it later than the bar gets its button.
 void showKeyOf(const QString& action, BarButton* button) {
   QMetaObject::invokeMethod(
       button,
       [action, button] {
         const auto* found = button->window()->findChild<QAction*>(action);
-        if (found) button->setKey(found->shortcut().toString(QKeySequence::NativeText));
+        const QList<QKeySequence> keys = found ? keysIn(*found, KeysIn::Sketch) : QList<QKeySequence>();
+        if (!keys.isEmpty()) button->setKey(keys.front().toString(QKeySequence::NativeText));
       },
       Qt::QueuedConnection);
 }
+
+/// As high as what it shows, where there is room.
+class BrushList : public QScrollArea {
+ public:
+  QSize sizeHint() const override { return widget() ? widget()->sizeHint() : QScrollArea::sizeHint(); }
+};
 
 }  // namespace
 
@@ -99,26 +107,29 @@ BrushBar::BrushBar(Session& session, Selection& selection, Toolbox& tools, Viewp
       m_tools(tools),
       m_view(view),
       m_list(new QWidget),
+      m_scroll(new BrushList),
       m_shapes(new QButtonGroup(this)),
       m_matter(new QButtonGroup(this)) {
   setFixedWidth(kWidth);
   auto* column = new QVBoxLayout(m_list);
-  column->setContentsMargins(0, 6, 0, 8);
+  column->setContentsMargins(0, 6, 0, 0);
   column->setSpacing(4);
-  m_draw = addGroup(QStringLiteral("Draw"));
-  m_change = addGroup(QStringLiteral("Change"));
-  m_touch = addGroup(QStringLiteral("Touch"));
-  m_materials = addGroup(QStringLiteral("Material"));
-  column->addStretch(1);
-  auto* scroll = new QScrollArea;
+  m_draw = addGroup(QStringLiteral("Draw"), m_list);
+  m_change = addGroup(QStringLiteral("Change"), m_list);
+  m_touch = addGroup(QStringLiteral("Touch"), m_list);
+  auto* scroll = static_cast<QScrollArea*>(m_scroll);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setFocusPolicy(Qt::NoFocus);
   scroll->setWidget(m_list);
+  scroll->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   auto* all = new QVBoxLayout(this);
-  all->setContentsMargins(0, 0, 0, 0);
+  all->setContentsMargins(0, 0, 0, 4);
+  all->setSpacing(4);
   all->addWidget(scroll);
+  m_materials = addGroup(QStringLiteral("Material"), this);
+  all->addStretch(1);
   addCommon();
   for (QButtonGroup* group : {m_shapes, m_matter})
     connect(group, &QButtonGroup::buttonClicked, this, &BrushBar::clicked);
@@ -134,7 +145,7 @@ BrushBar::BrushBar(Session& session, Selection& selection, Toolbox& tools, Viewp
   showBrush();
 }
 
-BrushBar::Group BrushBar::addGroup(const QString& title) {
+BrushBar::Group BrushBar::addGroup(const QString& title, QWidget* into) {
   Group group{new QWidget, nullptr};
   group.grid = new QGridLayout(group.box);
   group.grid->setContentsMargins((kWidth - 2 * kButton - kGap) / 2, 0, 0, 4);
@@ -145,7 +156,7 @@ BrushBar::Group BrushBar::addGroup(const QString& title) {
   heading->setFixedWidth(2 * kButton + kGap);
   heading->setAlignment(Qt::AlignHCenter);
   group.grid->addWidget(heading, 0, 0, 1, 2);
-  m_list->layout()->addWidget(group.box);
+  into->layout()->addWidget(group.box);
   return group;
 }
 
@@ -186,11 +197,12 @@ void BrushBar::addBrushes() {
         needs(id, api::kPaintsMatter) || needs(id, api::kColoursMatter) || needs(id, api::kSmoothsMatter);
     place(changes ? m_change : needs(id, api::kTouchesMatter) ? m_touch : m_draw, button);
   }
+  m_scroll->updateGeometry();
   addMaterials();
   showBrush();
 }
 
-/// Those of the scene that one draws with first; others are in the panel of materials.
+/// Those of the scene that have keys; others are in the panel of materials.
 void BrushBar::addMaterials() {
   for (QAbstractButton* button : m_matter->buttons()) {
     m_matter->removeButton(button);
@@ -200,8 +212,10 @@ void BrushBar::addMaterials() {
   }
   const Project& project = m_session.document().project();
   for (const SceneMaterial& material : project.materials) {
-    if (m_matter->buttons().size() == static_cast<qsizetype>(kMostMaterials)) break;
+    const auto number = static_cast<int>(m_matter->buttons().size());
+    if (number == kMaterialKeys) break;
     auto* button = new BarButton(QString::fromStdString(shownName(material)), {});
+    showKeyOf(materialAction(number), button);
     button->setProperty(kMaterial, QString::fromStdString(material.id));
     // Asked for as it is painted: a slider may have given it another look.
     button->setPicture([this, id = material.id](QPainter& painter, const QRectF& square) {
@@ -241,7 +255,6 @@ void BrushBar::showMaterial() {
 void BrushBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), Theme::current()[Token::Panel]);
-  paintVerticalLine(painter, width() - 1, 0, height(), Theme::current()[Token::Line]);
 }
 
 }  // namespace ps

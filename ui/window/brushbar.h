@@ -16,9 +16,9 @@ class Session;
 class Toolbox;
 class Viewport;
 
-/// Beside the view while something is drawn with: a button for each brush that is installed, in two columns, those that
-/// draw first, then what changes what is there, then what touches it, then the scene's materials. It scrolls where the
-/// window is not high enough.
+/// Of the workspace Sketch: a button for each brush that is installed, in two columns, those that draw first, then what
+/// changes what is there, then what touches it, then the scene's materials. Brushes scroll where the window is not high
+/// enough; materials stay in sight.
 class BrushBar : public QWidget {
   Q_OBJECT
  public:
@@ -35,7 +35,7 @@ class BrushBar : public QWidget {
     QWidget* box = nullptr;
     QGridLayout* grid = nullptr;
   };
-  Group addGroup(const QString& title);
+  Group addGroup(const QString& title, QWidget* into);
   void place(const Group& group, QAbstractButton* button);
   void addCommon();   ///< eraser and mirror
   void addBrushes();  ///< once plugins are there
@@ -48,7 +48,7 @@ class BrushBar : public QWidget {
   Selection& m_selection;
   Toolbox& m_tools;
   Viewport* m_view;
-  QWidget* m_list;
+  QWidget *m_list, *m_scroll;
   Group m_draw, m_change, m_touch, m_materials;
   QButtonGroup *m_shapes, *m_matter;
   QAbstractButton *m_erase = nullptr, *m_mirror = nullptr;

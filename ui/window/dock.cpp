@@ -55,16 +55,20 @@ Dock::Dock(const QString& name, const QString& title, QWidget* parent)
   setTitleBarWidget(m_header);
   setWidget(m_pages);
   m_pages->setAutoFillBackground(true);
-  connect(m_tabs, &QTabBar::currentChanged, this, [this](int index) {
-    // Else what is next takes the keys, which is the filter of the page that comes.
-    if (m_pages->isAncestorOf(window()->focusWidget())) m_tabs->setFocus(Qt::OtherFocusReason);
-    m_pages->setCurrentIndex(index);
+  connect(m_tabs, &QTabBar::currentChanged, this, [this] {
+    QWidget* page = m_pageOf.value(currentPage());
+    if (page && page != m_pages->currentWidget()) {  // else its tab has moved
+      // Else what is next takes the keys, which is the filter of the page that comes.
+      if (m_pages->isAncestorOf(window()->focusWidget())) m_tabs->setFocus(Qt::OtherFocusReason);
+      m_pages->setCurrentWidget(page);
+    }
     Q_EMIT pageChanged(currentPage());
   });
 }
 
 int Dock::addPage(const QString& title, QWidget* page) {
   m_pages->addWidget(page);
+  m_pageOf[title] = page;
   const int index = m_tabs->addTab(title);
   m_tabs->setTabData(index, title);
   return index;
@@ -80,7 +84,7 @@ int Dock::indexOf(const QString& title) const {
 QWidget* Dock::takePage(const QString& title) {
   const int index = indexOf(title);
   if (index < 0) return nullptr;
-  QWidget* page = m_pages->widget(index);
+  QWidget* page = m_pageOf.take(title);
   m_pages->removeWidget(page);
   m_tabs->removeTab(index);
   return page;
@@ -113,7 +117,13 @@ QWidget* Dock::firstStop() const {
   return m_tabs->isVisible() ? m_tabs : nullptr;
 }
 
-void Dock::setPageTitle(int index, const QString& title) { m_tabs->setTabText(index, title); }
+void Dock::setPageTitle(const QString& title, const QString& shown) {
+  if (const int index = indexOf(title); index >= 0) m_tabs->setTabText(index, shown);
+}
+
+void Dock::movePage(const QString& title, int place) {
+  if (const int index = indexOf(title); index >= 0) m_tabs->moveTab(index, place < 0 ? m_tabs->count() - 1 : place);
+}
 
 void Dock::showEvent(QShowEvent* event) {
   QDockWidget::showEvent(event);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtCore/QHash>
 #include <QtWidgets/QDockWidget>
 #include <QtWidgets/QWidget>
 
@@ -25,7 +26,8 @@ class Dock : public QDockWidget {
   /// What F6 goes to: of the page that is shown what had the focus last, or its first widget that takes keys, else the
   /// tabs; nullptr where there is neither.
   QWidget* firstStop() const;
-  void setPageTitle(int index, const QString& title);
+  void setPageTitle(const QString& title, const QString& shown);
+  void movePage(const QString& title, int place);  ///< its tab; -1: behind the others
   QToolButton* addAction(const QString& icon, const QString& tip);
 
  Q_SIGNALS:
@@ -40,6 +42,7 @@ class Dock : public QDockWidget {
   QHBoxLayout* m_actions;
   QTabBar* m_tabs;
   QStackedWidget* m_pages;
+  QHash<QString, QWidget*> m_pageOf;  ///< by title
 };
 
 /// A panel with the dock's ground and rounded corners, for what stands in the middle.

@@ -58,6 +58,7 @@
 #include "ui/window/waysout.h"
 #include "ui/window/welcome.h"
 #include "ui/window/windowactions.h"
+#include "ui/window/workspacekeys.h"
 
 #include <QtCore/QFileInfo>
 #include <QtCore/QMimeData>
@@ -167,9 +168,8 @@ void MainWindow::makeTopBar() {
   for (const char* name : kWorkspaces) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
-    m_layout->setWorkspace(index == kTuneTab   ? Workspace::Tune
-                           : index == kFilmTab ? Workspace::Film
-                                               : Workspace::Scene);
+    constexpr Workspace kOf[] = {Workspace::Scene, Workspace::Tune, Workspace::Sketch, Workspace::Film};
+    m_layout->setWorkspace(kOf[index]);
     m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);
   });
   connect(m_tools.get(), &Toolbox::toolChanged, this, &MainWindow::onTool);
@@ -188,7 +188,7 @@ void MainWindow::onTool() {
   if (draws == (workspaceTab() == kSketchTab)) return;
   const QSignalBlocker quiet(m_top->workspaces());
   showWorkspace(draws ? kSketchTab : kSceneTab);
-  m_layout->setWorkspace(Workspace::Scene);
+  m_layout->setWorkspace(draws ? Workspace::Sketch : Workspace::Scene);
 }
 
 void MainWindow::makeMiddle() {
@@ -251,6 +251,11 @@ void MainWindow::makeMenus() {
   if (viewport()) new MakeRealButton(*m_sketch->makeReal(), *viewport());
   new WindowActions(*this, m_actions, bar->addMenu(QStringLiteral("Window")));
   makeHelpMenu(bar->addMenu(QStringLiteral("Help")));
+  const auto useKeysOfWorkspace = [this] {
+    useKeys(m_actions, m_layout->workspace() == Workspace::Sketch ? KeysIn::Sketch : KeysIn::Elsewhere);
+  };
+  connect(m_layout, &WindowLayout::workspaceChanged, this, useKeysOfWorkspace);
+  useKeysOfWorkspace();
 }
 
 void MainWindow::makeSimulationMenu(QMenu* menu) {
@@ -355,14 +360,14 @@ void MainWindow::connectParts() {
   });
   connect(m_status, &StatusLine::noteClicked, this, [this](const QString& parameter) {
     const auto address = Address::parse(parameter.toStdString());
-    if (!address || !revealParameter(*address)) m_layout->showPage(QStringLiteral("Messages"));
+    if (!address || !revealParameter(*address)) openPage(QStringLiteral("Messages"));
   });
   connect(&m_session->log(), &MessageLog::changed, this, [this] {
     const int unseen = m_session->log().unseen();
     m_layout->setPageTitle(QStringLiteral("Messages"),
                            unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
   });
-  connect(m_sketch.get(), &SketchActions::shapeTaken, this, [this] { m_layout->showPage(QStringLiteral("Brush")); });
+  connect(m_sketch.get(), &SketchActions::shapeTaken, this, [this] { m_layout->turnTo(QStringLiteral("Brush")); });
   Viewport* view = viewport();
   if (!view) return;
   connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });

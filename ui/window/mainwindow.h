@@ -84,6 +84,7 @@ class MainWindow : public QMainWindow {
   static constexpr std::array kWorkspaces{"Scene", "Tune", "Sketch", "Film"};  ///< what the tabs are called
   void showWorkspace(WorkspaceTab tab);
   WorkspaceTab workspaceTab() const;
+  void openPage(const QString& title);  ///< as somebody asks for it, in Scene where this workspace has no place for it
   CommandPalette* palette() const { return m_palette; }
   NoticeBar* notice() const;
   bool showsPlugins() const;

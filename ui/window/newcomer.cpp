@@ -46,12 +46,17 @@ void MainWindow::makeHelpMenu(QMenu* menu) {
     m_centre->setCurrentWidget(m_plugins);
   });
   m_actions.add(menu, QStringLiteral("help.messages"), QStringLiteral("Messages"), {},
-                [this] { m_layout->showPage(QStringLiteral("Messages")); });
+                [this] { openPage(QStringLiteral("Messages")); });
   m_actions.add(menu, QStringLiteral("help.about"), QStringLiteral("About PhaseSketch"), {}, [this] {
     m_notices->message(MessageLevel::Info, QStringLiteral("PhaseSketch " PS_VERSION),
                        QStringLiteral("Matter that melts, boils and freezes, sketched and set loose. Apache-2.0."));
-    m_layout->showPage(QStringLiteral("Messages"));
+    openPage(QStringLiteral("Messages"));
   });
+}
+
+void MainWindow::openPage(const QString& title) {
+  if (!m_layout->offersPage(title)) showWorkspace(kSceneTab);
+  m_layout->openPage(title);
 }
 
 void MainWindow::startTour() {

@@ -44,8 +44,8 @@ PageChooser::PageChooser(Selection& selection, Toolbox& tools, Inspector& inspec
 
 void PageChooser::onTool() {
   const bool draws = m_tools.tool().usesBrush(), shown = m_layout.dock(kInspector)->currentPage() == kBrush;
-  if (draws && !shown) m_layout.showPage(kBrush);
-  if (!draws && shown) m_layout.showPage(kMaterial);
+  if (draws && !shown) m_layout.turnTo(kBrush);
+  if (!draws && shown) m_layout.turnTo(kMaterial);
 }
 
 void PageChooser::onSelection() {

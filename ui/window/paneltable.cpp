@@ -19,10 +19,13 @@
 #include "ui/session/session.h"
 #include "ui/timeline/timeline.h"
 #include "ui/tools/toolbox.h"
+#include "ui/window/brushbar.h"
 #include "ui/window/filmform.h"
 
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
 
 namespace ps {
 namespace {
@@ -104,6 +107,8 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.curve", "Curve", [](Context c) -> QWidget* { return new CurvePanel(c.session, c.curves); }, "tuning"},
       {"dock.points", "Points", makePoints, "tuning"},
       {"dock.film", "Film", makeFilm, "files"},
+      {"dock.brushes", "Brushes",
+       [](Context c) -> QWidget* { return new BrushBar(c.session, c.selection, c.tools, c.view); }, "sketching"},
       {"dock.transport", "Transport", [](Context c) -> QWidget* { return new Timeline(c.session, c.by); }, "timeline"},
   };
   return kTable;
@@ -111,16 +116,26 @@ const std::vector<PanelRow>& panelTable() {
 
 const std::vector<DockRow>& dockTable() {
   using enum Workspace;
-  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", "", {Scene}},
-                                           {"dock.materials", "Materials", "", {Scene}},
-                                           {"dock.inspector", "Inspector", "Material", {Scene}},
-                                           {"dock.graphs", "Graphs", "", {Scene, Tune}},
-                                           {"dock.transport", "Timeline", "", {Scene, Tune, Film}},
-                                           {"dock.responses", "Responses", "", {Tune}},
-                                           {"dock.curve", "Curve", "", {Tune}},
-                                           {"dock.points", "Points", "", {Tune}},
-                                           {"dock.film", "Film", "", {Film}}};
+  static const std::vector<DockRow> kTable{{"dock.outliner", "Outliner", "", {Scene}, {Sketch}},
+                                           {"dock.materials", "Materials", "", {Scene}, {Sketch}},
+                                           {"dock.inspector", "Inspector", "Material", {Scene, Sketch}, {}},
+                                           {"dock.graphs", "Graphs", "", {Scene, Tune}, {Sketch}},
+                                           {"dock.transport", "Timeline", "", {Scene, Tune, Film, Sketch}, {}},
+                                           {"dock.responses", "Responses", "", {Tune}, {}},
+                                           {"dock.curve", "Curve", "", {Tune}, {}},
+                                           {"dock.points", "Points", "", {Tune}, {}},
+                                           {"dock.film", "Film", "", {Film}, {}},
+                                           {"dock.brushes", "Brushes", "", {Sketch}, {}}};
   return kTable;
+}
+
+bool shows(const DockRow& dock, Workspace workspace) {
+  return std::find(dock.workspaces.begin(), dock.workspaces.end(), workspace) != dock.workspaces.end();
+}
+
+bool offers(const DockRow& dock, Workspace workspace) {
+  return shows(dock, workspace) ||
+         std::find(dock.offeredIn.begin(), dock.offeredIn.end(), workspace) != dock.offeredIn.end();
 }
 
 }  // namespace ps

@@ -35,8 +35,8 @@ struct PanelRow {
 };
 const std::vector<PanelRow>& panelTable();
 
-/// Which docks a workspace of the window shows. Sketch shows those of the scene.
-enum class Workspace { Scene, Tune, Film };
+/// Which docks the window shows. Their numbers are stored: a new one comes last.
+enum class Workspace { Scene, Tune, Film, Sketch };
 
 /// The docks, in the order in which they are laid out.
 struct DockRow {
@@ -44,7 +44,10 @@ struct DockRow {
   const char* title;
   const char* first;                  ///< page that shows at first; "": the first one
   std::vector<Workspace> workspaces;  ///< that show it
+  std::vector<Workspace> offeredIn;   ///< that have a place for it, and show it where somebody wants it
 };
 const std::vector<DockRow>& dockTable();
+bool shows(const DockRow& dock, Workspace workspace);   ///< by default
+bool offers(const DockRow& dock, Workspace workspace);  ///< by default or where somebody wants it
 
 }  // namespace ps

@@ -8,6 +8,7 @@
 #include "ui/tools/tooltable.h"
 #include "ui/window/actions.h"
 #include "ui/window/mainwindow.h"
+#include "ui/window/workspacekeys.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QDialog>
@@ -38,9 +39,8 @@ ShortcutGroup menuGroup(const MainWindow& window, const QString& title) {
   ShortcutGroup group{title, {}};
   const QString prefix = title.toLower() + QLatin1Char('.');
   for (const QAction* action : window.findChildren<QAction*>(Qt::FindDirectChildrenOnly)) {
-    if (!action->objectName().startsWith(prefix) || action->shortcuts().isEmpty()) continue;
-    QStringList keys;
-    for (const QKeySequence& sequence : action->shortcuts()) keys << sequence.toString(QKeySequence::NativeText);
+    const QStringList keys = keyTexts(*action);
+    if (!action->objectName().startsWith(prefix) || keys.isEmpty()) continue;
     group.lines.emplace_back(keys.join(QStringLiteral(", ")), nameOf(*action, title));
   }
   return group;

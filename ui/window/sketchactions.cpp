@@ -2,13 +2,18 @@
 #include "ui/window/sketchactions.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "core/scene/track.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/theme/plaintext.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/actions.h"
+#include "ui/window/shortcutswindow.h"
+#include "ui/window/workspacekeys.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QMenu>
@@ -21,6 +26,8 @@ namespace {
 const Address kGravity{Owner::Scene, "", "gravity"};
 constexpr double kEarth = 9.81;  // m/s^2
 }  // namespace
+
+QString materialAction(int number) { return QStringLiteral("sketch.material%1").arg(number + 1); }
 
 void SketchActions::makeMenu(QMenu* menu) {
   for (const ToolRow& row : toolTable()) {
@@ -48,6 +55,7 @@ void SketchActions::makeMenu(QMenu* menu) {
                   m_tools.setBrush(brush);
                 });
   addHolding(menu);
+  addMaterials(menu->addMenu(QStringLiteral("Material")));
   m_shapes = menu->addMenu(QStringLiteral("Brush shape"));
   m_shapes->setEnabled(false);
 }
@@ -68,6 +76,43 @@ void SketchActions::addHolding(QMenu* menu) {
   connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
   connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
   showHeld();
+}
+
+void SketchActions::addMaterials(QMenu* menu) {
+  for (int k = 0; k < kMaterialKeys; ++k) {
+    const QString key = QString::number((k + 1) % kMaterialKeys);
+    QAction* action =
+        m_actions.add(menu, materialAction(k), {}, {}, [this, k] { takeMaterial(static_cast<size_t>(k)); });
+    action->setProperty(kPlainText, QStringLiteral("Draw with the scene's material %1").arg(k + 1));
+    action->setProperty(kWhyNot, QStringLiteral("The scene has fewer materials"));
+    addKeys(*action, KeysIn::Sketch, {QKeySequence(key)});
+  }
+  connect(&m_session.document(), &Document::changed, menu, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event))
+      showMaterials();
+  });
+  showMaterials();
+}
+
+void SketchActions::showMaterials() {
+  const std::vector<SceneMaterial>& materials = m_session.document().project().materials;
+  for (int k = 0; k < kMaterialKeys; ++k) {
+    QAction* action = m_actions.find(materialAction(k));
+    const auto number = static_cast<size_t>(k);
+    const bool there = number < materials.size();
+    const QString name = there ? QString::fromStdString(shownName(materials[number])) : QString::number(k + 1);
+    action->setText(asButtonText(QStringLiteral("Draw with %1").arg(name)));
+    action->setVisible(there);
+    action->setEnabled(there);
+  }
+}
+
+void SketchActions::takeMaterial(size_t number) {
+  const std::vector<SceneMaterial>& materials = m_session.document().project().materials;
+  if (number >= materials.size()) return;
+  const std::string id = materials[number].id;
+  if (!m_tools.tool().usesBrush()) m_tools.activate(kBrushTool);
+  m_tools.selection().setMaterial(id);
 }
 
 std::vector<std::string> SketchActions::heldBodies() const {
@@ -126,7 +171,7 @@ QList<QKeySequence> SketchActions::keysOf(const std::string& brush) const {
   const QKeySequence key(QString::fromStdString(info->key));
   const QList<QAction*> all = m_actions.all();
   const bool taken =
-      std::any_of(all.begin(), all.end(), [&](const QAction* action) { return action->shortcuts().contains(key); });
+      std::any_of(all.begin(), all.end(), [&](const QAction* action) { return allKeys(*action).contains(key); });
   return taken ? QList<QKeySequence>{} : QList<QKeySequence>{key};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <QtCore/QList>
 #include <QtCore/QObject>
+#include <QtCore/QString>
 
 #include <string>
 #include <vector>
@@ -16,7 +17,12 @@ class Actions;
 class Session;
 class Toolbox;
 
-/// The menu Sketch: a row for each tool of the table, and for each brush that is installed.
+/// The scene's first materials have a key each in Sketch: 1 to 9, and 0.
+inline constexpr int kMaterialKeys = 10;
+QString materialAction(int number);  ///< name of the action that draws with that one, from 0 on
+
+/// The menu Sketch: a row for each tool of the table, for the scene's first materials, and for each brush that is
+/// installed.
 class SketchActions : public QObject {
   Q_OBJECT
  public:
@@ -33,6 +39,9 @@ class SketchActions : public QObject {
 
  private:
   void addHolding(QMenu* menu);
+  void addMaterials(QMenu* menu);
+  void showMaterials();  ///< what those entries are called
+  void takeMaterial(size_t number);
   std::vector<std::string> heldBodies() const;  ///< until somebody lets go; keys do so themselves
   void letGo();
   void showHeld();

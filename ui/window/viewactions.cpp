@@ -7,6 +7,7 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/windowlayout.h"
+#include "ui/window/workspacekeys.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QActionGroup>
@@ -37,9 +38,10 @@ void ViewActions::makeMenu(QMenu* menu) {
   const char* const names[kViews] = {
       "Front", "Right", "Top", "Back", "Left", "Bottom", "Orthographic lens on or off", "Scene camera", "Last view"};
   for (int i = 0; i < kViews; ++i) {
-    m_actions.add(views, QStringLiteral("view.look%1").arg(i + 1), QString::fromLatin1(names[i]),
-                  {QKeySequence(QString::number(i + 1)), QKeySequence(QStringLiteral("Alt+%1").arg(i + 1))},
-                  viewAct([i](Viewport& v) { v.show(static_cast<StandardView>(i + 1)); }));
+    QAction* look = m_actions.add(views, QStringLiteral("view.look%1").arg(i + 1), QString::fromLatin1(names[i]),
+                                  {QKeySequence(QStringLiteral("Alt+%1").arg(i + 1))},
+                                  viewAct([i](Viewport& v) { v.show(static_cast<StandardView>(i + 1)); }));
+    addKeys(*look, KeysIn::Elsewhere, {QKeySequence(QString::number(i + 1))});
   }
   QMenu* colours = menu->addMenu(QStringLiteral("Colour"));
   addColours(colours);

@@ -9,7 +9,6 @@
 #include "ui/tools/gizmotool.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
-#include "ui/window/brushbar.h"
 #include "ui/window/handleactions.h"
 #include "ui/window/noticebar.h"
 
@@ -72,12 +71,9 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(m_bar = makeBar());
-  auto* scene = new QHBoxLayout;
-  scene->setSpacing(0);
-  column->addLayout(scene, 1);
   if (canHaveContext()) {
     m_viewport = new Viewport(session, selection, tools);
-    scene->addWidget(m_viewport, 1);
+    column->addWidget(m_viewport, 1);
   } else {
     auto* none = new QLabel(QStringLiteral(
         "<b>No picture of the scene</b><br>This display offers no OpenGL. The simulation, the graphs and all values "
@@ -87,9 +83,8 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
     none->setWordWrap(true);
     none->setAlignment(Qt::AlignCenter);
     none->setMargin(40);
-    scene->addWidget(none, 1);
+    column->addWidget(none, 1);
   }
-  scene->insertWidget(0, m_brushes = new BrushBar(session, selection, tools, m_viewport));
   m_notice->setParent(this);
   m_notice->hide();
   m_notice->installEventFilter(this);
@@ -168,9 +163,8 @@ void ViewportPane::resizeEvent(QResizeEvent* event) {
 
 /// Over the view's upper edge, so that the picture of the scene stays where it is.
 void ViewportPane::placeNotice() {
-  const int left = m_brushes->isVisibleTo(this) ? BrushBar::kWidth : 0, wide = width() - left;
-  const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(wide) : m_notice->sizeHint().height();
-  m_notice->setGeometry(left, m_bar->height(), wide, tall);
+  const int tall = m_notice->hasHeightForWidth() ? m_notice->heightForWidth(width()) : m_notice->sizeHint().height();
+  m_notice->setGeometry(0, m_bar->height(), width(), tall);
   m_notice->raise();
   if (m_viewport) m_viewport->setCovered(m_notice->isVisible() ? tall : 0);
 }
@@ -275,7 +269,6 @@ void ViewportPane::showTool() {
   for (size_t i = 0; i < toolTable().size(); ++i) {
     if (m_tools.active() == toolTable()[i].id) m_buttons->button(static_cast<int>(i))->setChecked(true);
   }
-  m_brushes->setVisible(m_tools.tool().usesBrush());
   m_brushBar->setVisible(m_tools.tool().usesBrush());
   m_handleBar->setVisible(m_tools.tool().usesHandles());
   share();

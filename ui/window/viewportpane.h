@@ -12,11 +12,10 @@ class QToolButton;
 
 namespace ps {
 
-class BrushBar;
 class HandleActions;
 class NoticeBar;
 
-/// The middle of the window: tool bar, notices, brushes, the viewport. Where no OpenGL can be had at all, a sentence
+/// The middle of the window: tool bar, notices, the viewport. Where no OpenGL can be had at all, a sentence
 /// stands in the viewport's place and everything else works. Buttons come from the table of tools.
 class ViewportPane : public QWidget {
   Q_OBJECT
@@ -49,7 +48,6 @@ class ViewportPane : public QWidget {
   Viewport* m_viewport = nullptr;
   QWidget* m_bar = nullptr;
   NoticeBar* m_notice;
-  BrushBar* m_brushes;  ///< beside the view while something is drawn with
   QButtonGroup* m_buttons;
   QWidget *m_brushBar, *m_handleBar;
   QWidget* m_rareTools;  ///< those that there is not always room for

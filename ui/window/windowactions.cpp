@@ -14,8 +14,6 @@
 #include <QtGui/QActionGroup>
 #include <QtWidgets/QMenu>
 
-#include <algorithm>
-
 namespace ps {
 namespace {
 
@@ -33,6 +31,8 @@ Tab tabOf(Workspace workspace) {
       return MainWindow::kTuneTab;
     case Workspace::Film:
       return MainWindow::kFilmTab;
+    case Workspace::Sketch:
+      return MainWindow::kSketchTab;
     case Workspace::Scene:
       break;
   }
@@ -92,9 +92,9 @@ void WindowActions::addDocks(QMenu* menu) {
 void WindowActions::toggle(size_t dock) {
   m_window.welcome().leave();
   WindowLayout& layout = m_window.layoutOfDocks();
-  const std::vector<Workspace>& in = dockTable()[dock].workspaces;
-  const bool here = std::find(in.begin(), in.end(), layout.workspace()) != in.end();
-  if (!here) m_window.showWorkspace(tabOf(in.front()));
+  const DockRow& row = dockTable()[dock];
+  const bool here = offers(row, layout.workspace());
+  if (!here) m_window.showWorkspace(tabOf(row.workspaces.front()));
   layout.setDockShown(dock, !here || !layout.isShown(dock));
   refresh();
 }

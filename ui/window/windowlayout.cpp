@@ -4,17 +4,20 @@
 #include "ui/theme/theme.h"
 #include "ui/timeline/timeline.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/brushbar.h"
 #include "ui/window/dock.h"
+#include "ui/window/docklayouts.h"
 #include "ui/window/paneltable.h"
 
+#include <QtCore/QPointer>
 #include <QtCore/QSettings>
 #include <QtCore/QTimer>
 #include <QtGui/QScreen>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QLayout>
 #include <QtWidgets/QMainWindow>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -26,24 +29,13 @@ constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kStudio = "view/studio";
 constexpr const char *kSize = "window/size", *kOwn = "window/own", *kJoined = "window/joined";
 const QString kOutliner = QStringLiteral("Outliner"), kMaterials = QStringLiteral("Materials");
-constexpr std::pair<Workspace, const char*> kStates[] = {
-    {Workspace::Scene, "window/state"}, {Workspace::Tune, "window/tune"}, {Workspace::Film, "window/film"}};
+constexpr std::pair<Workspace, const char*> kStates[] = {{Workspace::Scene, "window/state"},
+                                                         {Workspace::Tune, "window/tune"},
+                                                         {Workspace::Film, "window/film"},
+                                                         {Workspace::Sketch, "window/sketch"}};
 constexpr int kStateVersion = 4;
-
-/// A column of the layout table: pixels of docks in windows of at least a width.
-struct Column {
-  int from;
-  bool joined;  ///< outliner and materials are pages of one dock
-  int left, right, outliner, materials, graphs, curve, curveGraphs, points;
-};
-constexpr Column kColumns[] = {{0, true, 204, 352, 270, 140, 182, 400, 150, 400},
-                               {1500, false, 236, 392, 380, 252, 206, 520, 206, 500},
-                               {2200, false, 300, 460, 520, 252, 288, 760, 288, 640}};
-
-const Column& columnOf(int width) {
-  return *std::find_if(std::rbegin(kColumns), std::rend(kColumns) - 1,
-                       [width](const Column& column) { return width >= column.from; });
-}
+const QString kBrush = QStringLiteral("Brush"), kInspector = QStringLiteral("dock.inspector"),
+              kTransport = QStringLiteral("dock.transport"), kBrushes = QStringLiteral("dock.brushes");
 
 QString keyOf(const OverlayRow& row) { return QStringLiteral("view/") + QLatin1String(row.key); }
 
@@ -89,10 +81,13 @@ void WindowLayout::makeDocks(const PanelContext& context) {
     });
   }
   m_window.installEventFilter(this);
-  // The bar of buttons has neither title nor choice.
-  Dock* transport = dock(QStringLiteral("dock.transport"));
-  transport->setTitleBarWidget(new QWidget);
-  transport->setFeatures(QDockWidget::NoDockWidgetFeatures);
+  // Bars of buttons have neither title nor choice.
+  Dock* transport = dock(kTransport);
+  for (Dock* bar : {transport, dock(kBrushes)}) {
+    bar->setTitleBarWidget(new QWidget);
+    bar->setFeatures(QDockWidget::NoDockWidgetFeatures);
+  }
+  dock(kBrushes)->setFixedWidth(BrushBar::kWidth);
   if (auto* timeline = transport->findChild<Timeline*>()) {
     transport->setFixedHeight(timeline->height());
     connect(timeline, &Timeline::heightChanged, transport,
@@ -110,13 +105,38 @@ Dock* WindowLayout::dockOf(const QString& page) const {
   return found == m_docks.end() ? nullptr : *found;
 }
 
+size_t WindowLayout::indexOf(const Dock* dock) const {
+  return static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), dock) - m_docks.begin());
+}
+
 void WindowLayout::showPage(const QString& title) {
   Dock* holder = dockOf(title);
   if (!holder) return;
-  if (shows(static_cast<size_t>(std::find(m_docks.begin(), m_docks.end(), holder) - m_docks.begin())))
+  if (shows(indexOf(holder)) || !holder->isHidden())
     holder->showPage(title);
   else
     holder->choosePage(title);  // to show and hide it would leave the window as wide as both together
+}
+
+void WindowLayout::openPage(const QString& title) {
+  if (offersPage(title))
+    dockOf(title)->showPage(title);
+  else
+    showPage(title);
+}
+
+void WindowLayout::turnTo(const QString& title) {
+  Dock* holder = dockOf(title);
+  if (!holder) return;
+  if (holder->isHidden())
+    holder->choosePage(title);
+  else
+    holder->showPage(title);
+}
+
+bool WindowLayout::offersPage(const QString& title) const {
+  const Dock* holder = dockOf(title);
+  return holder && offers(indexOf(holder));
 }
 
 bool WindowLayout::isShown(size_t dock) const {
@@ -137,12 +157,7 @@ void WindowLayout::setDockShown(size_t dock, bool on) {
 }
 
 void WindowLayout::setPageTitle(const QString& title, const QString& shown) {
-  std::map<QString, int> pages;  // so far, by dock
-  for (const PanelRow& row : panelTable()) {
-    const QString name = QString::fromLatin1(row.dock);
-    const int page = pages[name]++;
-    if (title == QLatin1String(row.title)) dock(name)->setPageTitle(page, shown);
-  }
+  if (Dock* holder = dockOf(title)) holder->setPageTitle(title, shown);
 }
 
 void WindowLayout::applyDefault() {
@@ -156,42 +171,64 @@ void WindowLayout::applyDefault() {
   lay();
 }
 
-void WindowLayout::lay() {
-  switch (m_workspace) {
-    case Workspace::Scene:
-      return layScene();
-    case Workspace::Tune:
-      return layTune();
-    case Workspace::Film:
-      return layFilm();
-  }
-}
-
 bool WindowLayout::shows(size_t dock) const {
   if (m_joined && m_docks[dock] == m_docks[1]) return false;
-  const std::vector<Workspace>& in = dockTable()[dock].workspaces;
-  return std::find(in.begin(), in.end(), m_workspace) != in.end();
+  return ps::shows(dockTable()[dock], m_workspace);
+}
+
+bool WindowLayout::offers(size_t dock) const {
+  if (m_joined && m_docks[dock] == m_docks[1]) return false;
+  return ps::offers(dockTable()[dock], m_workspace);
+}
+
+QByteArray WindowLayout::stateNow() const {
+  if (m_full) return m_beforeFull;
+  return m_waiting.isEmpty() ? m_window.saveState(kStateVersion) : m_waiting;
 }
 
 void WindowLayout::setWorkspace(Workspace workspace) {
   if (workspace == m_workspace) return;
-  setFullViewport(false);
-  m_left[m_workspace] = m_waiting.isEmpty() ? m_window.saveState(kStateVersion) : m_waiting;
+  // Who fills the window with the scene may draw there. The others are nothing without their docks.
+  const auto hasScene = [](Workspace one) { return one == Workspace::Scene || one == Workspace::Sketch; };
+  if (!hasScene(workspace) || !hasScene(m_workspace)) setFullViewport(false);
+  const QPointer<QWidget> held = QApplication::focusWidget();
+  m_left[m_workspace] = stateNow();
   m_waiting.clear();
   m_workspace = workspace;
-  // What goes is hidden first: for a moment there would be room for neither.
-  for (size_t i = 0; i < m_docks.size(); ++i) {
-    if (!shows(i)) m_docks[i]->hide();
+  fitToWorkspace();
+  if (m_full) {
+    m_beforeFull = m_left[workspace];
+  } else {
+    // What goes is hidden first: for a moment there would be room for neither.
+    for (size_t i = 0; i < m_docks.size(); ++i) {
+      if (!shows(i)) m_docks[i]->hide();
+    }
+    restoreOrLay(m_left[workspace]);
+    m_window.layout()->activate();  // at once: what is in hand stands under the pointer
   }
-  const auto left = m_left.find(workspace);
-  const bool fits = workspace != Workspace::Scene || isOwn() || m_joined == columnOf(m_window.width()).joined;
-  if (left == m_left.end() || !fits || !restoreDocks(left->second)) lay();
+  // What is gone leaves its keys to the view, and not to a field that is next in line.
+  if (m_view && held && !held->isVisible()) m_view->setFocus(Qt::OtherFocusReason);
+  Q_EMIT workspaceChanged();
 }
 
-/// Those of this workspace, as a state has them.
+void WindowLayout::fitToWorkspace() {
+  const bool sketches = m_workspace == Workspace::Sketch;
+  dock(kInspector)->movePage(kBrush, sketches ? 0 : -1);
+  if (auto* timeline = dock(kTransport)->findChild<Timeline*>()) timeline->setSlim(sketches);
+}
+
+/// Docks of this workspace as they were left, where they still fit the window, else as they are by default.
+void WindowLayout::restoreOrLay(const QByteArray& state) {
+  const bool fits = m_workspace != Workspace::Scene || isOwn() || m_joined == dockColumn(m_window.width()).joined;
+  if (state.isEmpty() || !fits || !restoreDocks(state)) lay();
+}
+
+/// Those of this workspace, as a state has them; it may be from before there were some of the docks.
 bool WindowLayout::restoreDocks(const QByteArray& state) {
   const bool restored = m_window.restoreState(state, kStateVersion);
-  if (m_joined) m_docks[1]->hide();
+  for (size_t i = 0; i < m_docks.size(); ++i) {
+    if (!offers(i)) m_docks[i]->hide();
+  }
   return restored;
 }
 
@@ -238,73 +275,6 @@ bool WindowLayout::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
-/// Docks move while they are hidden: those in sight would ask for room that they need nowhere.
-void WindowLayout::putAway() {
-  for (Dock* dock : m_docks) {
-    dock->setFloating(false);
-    dock->hide();
-  }
-}
-
-void WindowLayout::showDocks() {
-  for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(shows(i));
-  sizeDocks();
-}
-
-void WindowLayout::layScene() {
-  setJoined(columnOf(m_window.width()).joined);
-  putAway();
-  m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
-  // All have a place, so that a saved state says of each that it is hidden.
-  for (size_t i = 0; i < m_docks.size(); ++i) {
-    if (!shows(i)) m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[i]);
-  }
-  putAway();
-  m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[0]);
-  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[2]);
-  m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[3]);
-  if (!m_joined) m_window.splitDockWidget(m_docks[0], m_docks[1], Qt::Vertical);
-  m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
-  showDocks();
-}
-
-/// The curve takes the middle, over graphs and transport; the view stands on the right, over the points.
-void WindowLayout::layTune() {
-  Dock *responses = m_docks[5], *curve = m_docks[6], *points = m_docks[7];
-  putAway();
-  m_window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-  m_window.addDockWidget(Qt::LeftDockWidgetArea, responses);
-  m_window.splitDockWidget(responses, curve, Qt::Horizontal);
-  m_window.splitDockWidget(curve, m_docks[3], Qt::Vertical);
-  m_window.splitDockWidget(m_docks[3], m_docks[4], Qt::Vertical);
-  m_window.addDockWidget(Qt::BottomDockWidgetArea, points);
-  showDocks();
-}
-
-/// The view takes what there is, over the transport.
-void WindowLayout::layFilm() {
-  putAway();
-  m_window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
-  m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[8]);
-  m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[4]);
-  showDocks();
-}
-
-void WindowLayout::sizeDocks() {
-  const Column& column = columnOf(m_window.width());
-  if (m_workspace == Workspace::Tune) {
-    const int list = column.left, preview = 480;
-    m_window.resizeDocks({m_docks[5], m_docks[6]}, {list, m_window.width() - list - preview}, Qt::Horizontal);
-    m_window.resizeDocks({m_docks[6], m_docks[3], m_docks[4]}, {column.curve, column.curveGraphs, 40}, Qt::Vertical);
-    m_window.resizeDocks({m_docks[7]}, {column.points}, Qt::Vertical);
-    return;
-  }
-  if (m_workspace == Workspace::Film) return m_window.resizeDocks({m_docks[8]}, {column.right}, Qt::Horizontal);
-  m_window.resizeDocks({m_docks[0], m_docks[2]}, {column.left, column.right}, Qt::Horizontal);
-  if (!m_joined) m_window.resizeDocks({m_docks[0], m_docks[1]}, {column.outliner, column.materials}, Qt::Vertical);
-  m_window.resizeDocks({m_docks[3], m_docks[4]}, {column.graphs, 40}, Qt::Vertical);
-}
-
 void WindowLayout::restore() {
   if (!m_options.remember) return;
   const QSettings settings;
@@ -332,7 +302,7 @@ void WindowLayout::save() const {
   settings.setValue(QLatin1String(kGeometry), m_window.saveGeometry());
   std::map<Workspace, QByteArray> states = m_left;
   const bool waits = !m_waiting.isEmpty();  // it was hardly open
-  states[m_workspace] = m_full ? m_beforeFull : waits ? m_waiting : m_window.saveState(kStateVersion);
+  states[m_workspace] = stateNow();
   settings.setValue(QLatin1String(kSize), waits ? m_waitingSize : m_window.size());
   settings.setValue(QLatin1String(kOwn), m_own);
   settings.setValue(QLatin1String(kJoined), m_joined);
@@ -352,18 +322,18 @@ void WindowLayout::setDark(bool dark) {
 
 void WindowLayout::setFullViewport(bool on) {
   if (on == m_full) return;
-  if (on) m_beforeFull = m_waiting.isEmpty() ? m_window.saveState(kStateVersion) : m_waiting;
+  if (on) m_beforeFull = stateNow();
   m_waiting.clear();
   m_full = on;
   for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(!on && shows(i));
-  if (!on) restoreDocks(m_beforeFull);
+  if (!on) restoreOrLay(m_beforeFull);
 }
 
 /// A window that was maximised has the size that its docks were left for only some time after it is shown; sizes that
 /// do not fit before would be cut.
 void WindowLayout::onResized(int widthBefore) {
   if (m_window.isVisible() && takeWaiting()) return;
-  if (widthBefore >= 0 && &columnOf(widthBefore) != &columnOf(m_window.width())) fitColumn();
+  if (widthBefore >= 0 && &dockColumn(widthBefore) != &dockColumn(m_window.width())) fitColumn();
 }
 
 bool WindowLayout::takeWaiting() {
@@ -377,7 +347,7 @@ bool WindowLayout::takeWaiting() {
 /// Nothing that somebody arranged moves.
 void WindowLayout::fitColumn() {
   if (isOwn() || m_full) return;
-  const bool joined = columnOf(m_window.width()).joined;
+  const bool joined = dockColumn(m_window.width()).joined;
   if (m_workspace == Workspace::Scene && joined != m_joined)
     joinMaterials(joined);
   else

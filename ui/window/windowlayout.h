@@ -33,6 +33,9 @@ class WindowLayout : public QObject {
   const std::vector<Dock*>& docks() const { return m_docks; }
   Dock* dockOf(const QString& page) const;  ///< by its title; nullptr: there is none
   void showPage(const QString& title);      ///< of whichever dock has it, in sight where the workspace shows that dock
+  void openPage(const QString& title);      ///< the same, where the workspace offers that dock
+  void turnTo(const QString& title);        ///< the same, in sight where the dock is
+  bool offersPage(const QString& title) const;
   /// Of docks(), by its number: whether this workspace shows it now. Materials that are a page of the outliner's dock
   /// are shown where that page is.
   bool isShown(size_t dock) const;
@@ -57,15 +60,22 @@ class WindowLayout : public QObject {
 
  Q_SIGNALS:
   void themeChanged();
+  void workspaceChanged();
 
  private:
-  bool shows(size_t dock) const;  ///< in this workspace
+  bool shows(size_t dock) const;   ///< in this workspace
+  bool offers(size_t dock) const;  ///< the same
+  size_t indexOf(const Dock* dock) const;
+  QByteArray stateNow() const;
+  void restoreOrLay(const QByteArray& state);
+  void fitToWorkspace();  ///< what is in docks that several workspaces have
   void putAway();
   void showDocks();  ///< of this workspace
   void lay();        ///< this workspace, as it is by default
   void layScene();
   void layTune();
   void layFilm();
+  void laySketch();
   void sizeDocks();  ///< as the layout table has it for this width
   void fitColumn();  ///< the same, where nobody arranged them
   bool isOwn() const;
