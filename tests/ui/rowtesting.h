@@ -4,6 +4,7 @@
 #include "ui/rows/parameterrow_p.h"
 #include "ui/rows/rowvalue.h"
 
+#include <QtGui/QHoverEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>
 #include <QtTest/QTest>
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 // Declarations of every kind, and hands for widgets: shared by the tests of rows, panels and graphs.
 namespace ps::testing {
@@ -84,6 +86,82 @@ inline void drag(ParameterRow& row, QPoint from, QPoint to, Qt::KeyboardModifier
 inline void wheel(QWidget& widget, QPointF at, int delta) {
   QWheelEvent event(at, widget.mapToGlobal(at), {}, {0, delta}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
   QApplication::sendEvent(&widget, &event);
+}
+
+inline constexpr std::pair<const char*, RowState> kStates[] = {{"hover", RowState::Hover},
+                                                               {"focus", RowState::Focus},
+                                                               {"disabled", RowState::Disabled},
+                                                               {"mixed", RowState::Mixed},
+                                                               {"out of range", RowState::OutOfRange},
+                                                               {"changed", RowState::Changed},
+                                                               {"on a key", RowState::OnKey},
+                                                               {"between keys", RowState::BetweenKeys},
+                                                               {"curve", RowState::Curve},
+                                                               {"derived", RowState::Derived},
+                                                               {"limited", RowState::Limited},
+                                                               {"error", RowState::Error},
+                                                               {"editing", RowState::Editing},
+                                                               {"dragging", RowState::Dragging}};
+
+/// Without focus, and wherever the pointer stands.
+inline void rest(ParameterRow& row) {
+  row.clearFocus();
+  QHoverEvent leave(QEvent::HoverLeave, QPointF(-1, -1), QPointF(-1, -1), QPointF(20, 10));
+  QApplication::sendEvent(&row, &leave);
+}
+
+/// Brings a row of model("conductivity") there, as a hand or the editor does.
+inline void reach(ParameterRow& row, RowState wanted) {
+  switch (wanted) {
+    case RowState::Hover: {
+      QHoverEvent enter(QEvent::HoverEnter, QPointF(20, 10), QPointF(20, 10), QPointF(-1, -1));
+      QApplication::sendEvent(&row, &enter);
+      break;
+    }
+    case RowState::Focus:
+      row.setFocus(Qt::TabFocusReason);
+      break;
+    case RowState::Disabled:
+      row.setDisabledReason(QStringLiteral("The plugin is missing."));
+      break;
+    case RowState::Mixed:
+      row.setMixed(true);
+      break;
+    case RowState::OutOfRange:
+      QVERIFY(row.enter(QStringLiteral("400")));
+      break;
+    case RowState::Changed:
+      QVERIFY(row.enter(QStringLiteral("3")));
+      break;
+    case RowState::Curve: {
+      Response curve;
+      curve.kind = Response::Kind::Curve;
+      curve.points = {{250, 2}, {270, 3}};
+      row.setValue(curve);
+      break;
+    }
+    case RowState::Derived:
+      row.setDerivedFrom(QStringLiteral("from pressure"));
+      break;
+    case RowState::Limited:
+      row.setLimit(QStringLiteral("The solver reaches **1**."), 1);
+      break;
+    case RowState::Error:
+      QVERIFY(!row.enter(QStringLiteral("-3")));
+      break;
+    case RowState::Editing:
+      row.startTyping();
+      break;
+    case RowState::Dragging:
+      QTest::mousePress(&row, Qt::LeftButton, {}, onSlider(row, 0.8));
+      break;
+    case RowState::OnKey:
+      row.setKeyMark(KeyMark::OnKey, ToNext::Linear);
+      break;
+    case RowState::BetweenKeys:
+      row.setKeyMark(KeyMark::Between, ToNext::Linear);
+      break;
+  }
 }
 
 }  // namespace ps::testing

@@ -29,11 +29,7 @@ using namespace ps;
 namespace {
 
 constexpr QChar kCut(0x2026);
-constexpr int kWide = 1600;    // of a window that has room for every name
 constexpr int kSentence = 32;  // letters, of what may be cut in it all the same
-
-/// Pages whose names are whole in small windows too.
-const QStringList kNames{QStringLiteral("Outliner"), QStringLiteral("Responses")};
 
 struct PaintedText {
   QString text;
@@ -124,7 +120,13 @@ class TestPanelPictures : public SampleWindowTest {
  private Q_SLOTS:
   void initTestCase() {
     QVERIFY(QDir().mkpath(QStringLiteral("pictures")));
-    m_window = sampleWindow({1600, 1000});
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = options.sample = kSample;
+    options.samples = QStringLiteral(PS_SOURCE_DIR "/projects");
+    options.restore = false;
+    options.session.autosave = false;
+    m_window = shownWindow(options, {1600, 1000});
     QVERIFY(m_window);
     session().pause();
     document().undoStack().clear();
@@ -156,15 +158,17 @@ class TestPanelPictures : public SampleWindowTest {
     }
   }
 
+  void pagesInTheMiddle_data() { everyPage_data(); }
   void pagesInTheMiddle() {
-    for (const bool dark : {true, false}) {
-      m_window->setDark(dark);
-      for (const char* action : {"add.library", "help.welcome"}) {
-        m_window->action(QLatin1String(action))->trigger();
-        QTest::qWait(200);
-        look(*m_window->centralWidget(), QLatin1String(action));
-        QTest::keyClick(m_window.get(), Qt::Key_Escape);
-      }
+    QFETCH(bool, dark);
+    QFETCH(QSize, size);
+    m_window->setDark(dark);
+    m_window->resize(size);
+    for (const char* action : {"add.library", "help.welcome", "help.plugins"}) {
+      m_window->action(QLatin1String(action))->trigger();
+      QTest::qWait(200);
+      look(*m_window->centralWidget(), QLatin1String(action));
+      QTest::keyClick(m_window.get(), Qt::Key_Escape);
     }
   }
 
@@ -176,7 +180,8 @@ class TestPanelPictures : public SampleWindowTest {
   void dialogs() {
     QFETCH(bool, dark);
     m_window->setDark(dark);
-    for (const char* action : {"edit.preferences", "edit.project", "file.film", "file.export", "help.shortcuts"}) {
+    for (const char* action : {"edit.preferences", "edit.project", "file.film", "file.export", "help.shortcuts",
+                               "help.first-steps", "help.sketching", "help.values"}) {
       m_window->action(QLatin1String(action))->trigger();
       QDialog* dialog = nullptr;
       QTRY_VERIFY_WITH_TIMEOUT((dialog = shownDialog()) != nullptr, kLong);
@@ -186,14 +191,22 @@ class TestPanelPictures : public SampleWindowTest {
     }
   }
 
+  void theFieldThatFindsEverything_data() { dialogs_data(); }
+  void theFieldThatFindsEverything() {
+    QFETCH(bool, dark);
+    m_window->setDark(dark);
+    m_window->action(QStringLiteral("edit.search"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->palette()->isVisible(), kLong);
+    look(*m_window->palette(), QStringLiteral("edit.search"));
+    QTest::keyClick(m_window->palette()->field(), Qt::Key_Escape);
+  }
+
+  void menus_data() { dialogs_data(); }
   void menus() {
-    auto* bar = m_window->findChild<QMenuBar*>();
-    for (QAction* each : bar->actions()) {
-      each->menu()->popup(m_window->mapToGlobal(QPoint(40, 40)));
-      QTRY_VERIFY_WITH_TIMEOUT(each->menu()->isVisible(), kLong);
-      look(*each->menu(), QStringLiteral("menu ") + fromButtonText(each->text()));
-      each->menu()->close();
-    }
+    QFETCH(bool, dark);
+    m_window->setDark(dark);
+    for (QAction* each : m_window->findChild<QMenuBar*>()->actions())
+      lookAtMenu(*each->menu(), QStringLiteral("menu ") + fromButtonText(each->text()));
   }
 
   void workspaces_data() { dialogs_data(); }
@@ -212,7 +225,15 @@ class TestPanelPictures : public SampleWindowTest {
     QTest::addColumn<QString>("scale");
     QTest::addColumn<QStringList>("what");
     QTest::newRow("125 %") << "1.25" << QStringList{"everyPage:small"};
-    QTest::newRow("200 %") << "2" << QStringList{"everyPage:dark", "everyPage:light", "dialogs:dark"};
+    QTest::newRow("200 %") << "2"
+                           << QStringList{"everyPage:dark",
+                                          "everyPage:light",
+                                          "pagesInTheMiddle:dark",
+                                          "pagesInTheMiddle:light",
+                                          "dialogs",
+                                          "theFieldThatFindsEverything",
+                                          "menus",
+                                          "workspaces"};
     QTest::newRow("300 %") << "3" << QStringList{"everyPage:small"};
   }
   void theSameAtOtherScales() {
@@ -237,6 +258,17 @@ class TestPanelPictures : public SampleWindowTest {
     }
     return nullptr;
   }
+  /// And at what opens from it.
+  void lookAtMenu(QMenu& menu, const QString& title) {
+    menu.popup(m_window->mapToGlobal(QPoint(40, 40)));
+    QTRY_VERIFY_WITH_TIMEOUT(menu.isVisible(), kLong);
+    look(menu, title);
+    menu.close();
+    for (QAction* entry : menu.actions()) {
+      if (entry->menu() && !entry->menu()->isEmpty() && entry->isEnabled())
+        lookAtMenu(*entry->menu(), title + QLatin1Char(' ') + fromButtonText(entry->text()));
+    }
+  }
   /// Keeps the picture, and sees to it that it shows something and that what is cut can be read by its tip.
   void look(QWidget& widget, const QString& title) {
     QCoreApplication::processEvents();
@@ -260,8 +292,7 @@ class TestPanelPictures : public SampleWindowTest {
         const QString tip = tipAt(*part, painted.at.toPoint());
         if (!tip.contains(text.chopped(1).trimmed()))
           problems << QStringLiteral("%1: of “%2” the tip has “%3”").arg(name, text, tip);
-        if ((m_window->width() >= kWide || kNames.contains(title)) && text.size() < kSentence)
-          problems << QStringLiteral("%1: “%2” is cut").arg(name, text);
+        if (text.size() < kSentence) problems << QStringLiteral("%1: “%2” is cut").arg(name, text);
       }
     }
     QVERIFY2(problems.isEmpty(), qPrintable(problems.join(QLatin1Char('\n'))));

@@ -70,6 +70,8 @@ class TestPanels : public QObject {
   void noTextIsCut_data();
   void noTextIsCut();
   void wideSymbolsAreWhole();
+  void captionsStandWholeOrNotAtAll();
+  void aLongLabelTakesItsSlidersRoom();
   void themeChangesWhileRunning();
 };
 
@@ -343,6 +345,41 @@ void TestPanels::wideSymbolsAreWhole() {
   row.resize(460, kRowHeight);
   row.setLabelWidth(160);
   QVERIFY(row.sliderRect().left() - row.labelRect().right() - 1 >= wide);
+}
+
+/// What is short of room gives up its captions, the name last.
+void TestPanels::captionsStandWholeOrNotAtAll() {
+  PanelHeader header;
+  header.setTexts(QStringLiteral("Water"), QStringLiteral("Ice block, a bonded solid"),
+                  QStringLiteral("Reference data of grade A, from more than one source"));
+  const int all = header.heightForWidth(600), subtitle = header.heightForWidth(220), name = header.heightForWidth(120);
+  QCOMPARE(all, 64);
+  QCOMPARE(subtitle, 48);
+  QCOMPARE(name, 30);
+  ParameterPanel panel;
+  panel.setModel(rowModels(list(), {}));
+  panel.setHeader(QStringLiteral("Water"), QStringLiteral("Ice block, a bonded solid"),
+                  QStringLiteral("Reference data of grade A, from more than one source"));
+  show(panel, 600);
+  auto* shown = panel.findChild<PanelHeader*>();
+  QTRY_COMPARE(shown->height(), all);
+  panel.resize(250, 400);
+  QTRY_COMPARE(shown->height(), subtitle);
+  QVERIFY(shown->toolTip().contains(QStringLiteral("more than one source")));
+}
+
+void TestPanels::aLongLabelTakesItsSlidersRoom() {
+  std::vector<RowModel> models = rowModels(list(), {});
+  models.front().declaration.label = "Temperature of the warm plate";
+  ParameterPanel panel;
+  panel.setModel(models);
+  show(panel, 332);
+  const ParameterRow *longest = panel.rows().front(), *other = panel.row(QStringLiteral("youngs_modulus"));
+  QVERIFY(longest->wantedLabelWidth() > 150);
+  QVERIFY(longest->labelRect().width() >= longest->wantedLabelWidth() - 1);
+  QVERIFY(longest->sliderRect().width() >= kLeastSlider);
+  QVERIFY(other->sliderRect().width() >= kMinimumSlider);
+  QCOMPARE(longest->sliderRect().right(), other->sliderRect().right());
 }
 
 /// A note that comes or goes above the row under the pointer leaves that where it is.

@@ -28,21 +28,7 @@ class TestRowGestures : public QObject {
 
 void TestRowGestures::everyStateIsReached_data() {
   QTest::addColumn<int>("state");
-  for (const auto& [name, state] :
-       std::initializer_list<std::pair<const char*, RowState>>{{"hover", RowState::Hover},
-                                                               {"focus", RowState::Focus},
-                                                               {"disabled", RowState::Disabled},
-                                                               {"mixed", RowState::Mixed},
-                                                               {"out of range", RowState::OutOfRange},
-                                                               {"changed", RowState::Changed},
-                                                               {"curve", RowState::Curve},
-                                                               {"derived", RowState::Derived},
-                                                               {"limited", RowState::Limited},
-                                                               {"error", RowState::Error},
-                                                               {"editing", RowState::Editing},
-                                                               {"dragging", RowState::Dragging}}) {
-    QTest::newRow(name) << static_cast<int>(state);
-  }
+  for (const auto& [name, state] : kStates) QTest::newRow(name) << static_cast<int>(state);
 }
 
 /// Each state can be had, is reported, and looks different from a row at rest.
@@ -51,55 +37,10 @@ void TestRowGestures::everyStateIsReached() {
   const auto wanted = static_cast<RowState>(state);
   ParameterRow row(model("conductivity"));
   show(row);
-  row.clearFocus();
-  QHoverEvent leave(QEvent::HoverLeave, QPointF(-1, -1), QPointF(-1, -1), QPointF(20, 10));
-  QApplication::sendEvent(&row, &leave);  // the pointer may stand anywhere
+  rest(row);
   const QImage atRest = row.grab().toImage();
   QVERIFY(!row.has(wanted));
-  switch (wanted) {
-    case RowState::Hover: {
-      QHoverEvent enter(QEvent::HoverEnter, QPointF(20, 10), QPointF(20, 10), QPointF(-1, -1));
-      QApplication::sendEvent(&row, &enter);
-      break;
-    }
-    case RowState::Focus:
-      row.setFocus(Qt::TabFocusReason);
-      break;
-    case RowState::Disabled:
-      row.setDisabledReason(QStringLiteral("The plugin is missing."));
-      break;
-    case RowState::Mixed:
-      row.setMixed(true);
-      break;
-    case RowState::OutOfRange:
-      QVERIFY(row.enter(QStringLiteral("400")));
-      break;
-    case RowState::Changed:
-      QVERIFY(row.enter(QStringLiteral("3")));
-      break;
-    case RowState::Curve: {
-      Response curve;
-      curve.kind = Response::Kind::Curve;
-      curve.points = {{250, 2}, {270, 3}};
-      row.setValue(curve);
-      break;
-    }
-    case RowState::Derived:
-      row.setDerivedFrom(QStringLiteral("from pressure"));
-      break;
-    case RowState::Limited:
-      row.setLimit(QStringLiteral("The solver reaches **1**."), 1);
-      break;
-    case RowState::Error:
-      QVERIFY(!row.enter(QStringLiteral("-3")));
-      break;
-    case RowState::Editing:
-      row.startTyping();
-      break;
-    case RowState::Dragging:
-      QTest::mousePress(&row, Qt::LeftButton, {}, onSlider(row, 0.8));
-      break;
-  }
+  reach(row, wanted);
   QTRY_VERIFY(row.has(wanted));
   QVERIFY(row.grab().toImage() != atRest);
 }

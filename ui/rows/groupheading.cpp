@@ -63,8 +63,10 @@ void GroupHeading::paintEvent(QPaintEvent*) {
   paintText(painter, QRectF(22, row.top(), width() - 40, row.height()), Qt::AlignLeft | Qt::AlignVCenter, m_title,
             title, theme[Token::Text]);
   const double right = 22 + textWidth(m_title, title) + 6;
-  paintText(painter, QRectF(right, row.top(), width() - right - 12, row.height()), Qt::AlignLeft | Qt::AlignVCenter,
-            m_count, Theme::font(TextRole::Normal), theme[Token::Muted]);
+  const QRectF rest(right, row.top(), width() - right - 12, row.height());
+  const QFont font = Theme::font(TextRole::Normal);
+  if (textWidth(m_count, font) <= rest.width())  // whole or not at all
+    paintText(painter, rest, Qt::AlignLeft | Qt::AlignVCenter, m_count, font, theme[Token::Muted]);
   if (hasFocus()) paintFocusRing(painter, row.adjusted(3, 2, -3, -2), 4);
 }
 

@@ -10,9 +10,17 @@
 #include <utility>
 
 namespace ps {
+namespace {
+
+constexpr int kLeft = 12, kRight = 10, kTop = 10, kSwatch = 40;
+constexpr int kName = 20, kSubtitle = 18, kDetail = 16;  ///< heights of the lines
+
+}  // namespace
 
 PanelHeader::PanelHeader(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
 }
 
 void PanelHeader::setTexts(const QString& name, const QString& subtitle, const QString& detail) {
@@ -31,30 +39,46 @@ void PanelHeader::setTexts(const QString& name, const QString& subtitle, const Q
 
 void PanelHeader::setSwatch(SwatchPainter painter) {
   m_swatch = std::move(painter);
+  updateGeometry();
   update();
 }
 
-QSize PanelHeader::sizeHint() const {
-  return {300, 10 + 20 + (m_subtitle.isEmpty() ? 0 : 18) + (m_detail.isEmpty() ? 0 : 16)};
+PanelHeader::Captions PanelHeader::captionsIn(int width) const {
+  const double room = width - kLeft - kRight - (m_swatch ? kSwatch + kLeft : 0);
+  const auto whole = [room](const QString& text, TextRole role) {
+    return textWidth(text, Theme::font(role)) <= room ? text : QString();
+  };
+  return {whole(m_subtitle, TextRole::Normal), whole(m_detail, TextRole::Small)};
 }
+
+int PanelHeader::heightForWidth(int width) const {
+  const Captions captions = captionsIn(width);
+  return kTop + kName + (captions.subtitle.isEmpty() ? 0 : kSubtitle) + (captions.detail.isEmpty() ? 0 : kDetail);
+}
+
+QSize PanelHeader::sizeHint() const { return {300, heightForWidth(std::max(width(), 300))}; }
 
 void PanelHeader::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   QPainter painter(this);
-  double left = 12;
+  double left = kLeft;
   if (m_swatch) {
-    const double side = std::min(40.0, height() - 10.0), edge = side / 9;  // a swatch leaves its edge free
-    m_swatch(painter, QRectF(left + 1, 10 + (height() - 10 - side) / 2, side, side).adjusted(-edge, -edge, edge, edge));
-    left = 12 + side + 12;
+    const double side = std::min<double>(kSwatch, height() - kTop), edge = side / 9;  // a swatch leaves its edge free
+    m_swatch(painter,
+             QRectF(left + 1, kTop + (height() - kTop - side) / 2, side, side).adjusted(-edge, -edge, edge, edge));
+    left += side + kLeft;
   }
-  const QRectF area(left, 10, width() - left - 10, height());
-  const int align = Qt::AlignLeft | Qt::AlignVCenter;
-  paintText(painter, QRectF(area.left(), 10, area.width(), 20), align, m_name, Theme::font(TextRole::Heading),
-            theme[Token::Text]);
-  paintText(painter, QRectF(area.left(), 30, area.width(), 17), align, m_subtitle, Theme::font(TextRole::Normal),
-            theme[Token::Text2]);
-  paintText(painter, QRectF(area.left(), m_subtitle.isEmpty() ? 30 : 47, area.width(), 16), align, m_detail,
-            Theme::font(TextRole::Small), theme[Token::Muted]);
+  const Captions captions = captionsIn(width());
+  double top = kTop;
+  const auto line = [&](const QString& text, int height, TextRole role, Token colour) {
+    if (text.isEmpty()) return;
+    paintText(painter, QRectF(left, top, width() - left - kRight, height), Qt::AlignLeft | Qt::AlignVCenter, text,
+              Theme::font(role), theme[colour]);
+    top += height;
+  };
+  line(m_name, kName, TextRole::Heading, Token::Text);
+  line(captions.subtitle, kSubtitle - 1, TextRole::Normal, Token::Text2);
+  line(captions.detail, kDetail, TextRole::Small, Token::Muted);
 }
 
 }  // namespace ps

@@ -247,6 +247,8 @@ unsigned ParameterRow::states() const {
   add(!d->errorText.isEmpty(), RowState::Error);
   add(d->edit, RowState::Editing);
   add(d->dragging, RowState::Dragging);
+  add(d->model.keyMark == KeyMark::OnKey, RowState::OnKey);
+  add(d->model.keyMark == KeyMark::Between, RowState::BetweenKeys);
   return states;
 }
 
@@ -393,8 +395,9 @@ QRect ParameterRow::fieldRect() const {
 QRect ParameterRow::sliderRect() const {
   const int right = fieldRect().left() - kSliderGap;
   const int symbol = d->showSymbol ? kSymbolWidth : 0;
-  int left = kRowLeft + d->labelWidth + symbol;
-  left = std::min(left, right - kMinimumSlider);  // the label gives way last
+  int left = std::min(kRowLeft + d->labelWidth + symbol, right - kMinimumSlider);
+  // Labels give way last, after the row's own symbol and most of its slider.
+  left = std::max(left, std::min(kRowLeft + wantedLabelWidth(), right - kLeastSlider));
   return {left, 0, right - left, kRowHeight};
 }
 

@@ -60,7 +60,9 @@ enum class RowState : unsigned {
   Limited = 256,
   Error = 512,
   Editing = 1024,
-  Dragging = 2048
+  Dragging = 2048,
+  OnKey = 4096,       ///< its parameter has keys over time, one of them now
+  BetweenKeys = 8192  ///< or none now
 };
 
 /// A note as rich text: lines with "[text](link)" as links in accent, not underlined.

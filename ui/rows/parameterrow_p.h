@@ -20,6 +20,8 @@ namespace ps {
 inline constexpr int kRowHeight = 26, kRowLeft = 12, kRowRight = 42, kRowRightNarrow = 26, kFieldWidth = 104,
                      kFieldHeight = 22;
 inline constexpr int kSymbolWidth = 26, kSliderGap = 6, kLabelGap = 8, kMinimumSlider = 40, kMinimumLabel = 120;
+/// Of a row whose label is longer than the column of labels: twice the handle's way and its width.
+inline constexpr int kLeastSlider = 24;
 /// Right end of the value and left end of the unit, from the field's left.
 inline constexpr int kFieldLeft = 7, kValueRight = 54, kUnitLeft = 60, kFieldRight = 3;
 /// A gesture by wheel or keys, or a click that a double-click may follow, ends after this long without more of it.

@@ -63,9 +63,12 @@ QRect ParameterRow::keyRect() const {
 
 void ParameterRow::Private::paintKey(QPainter& painter) const {
   const bool keyed = model.keyMark != KeyMark::None;
-  if (!keyed && !(hover && takesKeys())) return;  // where a click would set the first
+  if (!keyed && !takesKeys()) return;  // where a click would set the first
   const QPointF centre = QRectF(q->keyRect()).center();
-  const Token token = !model.disabledReason.isEmpty() ? Token::Disabled : keyed ? Token::Keyframe : Token::Muted;
+  const Token token = !model.disabledReason.isEmpty() ? Token::Disabled
+                      : keyed                         ? Token::Keyframe
+                      : hover                         ? Token::Text2
+                                                      : Token::ControlEdge;
   paintDiamond(painter, centre, kDiamond, Theme::current()[token], model.keyMark == KeyMark::OnKey);
 }
 

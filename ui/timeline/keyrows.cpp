@@ -67,10 +67,20 @@ void KeyRows::rebuild() {
       m_rows.push_back({*address, titleOf(document, *address, QString::fromUtf8(declaration->label))});
   }
   followChosen();
-  setFixedHeight(wantedHeight());
-  setFocusPolicy(m_rows.empty() ? Qt::NoFocus : Qt::StrongFocus);  // keys do nothing on the ruler alone
-  update();
+  fit();
   if (m_rows.size() != before) Q_EMIT rowsChanged();
+}
+
+void KeyRows::fit() {
+  setFixedHeight(wantedHeight());
+  // Keys do nothing on the ruler alone.
+  setFocusPolicy(m_rows.empty() || !m_rowsShown ? Qt::NoFocus : Qt::StrongFocus);
+  update();
+}
+
+void KeyRows::setRowsShown(bool shown) {
+  m_rowsShown = shown;
+  fit();
 }
 
 const std::vector<TrackKey>& KeyRows::keysOf(const Address& address) const {

@@ -31,7 +31,8 @@ class KeyRows : public QWidget {
   };
   std::vector<Chosen> chosen() const;
   int rowCount() const { return static_cast<int>(m_rows.size()); }
-  int wantedHeight() const { return kRuler + kRow * rowCount(); }
+  int wantedHeight() const { return kRuler + (m_rowsShown ? kRow * rowCount() : 0); }
+  void setRowsShown(bool shown);  ///< else the ruler alone
   double xOf(double seconds) const;
   double secondsAt(double x) const;
   QPoint placeOf(const Address& address, size_t key) const;  ///< centre of its diamond
@@ -59,6 +60,7 @@ class KeyRows : public QWidget {
   };
   void onChanged(const ChangeEvent& event);
   void rebuild();
+  void fit();
   std::optional<Chosen> keyUnder(const QPoint& at) const;
   const Row* rowAt(const QPoint& at) const;
   const std::vector<TrackKey>& keysOf(const Address& address) const;
@@ -81,6 +83,7 @@ class KeyRows : public QWidget {
 
   Session& m_session;
   std::vector<Row> m_rows;
+  bool m_rowsShown = true;
   /// What it was when it was chosen, to find it again among keys that others change.
   struct Picked {
     Chosen key;
