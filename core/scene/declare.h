@@ -2,6 +2,7 @@
 #pragma once
 #include <phasesketch/parameter.h>
 
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -33,7 +34,9 @@ inline constexpr Display kMillimetres{"mm", 1000, 0};
 
 /// The same text at the same place for ever: declarations keep pointers to it.
 inline const char* kept(const std::string& text) {
+  static std::mutex mutex;  // panels and engines ask
   static std::set<std::string> texts;
+  const std::lock_guard lock(mutex);
   return texts.insert(text).first->c_str();
 }
 

@@ -121,7 +121,8 @@ api::ParameterList bodyDeclarations(const Project& project, const PluginRegistry
       choices.push_back(present);
     for (const BodyConstraint& constraint : body->constraints) {  // one more that is not installed
       const std::string& plugin = constraint.plugin;
-      if (plugins && plugin != present && !contains(plugins->ids(PluginKind::Constraint), plugin))
+      if (plugins && plugin != present && !contains(neighbours, plugin) &&
+          !contains(plugins->ids(PluginKind::Constraint), plugin))
         neighbours.push_back(plugin);
     }
   }

@@ -80,18 +80,18 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(materials.size() >= 4 && materials.size() < 9);
     m_window->selection().setMaterial(materials[0].id);
     press(Qt::Key_3);
-    QCOMPARE(view()->navigator().viewName(), QStringLiteral("Top"));
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
     QCOMPARE(m_window->selection().material(), materials[0].id);
     m_window->tools().activate(kBrushTool);
     view()->show(StandardView::Scene);
     QTRY_COMPARE(of("material", materials[2].id.c_str())->toolTip().right(3), QStringLiteral("(3)"));
     press(Qt::Key_3);
     QCOMPARE(m_window->tools().brush().material, materials[2].id);
-    QVERIFY(view()->navigator().viewName() != QStringLiteral("Top"));
+    QVERIFY(!view()->navigator().viewName().startsWith(QStringLiteral("Top")));
     press(Qt::Key_9);  // there are fewer
     QCOMPARE(m_window->tools().brush().material, materials[2].id);
     press(Qt::Key_3, Qt::AltModifier);
-    QCOMPARE(view()->navigator().viewName(), QStringLiteral("Top"));
+    QVERIFY(view()->navigator().viewName().startsWith(QStringLiteral("Top")));
     QAction* second = m_window->action(QStringLiteral("sketch.material2"));
     QVERIFY(second->text().startsWith(QStringLiteral("Draw with ")));
     m_window->tools().activate(kSelectTool);

@@ -236,11 +236,11 @@ class TestLayout : public QObject {
     open({1280, 800});
     QAction* full = m_window->action(QStringLiteral("window.full"));
     full->trigger();
-    const int wide = m_window->viewport()->width();
+    QTRY_COMPARE(m_window->viewport()->width(), 1280);
     m_window->tools().activate(kBrushTool);
     QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
     QVERIFY(shownDocks().isEmpty());
-    QCOMPARE(m_window->viewport()->width(), wide);
+    QTRY_COMPARE(m_window->viewport()->width(), 1280);
     full->trigger();
     QCOMPARE(shownDocks(), (QStringList{"dock.brushes", "dock.inspector", "dock.transport"}));
     full->trigger();

@@ -50,7 +50,8 @@ class TestManyMaterials : public SampleWindowTest {
     QCOMPARE(selection().materials(), (std::vector<std::string>{kWater, kIron, kWax}));
     click(kIron, Qt::ShiftModifier);
     QCOMPARE(selection().materials(), (std::vector<std::string>{kWater, kWax}));
-    tiles()->setFocus();
+    m_window->viewport()->setFocus();
+    tiles()->setFocus(Qt::TabFocusReason);
     QTest::keyClick(tiles(), Qt::Key_Left, Qt::ShiftModifier);
     QCOMPARE(selection().materials(), (std::vector<std::string>{kWater, kWax, kIron}));
     click(kWax, {});

@@ -91,10 +91,14 @@ QList<PaintedText> paintedBy(QWidget& widget) {
   return device.texts;
 }
 
-/// It means that there is more to be asked, not that it is cut.
+/// It means that there is more to be asked, not that it is cut: of a button, and of an action where actions are listed.
 bool isOwnText(const QWidget& widget, const QString& text) {
   const auto* button = qobject_cast<const QAbstractButton*>(&widget);
-  return button && fromButtonText(button->text()) == text;
+  if (button && fromButtonText(button->text()) == text) return true;
+  const QList<QAction*> actions =
+      widget.window()->parentWidget() ? widget.window()->parentWidget()->actions() : widget.window()->actions();
+  return std::any_of(actions.begin(), actions.end(),
+                     [&](const QAction* action) { return fromButtonText(action->text()) == text; });
 }
 
 /// What stands in the tooltip after the pointer has rested there.

@@ -370,7 +370,7 @@ void TestPanels::captionsStandWholeOrNotAtAll() {
 
 void TestPanels::aLongLabelTakesItsSlidersRoom() {
   std::vector<RowModel> models = rowModels(list(), {});
-  models.front().declaration.label = "Temperature of the warm plate";
+  models.front().declaration.label = "Temperature of warm plate";
   ParameterPanel panel;
   panel.setModel(models);
   show(panel, 332);

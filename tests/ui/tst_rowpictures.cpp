@@ -4,6 +4,8 @@
 #include "tests/ui/rowtesting.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QDir>
+#include <QtCore/QFileInfo>
 #include <QtGui/QImage>
 #include <QtGui/QPainter>
 
@@ -74,18 +76,29 @@ class TestRowPictures : public QObject {
     const std::vector<QImage> pictures = picturesOfStates();
     const QString file =
         QStringLiteral(PS_SOURCE_DIR "/tests/ui/pictures/row-states-%1.png").arg(dark ? "dark" : "light");
-    if (qEnvironmentVariableIsSet("PS_KEEP_PICTURES")) QVERIFY(below(pictures).save(file));
+    if (qEnvironmentVariableIsSet("PS_KEEP_PICTURES")) {
+      QVERIFY(QDir().mkpath(QFileInfo(file).path()));
+      QVERIFY(below(pictures).save(file));
+    }
     const QImage kept(file);
     QVERIFY2(!kept.isNull(), qPrintable(file));
     int top = 0;
-    QStringList others;
-    for (size_t k = 0; k < pictures.size(); ++k) {
-      const QRect place(0, top, kWidth, pictures[k].height());
-      top += place.height();
-      const double share = shareThatDiffers(pictures[k], kept.copy(place).convertToFormat(QImage::Format_RGB32));
-      if (share > kOthers) others << QStringLiteral("%1: %2 %").arg(name(k)).arg(100 * share, 0, 'f', 2);
+    std::vector<QImage> wanted;
+    for (const QImage& picture : pictures) {
+      wanted.push_back(kept.copy(0, top, kWidth, picture.height()).convertToFormat(QImage::Format_RGB32));
+      top += picture.height();
     }
     QCOMPARE(top, kept.height());
+    QStringList others;
+    for (size_t k = 0; k < pictures.size(); ++k) {
+      const double share = shareThatDiffers(pictures[k], wanted[k]);
+      if (share > kOthers) others << QStringLiteral("%1: %2 %").arg(name(k)).arg(100 * share, 0, 'f', 2);
+      // Nearer to its own than to any other, however little these are apart.
+      for (size_t j = 0; j < wanted.size(); ++j) {
+        if (j != k && shareThatDiffers(pictures[k], wanted[j]) <= share)
+          others << QStringLiteral("%1 looks like %2").arg(name(k), name(j));
+      }
+    }
     if (!others.isEmpty()) below(pictures).save(QStringLiteral("row-states.png"));
     QVERIFY2(others.isEmpty(), qPrintable(others.join(QStringLiteral(", "))));
   }

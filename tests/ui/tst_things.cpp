@@ -440,12 +440,12 @@ class TestThings : public SampleWindowTest {
     document().undoStack().undo();
     QVERIFY(document().body(ids[0])->visible && document().body(ids[1])->visible);
     // Alone is alone: walls, taps, drains and probes are hidden with the bodies, as one step.
-    const int steps = document().undoStack().count();
+    const int steps = document().undoStack().index();
     trigger("edit.isolate");
     QVERIFY(!document().body("ice")->visible && !document().body(ids[2])->visible && document().body(ids[0])->visible);
     for (const SceneWall& wall : project().environment.walls) QVERIFY(!wall.visible);
     for (const Probe& probe : project().probes) QVERIFY(!probe.visible);
-    QCOMPARE(document().undoStack().count(), steps + 1);
+    QCOMPARE(document().undoStack().index(), steps + 1);
     trigger("edit.isolate");
     QVERIFY(document().body("ice")->visible);
     for (const SceneWall& wall : project().environment.walls) QVERIFY(wall.visible);

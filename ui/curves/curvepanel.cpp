@@ -19,6 +19,7 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -41,7 +42,7 @@ QLabel* label(TextRole role) {
 }
 
 /// What does not fit ends in dots.
-class NoteLabel final : public QLabel {
+class NoteLabel : public QLabel {
  public:
   explicit NoteLabel(Qt::Alignment side) {
     setAlignment(side | Qt::AlignVCenter);
@@ -53,6 +54,22 @@ class NoteLabel final : public QLabel {
   void paintEvent(QPaintEvent*) override {
     QPainter painter(this);
     paintText(painter, rect(), alignment(), text(), font(), Theme::current()[Token::Muted]);
+  }
+};
+
+/// One whose parts, parted by commas and dots, stand whole or not at all.
+class PartsLabel final : public NoteLabel {
+ public:
+  using NoteLabel::NoteLabel;
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QString shown = text();
+    while (!shown.isEmpty() && textWidth(shown, font()) > width())
+      shown.truncate(std::max({shown.lastIndexOf(QStringLiteral(" · ")), shown.lastIndexOf(QStringLiteral(", ")),
+                               decltype(shown.size()){0}}));
+    QPainter painter(this);
+    paintText(painter, rect(), alignment(), shown, font(), Theme::current()[Token::Muted]);
   }
 };
 
@@ -71,7 +88,7 @@ CurvePanel::CurvePanel(Session& session, CurveTarget& target, QWidget* parent)
     : QWidget(parent),
       m_target(target),
       m_title(label(TextRole::Heading)),
-      m_source(new NoteLabel(Qt::AlignLeft)),
+      m_source(new PartsLabel(Qt::AlignLeft)),
       m_which(label(TextRole::Normal)),
       m_slopeLabel(label(TextRole::Normal)),
       m_note(new NoteLabel(Qt::AlignRight)),

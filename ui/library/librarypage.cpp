@@ -216,9 +216,9 @@ QWidget* LibraryPage::makeRight() {
   act->addWidget(mix);
   column->addLayout(act);
   auto* keep = new QHBoxLayout;
-  m_name->setPlaceholderText(QStringLiteral("Name of the preset"));
-  m_name->setAccessibleName(m_name->placeholderText());
-  m_name->setToolTip(m_name->placeholderText());
+  m_name->setPlaceholderText(QStringLiteral("Name"));
+  m_name->setAccessibleName(QStringLiteral("Name of the preset"));
+  m_name->setToolTip(m_name->accessibleName());
   keep->addWidget(m_of);
   keep->addWidget(m_name, 1);
   keep->addWidget(m_save);

@@ -88,10 +88,11 @@ void MaterialCard::paint(QPainter* painter, const QStyleOptionViewItem& option, 
   paintSwatch(*painter, QRectF(card.left() + 6, card.top() + 5, kSwatch, kSwatch), swatchOf(entry), m_swatches);
   QFont bold = Theme::font(TextRole::Normal);
   bold.setWeight(QFont::DemiBold);
-  const QRectF words(card.left() + 56, card.top() + 8, card.width() - 64, 18);
+  const QRectF words(card.left() + 54, card.top() + 8, card.width() - 58, 18);
   paintText(*painter, words, Qt::AlignLeft | Qt::AlignVCenter, entry.label, bold, theme[Token::Text]);
-  paintText(*painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, transitionsText(entry),
-            Theme::font(TextRole::Small), theme[Token::Text2]);
+  paintText(*painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter,
+            transitionsText(entry).replace(QStringLiteral(" at "), QStringLiteral(" ")), Theme::font(TextRole::Small),
+            theme[Token::Text2]);
   paintBands(*painter, QRectF(card.left() + 10, card.bottom() - 22, card.width() - 20, 13), entry.bands);
   if (option.state & QStyle::State_HasFocus) paintFocusRing(*painter, card, 7);
   painter->restore();

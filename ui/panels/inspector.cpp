@@ -28,6 +28,12 @@ void append(std::vector<RowModel>& rows, std::vector<RowModel> more) {
   rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// Not so what is kept of a plugin that is missing.
+bool isDeclared(const Document& document, const QString& key) {
+  const auto address = Address::parse(key.toStdString());
+  return address && document.declaration(*address);
+}
+
 }  // namespace
 
 Inspector::Inspector(Session& session, Selection& selection, QObject* parent)
@@ -71,11 +77,13 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   connect(panel, &ParameterPanel::resetAsked, this, [this, panel](const QString& key) { onReset(key, panel); });
   connect(panel, &ParameterPanel::takenBack, &m_document, &Document::takeGestureBack);
   connect(panel, &ParameterPanel::linkActivated, this, &Inspector::onLink);
-  connect(panel, &ParameterPanel::pinToggled, this,
-          [this](const QString& key, bool pinned) { m_document.setPinned(key.toStdString(), pinned); });
+  connect(panel, &ParameterPanel::pinToggled, this, [this](const QString& key, bool pinned) {
+    if (!pinned || isDeclared(m_document, key)) m_document.setPinned(key.toStdString(), pinned);
+  });
   connect(panel, &ParameterPanel::plotRequested, this, [this](const QString& key) {
     const auto address = Address::parse(key.toStdString());
-    if (address && address->owner != Owner::Probe) m_document.plot({}, parameterSource(*address));
+    if (address && address->owner != Owner::Probe && isDeclared(m_document, key))
+      m_document.plot({}, parameterSource(*address));
   });
   connect(panel, &ParameterPanel::curveRequested, this, [this](const QString& key) {
     if (const auto address = Address::parse(key.toStdString())) Q_EMIT curveWanted(*address);

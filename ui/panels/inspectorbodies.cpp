@@ -107,8 +107,9 @@ void Inspector::shareRows(std::vector<RowModel>& rows, const std::vector<Address
   if (things.size() < 2) return;
   SharedRows shared(m_document, things);
   std::erase_if(rows, [&](const RowModel& row) {
-    const Address address = *Address::parse(row.key.toStdString());
-    return SharedRows::isOf(address, things.back()) && !shared.allHave(address);
+    // What is kept of a plugin that is missing may be called anything.
+    const auto address = Address::parse(row.key.toStdString());
+    return !address || (SharedRows::isOf(*address, things.back()) && !shared.allHave(*address));
   });
   for (RowModel& row : rows) {
     const Address address = *Address::parse(row.key.toStdString());

@@ -77,7 +77,8 @@ bool SharedRows::allHave(const Address& row) {
   if (!hasRow(m_document, row)) return false;
   if (const Sets* sets = setsOf(row))
     return std::all_of(sets->begin(), sets->end(), [](const ParameterSet* set) { return set != nullptr; });
-  if (row.owner == Owner::Body)  // all bodies declare the same, but for choices
+  // All bodies declare the same, but for choices, and for what acts between neighbours and is not installed.
+  if (row.owner == Owner::Body && pluginBehind(row.key, kNeighbourKey).empty())
     return std::all_of(m_bodies.begin(), m_bodies.end(), [](const Body* body) { return body != nullptr; });
   return std::all_of(m_things.begin(), m_things.end(), [&](const Address& thing) {
     ++m_searches;

@@ -18,7 +18,8 @@ constexpr int kName = 20, kSubtitle = 18, kDetail = 16;  ///< heights of the lin
 }  // namespace
 
 PanelHeader::PanelHeader(QWidget* parent) : QWidget(parent) {
-  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  // Not fixed: a layout would then hold it to the height of its hint, whatever its width.
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Minimum);
   policy.setHeightForWidth(true);
   setSizePolicy(policy);
 }

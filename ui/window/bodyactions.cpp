@@ -2,7 +2,6 @@
 #include "ui/window/bodyactions.h"
 
 #include "core/matter/material.h"
-#include "core/matter/stablephase.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
@@ -125,7 +124,7 @@ bool isSolid(const Document& document, const std::string& id, double kelvin) {
   const std::vector<SceneMaterial>& all = document.project().materials;
   const auto at = std::find_if(all.begin(), all.end(), [&](const SceneMaterial& m) { return m.id == id; });
   const Material* base = at == all.end() ? nullptr : document.plugins()->material(at->base);
-  return base && stablePhase(base->caloric(), kelvin) == api::Phase::Solid;
+  return base && kelvin < phaseDiagramOf(*base).meltingPoint0;
 }
 
 SolidShape& solidOf(Body& body) { return std::get<SolidShape>(body.shape); }

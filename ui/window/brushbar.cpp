@@ -134,7 +134,7 @@ BrushBar::BrushBar(Session& session, Selection& selection, Toolbox& tools, Viewp
   for (QButtonGroup* group : {m_shapes, m_matter})
     connect(group, &QButtonGroup::buttonClicked, this, &BrushBar::clicked);
   connect(&session, &Session::ready, this, &BrushBar::addBrushes);
-  connect(&session.swatches(), &Swatches::arrived, m_list, qOverload<>(&QWidget::update));
+  connect(&session.swatches(), &Swatches::arrived, this, qOverload<>(&QWidget::update));
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event)) addMaterials();
   });

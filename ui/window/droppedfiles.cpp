@@ -27,7 +27,7 @@ DroppedFiles::DroppedFiles(const QList<QUrl>& urls) {
   }
   constexpr qsizetype kMost = 2;
   const qsizetype more = why.size() - kMost;
-  if (more > 0) why = why.mid(0, kMost) << QStringLiteral("%1 more are no meshes either.").arg(more);
+  if (more > 0) why = why.mid(0, kMost) << QStringLiteral("%1 more were not taken.").arg(more);
   problems = why.join(QLatin1Char(' '));
 }
 

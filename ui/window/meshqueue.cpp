@@ -132,9 +132,11 @@ bool MeshQueue::cancel() {
   m_waiting.clear();
   const QString what = left == 1 ? QStringLiteral("Reading “%1” was given up.").arg(name)
                                  : QStringLiteral("Reading “%1” and %2 more was given up.").arg(name).arg(left - 1);
-  m_notices.bar().show(topic(), MessageLevel::Info, what,
-                       left == m_outcome.wanted ? QStringLiteral("The scene is as it was.")
-                                                : QStringLiteral("Those that were read before are in it."));
+  const int come = m_outcome.wanted - left - static_cast<int>(m_outcome.unread.size());
+  QString text =
+      come == 0 ? QStringLiteral("The scene is as it was.") : QStringLiteral("Those that were read before are in it.");
+  for (const auto& [file, why] : m_outcome.unread) text += QStringLiteral(" “%1”: %2").arg(file, why);
+  m_notices.bar().show(topic(), MessageLevel::Info, what, text);
   return true;
 }
 

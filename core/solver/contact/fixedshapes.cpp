@@ -24,6 +24,10 @@ const api::Float4* placesOf(const ParticleStore& store) {
   return static_cast<const api::Float4*>(store.read(field::kShapePlace, api::FieldType::Float4));
 }
 
+auto placesNow(const ParticleStore& store) {
+  return [position = store.position()](uint32_t i) { return vectorOf(position[i]); };
+}
+
 bool isFluid(api::Motion motion) { return motion == api::Motion::Liquid || motion == api::Motion::Gas; }
 
 }  // namespace
@@ -36,6 +40,7 @@ const FixedShapes& FixedShapes::none() {
 void FixedShapes::configure(const SolverSettings& settings) {
   forget();
   m_spacing = settings.spacing;
+  m_step = settings.dt / settings.substeps;
   m_reach = (settings.supportRatio + kBeyond) * settings.spacing;
 }
 
@@ -70,19 +75,19 @@ bool FixedShapes::findMarks(const ParticleStore& store, std::span<const uint32_t
   return offLine(vectorOf(places[marks[2]]) - first) > kOffLine * kOffLine * m_spacing * m_spacing;
 }
 
-/// Where a shape is by its marks.
-RigidMove FixedShapes::poseOf(const ParticleStore& store, const Marks& marks) const {
-  const api::Float4* places = placesOf(store);
-  const auto axesOf = [&](const api::Float4* points) {
-    const Vector3 first = vectorOf(points[marks[0]]), along = (vectorOf(points[marks[1]]) - first).normalized();
-    const Vector3 across = along.cross(vectorOf(points[marks[2]]) - first).normalized();
+/// Where a shape is by its marks, which are at placeOf(index).
+template <class PlaceOf>
+RigidMove FixedShapes::poseOf(const ParticleStore& store, const Marks& marks, const PlaceOf& placeOf) {
+  const auto axesOf = [&](const auto& of) {
+    const Vector3 first = of(marks[0]), along = (of(marks[1]) - first).normalized();
+    const Vector3 across = along.cross(of(marks[2]) - first).normalized();
     Matrix3 axes;
     axes << along, across, along.cross(across);
     return axes;
   };
-  const Quaternion turn(axesOf(store.position()) * axesOf(places).transpose());
-  const Vector3 shift = vectorOf(store.position()[marks[0]]) - turn * vectorOf(places[marks[0]]);
-  return {turn.normalized(), shift};
+  const auto own = [places = placesOf(store)](uint32_t i) { return vectorOf(places[i]); };
+  const Quaternion turn(axesOf(placeOf) * axesOf(own).transpose());
+  return {turn.normalized(), placeOf(marks[0]) - turn * own(marks[0])};
 }
 
 bool FixedShapes::findPose(const ParticleStore& store, std::span<const uint32_t> particles, bool led,
@@ -98,7 +103,7 @@ bool FixedShapes::findPose(const ParticleStore& store, std::span<const uint32_t>
   if (!inPlace || led) standing.mayMove = findMarks(store, particles, standing.marks);
   if (inPlace) return true;
   if (!standing.mayMove) return false;
-  standing.pose = poseOf(store, standing.marks);
+  standing.pose = poseOf(store, standing.marks, placesNow(store));
   return fits(store, standing.pose, particles);
 }
 
@@ -130,6 +135,11 @@ void FixedShapes::refresh(const ParticleStore& store, bool led) {
     for (const uint32_t i : m_particles[k]) m_shaped[i] = 1;
     setBox(standing);
     standing.before = standing.pose;
+    if (standing.moves && standing.mayMove) {  // wayOf() is asked before the first advance()
+      standing.before = poseOf(store, standing.marks, [&](uint32_t i) {
+        return Vector3(vectorOf(store.position()[i]) - m_step * vectorOf(store.velocity()[i]));
+      });
+    }
     standing.lowBefore = standing.low, standing.highBefore = standing.high;
     m_standing.push_back(standing);
   }
@@ -157,7 +167,7 @@ void FixedShapes::advance(const ParticleStore& store) {
     if (!goes) continue;
     started = started || !standing.moves;
     standing.moves = true;
-    standing.pose = poseOf(store, standing.marks);
+    standing.pose = poseOf(store, standing.marks, placesNow(store));
     setBox(standing);
     const Vector3 low = standing.shape->surface->low(), high = standing.shape->surface->high();
     for (int corner = 0; corner < 8; ++corner) {

@@ -45,6 +45,7 @@ class FixedShapes {
   void set(std::vector<FixedShape> shapes) {
     m_standing.clear();
     m_stood.clear();
+    m_movers.clear();
     m_shapes = std::move(shapes);
   }
   void configure(const SolverSettings& settings);
@@ -105,7 +106,8 @@ class FixedShapes {
   bool isMarked(const ParticleStore& store, const FixedShape& shape, std::span<const uint32_t> particles) const;
   bool fits(const ParticleStore& store, const RigidMove& pose, std::span<const uint32_t> particles) const;
   bool findMarks(const ParticleStore& store, std::span<const uint32_t> particles, Marks& marks) const;
-  RigidMove poseOf(const ParticleStore& store, const Marks& marks) const;
+  template <class PlaceOf>
+  static RigidMove poseOf(const ParticleStore& store, const Marks& marks, const PlaceOf& placeOf);
   bool findPose(const ParticleStore& store, std::span<const uint32_t> particles, bool led, Standing& standing) const;
   void findMovers();
   void noteAll(const ParticleStore& store, const Neighbours& neighbours);
@@ -116,6 +118,7 @@ class FixedShapes {
   std::vector<uint8_t> m_shaped;                   ///< by particle
   std::vector<std::vector<uint32_t>> m_particles;  ///< by shape: those of its body that are fixed
   double m_spacing = 0, m_reach = 0;               ///< m
+  double m_step = 0;                               ///< s, a substep
   std::vector<uint32_t> m_fluids, m_present, m_begin;
   std::vector<uint8_t> m_count;
   std::vector<float> m_clearance;
