@@ -21,6 +21,7 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
+#include <QtWidgets/QScrollBar>
 
 #include <algorithm>
 #include <climits>
@@ -67,6 +68,7 @@ class TestBrushBar : public SampleWindowTest {
     const int wide = view()->width();
     QVERIFY(bar()->isVisible());
     QCOMPARE(bar()->width(), 98);
+    QTRY_COMPARE(bar()->findChild<QScrollArea*>()->verticalScrollBar()->maximum(), 0);  // there is room for all
     QTest::qWait(50);
     QCOMPARE(view()->width(), wide);
     m_window->tools().activate(kSelectTool);

@@ -96,6 +96,13 @@ void showKeyOf(const QString& action, BarButton* button) {
 class BrushList : public QScrollArea {
  public:
   QSize sizeHint() const override { return widget() ? widget()->sizeHint() : QScrollArea::sizeHint(); }
+
+ protected:
+  /// Buttons that are added while the bar is hidden count only when they are shown.
+  bool eventFilter(QObject* object, QEvent* event) override {
+    if (object == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+    return QScrollArea::eventFilter(object, event);
+  }
 };
 
 }  // namespace
