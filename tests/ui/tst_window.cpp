@@ -250,6 +250,8 @@ class TestWindow : public QObject {
     QTest::addColumn<QString>("expected");
     QTest::newRow("3 looks from the top") << int(Qt::Key_3) << 0 << "elevation 90";
     QTest::newRow("1 looks from the front") << int(Qt::Key_1) << 0 << "elevation 0";
+    QTest::newRow("Alt+3 looks from the top while one draws")
+        << int(Qt::Key_3) << int(Qt::AltModifier) << "elevation 90";
     QTest::newRow("B draws") << int(Qt::Key_B) << 0 << "tool brush";
     QTest::newRow("E erases") << int(Qt::Key_E) << 0 << "tool erase";
     QTest::newRow("Q selects") << int(Qt::Key_Q) << 0 << "tool select";
@@ -268,7 +270,8 @@ class TestWindow : public QObject {
     view->setFocus();
     // Each row begins where its key has something to change.
     view->show(StandardView::Scene);
-    m_window->tools().activate(key == Qt::Key_B ? "erase" : "brush");
+    const bool views = (key == Qt::Key_1 || key == Qt::Key_3) && modifiers == 0;  // digits take materials in Sketch
+    m_window->tools().activate(views ? "select" : key == Qt::Key_B ? "erase" : "brush");
     document().setColour("speed");
     QTest::keyClick(view, static_cast<Qt::Key>(key), Qt::KeyboardModifiers(modifiers));
     const QStringList state{QStringLiteral("elevation %1").arg(view->navigator().camera().elevation),
