@@ -352,7 +352,7 @@ BodyMotion compileMotion(const Body& body, double spacing) {
 }
 
 std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
-                                     std::span<const uint8_t> fixed) {
+                                     std::span<const uint8_t> fixed, ShapeSurfaces& surfaces) {
   std::vector<BodyHeat> heat(bodyIds.size());
   const double spacing = numberOf(project.solver.parameters, solverParameters(), "particle_spacing");
   for (const Body& body : project.bodies) {
@@ -362,7 +362,7 @@ std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<s
     if (heat[index].flux == 0) continue;
     const auto* solid = std::get_if<SolidShape>(&body.shape);
     heat[index].oneLayer = solid && SolidForm(*solid).isOneLayer();
-    heat[index].area = surfaceAreaOf(body, spacing);
+    heat[index].area = surfaces.areaOf(body, spacing);
   }
   return heat;
 }

@@ -11,6 +11,7 @@
 namespace ps {
 
 class PluginRegistry;
+class ShapeSurfaces;
 
 // What a project's parts mean to the solver. Pure functions, one per part, so that an edit recompiles what it touched.
 
@@ -55,8 +56,9 @@ std::vector<ColouredSpawn> compileBody(const Project& project, const PluginRegis
 BodyMotion compileMotion(const Body& body, double spacing);
 /// Heat that each body is given, by the index that its particles carry; bodies that have left the project get none.
 /// `fixed`: 1 for those whose matter was made fixed, by the same index; what the project says acts at the next reset.
+/// `surfaces` knows those that have been measured.
 std::vector<BodyHeat> compileHeating(const Project& project, const std::vector<std::string>& bodyIds,
-                                     std::span<const uint8_t> fixed);
+                                     std::span<const uint8_t> fixed, ShapeSurfaces& surfaces);
 /// One batch of a sketched body's cells, filled with particles of `spacing` m.
 ColouredSpawn compileCells(const Project& project, const PluginRegistry& plugins,
                            std::span<const BakedMaterial> materials, const Body& body, int palette,

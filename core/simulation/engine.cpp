@@ -216,7 +216,7 @@ void Engine::Impl::recompile(const Touched& touched) {
     lead();
     setShapes();
     fill = fillLimit(project, spacing);
-    solver->setHeating(compileHeating(project, *bodyIds, fixedBodies));
+    solver->setHeating(compileHeating(project, *bodyIds, fixedBodies, surfaces));
   }
   if (any({Owner::Constraint})) setConstraints();
 }

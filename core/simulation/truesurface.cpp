@@ -58,6 +58,8 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
   });
 }
 
+namespace {
+
 double surfaceAreaOf(const Body& body, double spacing) {
   if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
     const Vector3& s = box->size;
@@ -72,6 +74,18 @@ double surfaceAreaOf(const Body& body, double spacing) {
   for (const MeshNearest::Triangle& t : facetsOf(*solid, kFacetError * spacing))
     area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
   return area;
+}
+
+}  // namespace
+
+double ShapeSurfaces::areaOf(const Body& body, double spacing) {
+  const auto* solid = std::get_if<SolidShape>(&body.shape);
+  if (!solid) return surfaceAreaOf(body, spacing);
+  Area& known = m_areas[body.id];
+  SolidShape upright = withoutPose(*solid);
+  if (known.spacing != spacing || !(known.upright == upright))
+    known = {std::move(upright), spacing, surfaceAreaOf(body, spacing)};
+  return known.area;
 }
 
 std::optional<FixedShape> ShapeSurfaces::of(const Body& body, uint32_t index, double spacing) {

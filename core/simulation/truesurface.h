@@ -17,15 +17,14 @@ bool hasTrueSurface(const Body& body);
 /// Writes field::kTrueSurface of a body's particles that lie within a spacing of its surface.
 void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);
 
-/// m2 of a body's shape, of what is one layer thick on one side; 0 of sketches and ropes, whose cells alone show it.
-double surfaceAreaOf(const Body& body, double spacing);
-
 /// The surfaces that fluids meet in place of a body's particles: of every fixed solid but sheets and ropes. What was
 /// made is kept for as long as a body has that shape.
 class ShapeSurfaces {
  public:
   /// Of a body that is fixed, by its index; none of what is no such solid.
   std::optional<FixedShape> of(const Body& body, uint32_t index, double spacing);
+  /// m2 of a body's shape, of what is one layer thick on one side; 0 of sketches and ropes, whose cells alone show it.
+  double areaOf(const Body& body, double spacing);
   /// Writes field::kShapePlace of all particles of such a body, as they are born.
   void note(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);
 
@@ -35,7 +34,12 @@ class ShapeSurfaces {
     double spacing = 0;
     FixedShape shape;
   };
+  struct Area {
+    SolidShape upright;
+    double spacing = 0, area = 0;
+  };
   std::map<std::string, Known> m_known;  ///< by id of the body
+  std::map<std::string, Area> m_areas;   ///< likewise
 };
 
 }  // namespace ps

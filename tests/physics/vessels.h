@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/statestream.h"
 #include "core/geometry/meshrepair.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
@@ -164,6 +165,18 @@ inline ps::Project onItsWay(ps::Project project, const ps::Vector3& velocity, do
 }
 inline void run(ps::Engine& engine, double seconds) {
   for (int frame = 0; frame < 60 * seconds; ++frame) engine.step();
+}
+/// Whether it comes to the same, to the bit, when it goes on once more from its state of now.
+inline bool goesOnFromItsState(ps::Engine& engine, double seconds) {
+  ps::StateBuffer state;
+  ps::StateWriter writer(state);
+  engine.save(writer);
+  writer.finish();
+  run(engine, seconds);
+  const uint64_t hash = engine.stateHash();
+  engine.restore(ps::StateReader(state.bytes()));
+  run(engine, seconds);
+  return engine.stateHash() == hash;
 }
 /// N, upwards, on the vessel.
 inline double meanForce(ps::Engine& engine, double seconds) {

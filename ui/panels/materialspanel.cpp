@@ -33,7 +33,6 @@ namespace {
 
 constexpr int kLeastTile = 64, kTileHeight = 68, kMargin = 8, kSwatch = 34, kBall = 28, kLine = 14, kHint = 20,
               kHeading = 22;
-constexpr int kKeys = 10;  ///< of the scene's first materials, in Sketch
 
 int columnsIn(int width) { return std::max(1, (width - kMargin) / kLeastTile); }
 
@@ -309,8 +308,9 @@ void MaterialsPanel::mouseMoveEvent(QMouseEvent* event) {
   if (at >= 0) {
     const Tile& tile = m_tiles[static_cast<size_t>(at)];
     tip = tile.installed ? QStringLiteral("Add %1 to the scene").arg(tile.label)
-          : at < kKeys   ? QStringLiteral("%1 (%2 in Sketch)").arg(tile.label, QString::number((at + 1) % kKeys))
-                         : tile.label;
+          : at < kMaterialKeys
+              ? QStringLiteral("%1 (%2 in Sketch)").arg(tile.label, QString::number((at + 1) % kMaterialKeys))
+              : tile.label;
   }
   setToolTip(tip);
   update();

@@ -12,6 +12,9 @@ class QPainter;
 
 namespace ps {
 
+/// Digits that take the scene's first materials in Sketch: 1 to 9 and 0.
+inline constexpr int kMaterialKeys = 10;
+
 class Document;
 class Selection;
 class Session;

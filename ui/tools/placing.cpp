@@ -47,15 +47,15 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
   const auto thing = thingOf(item);
   const auto marks = thing ? document.marks(*thing) : std::nullopt;
   const bool locked = marks && marks->locked;
-  const auto unless = [&](bool cannot, const char* why) {
+  const auto unless = [&](bool cannot = false, const char* why = "") {
     return locked ? QStringLiteral("locked") : cannot ? QString::fromUtf8(why) : QString();
   };
   if (const Body* body = item.kind == OutlineKind::Body ? document.body(item.id) : nullptr) {
-    to.add(item, placeOf(*body, matter), nameOf(*body), unless(false, ""));
+    to.add(item, placeOf(*body, matter), nameOf(*body), unless());
   } else if (const Emitter* emitter = item.kind == OutlineKind::Emitter ? document.emitter(item.id) : nullptr) {
-    to.add(item, emitter->point, nameOf(*emitter), unless(false, ""));
+    to.add(item, emitter->point, nameOf(*emitter), unless());
   } else if (const Sink* sink = item.kind == OutlineKind::Sink ? document.sink(item.id) : nullptr) {
-    to.add(item, middleOf(*sink), nameOf(*sink), unless(false, ""));
+    to.add(item, middleOf(*sink), nameOf(*sink), unless());
   } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
     to.add(item, wall->point, nameOf(*wall),
            unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));

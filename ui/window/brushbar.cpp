@@ -5,6 +5,7 @@
 #include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/materialspanel.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/session/swatches.h"
@@ -114,7 +115,6 @@ BrushBar::BrushBar(Session& session, Selection& selection, Toolbox& tools, Viewp
       m_tools(tools),
       m_view(view),
       m_list(new QWidget),
-      m_scroll(new BrushList),
       m_shapes(new QButtonGroup(this)),
       m_matter(new QButtonGroup(this)) {
   setFixedWidth(kWidth);
@@ -124,7 +124,7 @@ BrushBar::BrushBar(Session& session, Selection& selection, Toolbox& tools, Viewp
   m_draw = addGroup(QStringLiteral("Draw"), m_list);
   m_change = addGroup(QStringLiteral("Change"), m_list);
   m_touch = addGroup(QStringLiteral("Touch"), m_list);
-  auto* scroll = static_cast<QScrollArea*>(m_scroll);
+  auto* scroll = new BrushList;
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -204,7 +204,6 @@ void BrushBar::addBrushes() {
         needs(id, api::kPaintsMatter) || needs(id, api::kColoursMatter) || needs(id, api::kSmoothsMatter);
     place(changes ? m_change : needs(id, api::kTouchesMatter) ? m_touch : m_draw, button);
   }
-  m_scroll->updateGeometry();
   addMaterials();
   showBrush();
 }

@@ -48,7 +48,7 @@ class BrushBar : public QWidget {
   Selection& m_selection;
   Toolbox& m_tools;
   Viewport* m_view;
-  QWidget *m_list, *m_scroll;
+  QWidget* m_list;
   Group m_draw, m_change, m_touch, m_materials;
   QButtonGroup *m_shapes, *m_matter;
   QAbstractButton *m_erase = nullptr, *m_mirror = nullptr;

@@ -6,6 +6,7 @@
 #include "core/scene/track.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/panels/materialspanel.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"

@@ -17,8 +17,6 @@ class Actions;
 class Session;
 class Toolbox;
 
-/// The scene's first materials have a key each in Sketch: 1 to 9, and 0.
-inline constexpr int kMaterialKeys = 10;
 QString materialAction(int number);  ///< name of the action that draws with that one, from 0 on
 
 /// The menu Sketch: a row for each tool of the table, for the scene's first materials, and for each brush that is

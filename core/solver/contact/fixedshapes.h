@@ -80,7 +80,7 @@ class FixedShapes {
   /// Shapes that move in this frame.
   bool moves() const { return !m_movers.empty(); }
   std::span<const uint32_t> movers() const { return m_movers; }
-  /// Whether a way ends or begins within `reach` m of the box of a mover, as it was or is.
+  /// Whether the box around a way comes within `reach` m of that around a mover, as it was and is.
   bool isBeside(uint32_t mover, const Vector3& from, const Vector3& to, double reach) const;
   /// Where a place would be, had a mover carried it through this substep.
   Vector3 carried(uint32_t mover, const Vector3& place) const;

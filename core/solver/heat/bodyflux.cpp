@@ -55,11 +55,8 @@ void BodyFlux::measure(const ParticleStore& store, const HeatPairs& pairs, const
   });
   m_plane = m_spacing * m_spacing / columns;
   m_watts.assign(store.size(), 0.0);
-  m_givers.clear();
-  for (size_t i = 0; i < store.size(); ++i) {
-    m_watts[i] = heating.fluxAt(store, i);  // W/m2, until share()
-    if (m_watts[i] != 0) m_givers.push_back(i);
-  }
+  findIndices(store.size(), m_givers, [&](size_t i) { return heating.fluxAt(store, i) != 0; });
+  for (const uint32_t i : m_givers) m_watts[i] = heating.fluxAt(store, i);  // W/m2, until share()
   m_sums.resize(m_givers.size());
   forChunks(m_givers.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) m_sums[k] = look(store, pairs, m_givers[k]);
@@ -82,10 +79,11 @@ BodyFlux::Sums BodyFlux::look(const ParticleStore& store, const HeatPairs& pairs
 }
 
 void BodyFlux::share(const ParticleStore& store, const BodyHeating& heating) {
-  std::vector<double> lacks(heating.count()), particles(heating.count());
+  m_lacks.assign(heating.count(), 0);
+  m_particles.assign(heating.count(), 0);
   for (size_t k = 0; k < m_givers.size(); ++k) {
-    lacks[store.body()[m_givers[k]]] += m_sums[k].lacks;
-    ++particles[store.body()[m_givers[k]]];
+    m_lacks[store.body()[m_givers[k]]] += m_sums[k].lacks;
+    ++m_particles[store.body()[m_givers[k]]];
   }
   for (size_t k = 0; k < m_givers.size(); ++k) {
     const uint32_t body = store.body()[m_givers[k]];
@@ -93,11 +91,11 @@ void BodyFlux::share(const ParticleStore& store, const BodyHeating& heating) {
     const Sums& sums = m_sums[k];
     double area = m_plane;
     if (heat.oneLayer) {
-      area = heat.area > 0 ? heat.area / particles[body] : m_spacing * m_spacing;
+      area = heat.area > 0 ? heat.area / m_particles[body] : m_spacing * m_spacing;
       const double whole = std::max(sums.touched, kWhole * sums.lacks);
       area = whole > 0 ? area / whole : 0;
     } else if (heat.area > 0) {
-      area = lacks[body] > 0 ? heat.area / lacks[body] : 0;
+      area = m_lacks[body] > 0 ? heat.area / m_lacks[body] : 0;
     }
     m_watts[m_givers[k]] = heat.flux * area;
   }

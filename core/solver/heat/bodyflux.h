@@ -41,8 +41,9 @@ class BodyFlux {
 
   Kernel m_kernel{KernelShape::CubicSpline, 1};
   double m_spacing = 0, m_bulk = 1, m_plane = 0;  ///< m; sum V W in a lattice; s of a plane, m2
-  std::vector<size_t> m_givers;                   ///< particles of such bodies
+  std::vector<uint32_t> m_givers;                 ///< particles of such bodies
   std::vector<Sums> m_sums;                       ///< of each of them
+  std::vector<double> m_lacks, m_particles;       ///< by body: sum of m_sums, number
   std::vector<double> m_watts;                    ///< by particle, q s of it; 0 of matter
 };
 
