@@ -5,15 +5,14 @@
 
 namespace ps {
 
-/// Makes room for `count` elements that are all to be written anew, and a thirty-second part more: what breathes with
-/// the matter then seldom allocates. A vector that grows by itself doubles, and of the largest arrays that is too much.
+/// Makes room for `count` elements at least, all of which are to be written anew, and a thirty-second part more: what
+/// breathes with the matter then seldom allocates. A vector that grows by itself doubles, and of the largest arrays
+/// that is too much. It never gets smaller: what it would get back would be zeroed, by one thread.
 template <class T>
 void makeRoomFor(std::vector<T>& values, size_t count) {
-  if (count > values.capacity()) {
-    values = {};  // before there is the next one
-    values.reserve(count + count / 32);
-  }
-  values.resize(count);
+  if (count <= values.size()) return;
+  values = {};  // before there is the next one
+  values.resize(count + count / 32);
 }
 
 }  // namespace ps

@@ -117,11 +117,13 @@ void Neighbours::giveRoom(size_t chunk, size_t entries) {
               " million): make the particle spacing larger, or look for matter that has been pressed together");
 }
 
-/// Lists that are there already stay where they are.
+/// Lists that are there already stay where they are. Room is not given back: it would be zeroed when it is wanted
+/// again.
 void Neighbours::makeRoom() {
   const size_t size = m_slots + kListPad;
-  if (size > m_index.capacity()) m_index.reserve(size + size / kSpareShare);
-  m_index.resize(size);
+  if (size <= m_index.size()) return;
+  m_index.reserve(size + size / kSpareShare);
+  m_index.resize(m_index.capacity());
 }
 
 /// What has found too little room gets as much as it has turned out to need. False where all have found enough.

@@ -49,10 +49,11 @@ constexpr double kKeptBoxes = 14 * kFloat + 2 * kPlace + kDouble + 2 * kFloat + 
 
 /// Of every entry of a list.
 constexpr double kEntry = kBreathing * kIndex;
-/// Of what nothing holds, which may be a fluid: again where it is near, with its slope.
-constexpr double kNearEntry = kBreathing * (kIndex + kFloat);
-/// Partner, conductance, distance and kernel, and the watts of a model's own law.
-constexpr double kHeatEntry = kBreathing * (kIndex + 3 * kFloat), kPairLawEntry = kBreathing * kDouble;
+/// Of what nothing holds, which may be a fluid: again where it is near, with its slope. Where there is heat: partner
+/// and conductance, in the same room.
+constexpr double kPairEntry = kBreathing * (kIndex + kFloat);
+/// The watts of a model's own law.
+constexpr double kPairLawEntry = kBreathing * kDouble;
 constexpr double kImplicitEntry = kBreathing * kFloat;
 
 /// Three snapshots (the newest, the one before, one in the making) with two fields, and what is drawn of them.
@@ -97,8 +98,9 @@ double bytesPerParticle(const MatterFootprint& matter) {
   const double entries = matter.neighbours + Neighbours::kListPad / 2.0;
   double bytes = kStore + (kGrown + kLastGood) * matter.fieldBytes + kLastGood * (kFields + kPoint) + kLists +
                  kDensity + kViscosity + kContacts + kSnapshots + entries * kEntry;
-  if (matter.structures.empty() && !matter.dry) bytes += entries * kNearEntry;
-  if (matter.heat) bytes += kHeat + kWall * matter.walls + entries * kHeatEntry;
+  const bool fluid = matter.structures.empty() && !matter.dry;
+  if (fluid || matter.heat) bytes += entries * kPairEntry;
+  if (matter.heat) bytes += kHeat + kWall * matter.walls;
   if (matter.heat && matter.pairLaw) bytes += entries * kPairLawEntry;
   if (matter.heat && matter.radiation) bytes += kRays + kKeptBoxes;
   if (matter.thick) bytes += kImplicit + entries * kImplicitEntry;

@@ -341,13 +341,13 @@ void Solver::addVelocities(std::span<const Vector3> change) {
 
 TieChange Solver::cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared) {
   m->configure();
-  m->freshLists();
+  if (m->needsLists()) m->freshLists();  // a hand asks in each frame, and they often hold
   return m->tiesChanged(m->constraints.cut(m->store, m->neighbours, blades, isSpared));
 }
 
 TieChange Solver::weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared) {
   m->configure();
-  m->freshLists();
+  if (m->needsLists()) m->freshLists();  // a hand asks in each frame, and they often hold
   return m->tiesChanged(m->constraints.weld(m->store, m->neighbours, balls, isSpared));
 }
 
@@ -356,7 +356,7 @@ void Solver::redo(const TieChange& change) { m->changeTies(change, change.made);
 
 void Solver::Impl::changeTies(const TieChange& change, bool made) {
   configure();
-  freshLists();
+  if (needsLists()) freshLists();
   if (made)
     constraints.tie(store, neighbours, change);
   else

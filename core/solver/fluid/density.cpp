@@ -231,11 +231,12 @@ void DensityStage::makeRoom() {
 void DensityStage::multipliers(const ParticleStore& store, const PairLists& pairs, float relaxation, bool findNear,
                                size_t first, size_t last) {
   const uint32_t* const fluid = m_fluid.data();
+  float* const slopes = m_near.pairs().value.data();
   if (findNear) {
     sumDensityFindingNear(pairs, m_points.data(), m_weights, m_near.room(), fluid, first, last, m_sums.data(),
-                          m_squares.data(), m_slopes.data());
+                          m_squares.data(), slopes);
   } else {
-    sumDensity(pairs, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), m_slopes.data());
+    sumDensity(pairs, m_points.data(), m_weights, fluid, first, last, m_sums.data(), m_squares.data(), slopes);
   }
   const float epsilon = kEpsilon / static_cast<float>(m_settings.spacing * m_settings.spacing);
   const HalfSpaces::Sum* const ofShapes = m_walls.sumShapes(m_points.data(), fluid, first, last, m_ofShapes);
@@ -254,7 +255,7 @@ Vector3 DensityStage::inFilm(const ParticleStore& store, const PairLists& pairs,
 /// Fluids come first: their slopes are known.
 void DensityStage::sumMoves(const PairLists& near, size_t first, size_t last) {
   const size_t fluids = std::clamp(m_fluid.size(), first, last);
-  sumMultipliers(near, m_multipliers.data(), m_some.data(), first, fluids, m_moves.data(), m_slopes.data());
+  sumMultipliers(near, m_multipliers.data(), m_some.data(), first, fluids, m_moves.data(), m_near.pairs().value.data());
   sumMultipliers(near, m_multipliers.data(), m_some.data(), fluids, last, m_moves.data(), nullptr);
 }
 
@@ -289,7 +290,6 @@ void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs)
   m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
   m_near.start(pairs, store.size());
   m_near.find(pairs, m_points.data(), m_wet);
-  makeRoomFor(m_slopes, m_near.slots());
   m_nearKnown = true;
 }
 

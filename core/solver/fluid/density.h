@@ -66,6 +66,11 @@ class DensityStage {
     const PairLists all = lists(store, neighbours);
     return m_nearKnown ? m_near.lists(all) : all;
   }
+  /// The room of the near lists, until the next project() or measure(): they are forgotten.
+  PairRoom& lendRoom() {
+    m_nearKnown = false;
+    return m_near.pairs();
+  }
   /// Volumes as the density sum counts them, times kernelScale(); by particle, with the dummy's 0 at the end.
   std::span<const float> volumes() const { return m_volume; }
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
@@ -111,9 +116,9 @@ class DensityStage {
   std::vector<uint32_t> m_watched;  ///< fixed particles with fluid near, of watched bodies
   std::vector<api::Float4> m_watchedMoves;
   std::vector<DensityError> m_errors;  ///< by chunk
-  NearLists m_near;                    ///< of fluids and wet solids, from the first iteration of a substep on
-  bool m_nearKnown = false;            ///< since the last lists
-  std::vector<float> m_slopes;         ///< w'(q)/q of an iteration, by slot of the near lists
+  /// Of fluids and wet solids, from the first iteration of a substep on, with w'(q)/q of each entry.
+  NearLists m_near;
+  bool m_nearKnown = false;  ///< since the last lists
   Reactions* m_reactions = &Reactions::none();
 };
 

@@ -8,7 +8,8 @@ namespace ps {
 
 void NearLists::start(const PairLists& all, size_t particles) {
   m_last.resize(particles);
-  makeRoomFor(m_index, all.slots);
+  makeRoomFor(m_pairs.partner, all.slots);
+  makeRoomFor(m_pairs.value, all.slots);
 }
 
 void NearLists::find(const PairLists& all, const api::Float4* points, std::span<const uint32_t> which) {
@@ -18,13 +19,13 @@ void NearLists::find(const PairLists& all, const api::Float4* points, std::span<
 
 NearRoom NearLists::room() {
   constexpr float kReach = 1.02f;
-  return {kReach * kReach, static_cast<uint32_t>(m_last.size()), m_last.data(), m_index.data()};
+  return {kReach * kReach, static_cast<uint32_t>(m_last.size()), m_last.data(), m_pairs.partner.data()};
 }
 
 PairLists NearLists::lists(const PairLists& all) const {
   PairLists near = all;
   near.last = m_last.data();
-  near.index = m_index.data();
+  near.index = m_pairs.partner.data();
   return near;
 }
 

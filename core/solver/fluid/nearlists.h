@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/particles/pairroom.h"
 #include "core/solver/fluid/pairkernels.h"
 
 #include <span>
@@ -21,11 +22,12 @@ class NearLists {
   NearRoom room();
   /// As long as `all` holds. Slots lie where they did.
   PairLists lists(const PairLists& all) const;
-  /// Elements of an array by slot.
-  size_t slots() const { return m_index.size(); }
+  /// Where the lists lie, and a float for each entry; they are lost when somebody else writes there.
+  PairRoom& pairs() { return m_pairs; }
 
  private:
-  std::vector<uint32_t> m_last, m_index;
+  std::vector<uint32_t> m_last;
+  PairRoom m_pairs;
 };
 
 }  // namespace ps

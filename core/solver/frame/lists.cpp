@@ -10,9 +10,14 @@ constexpr uint64_t kSortInterval = 60;
 
 }  // namespace
 
+/// Else they are those of where particles are now.
+bool Solver::Impl::needsLists() const {
+  return reordered || (store.period().any() && strayed()) || neighbours.stale(store) ||
+         frame >= lastSort + kSortInterval;
+}
+
 void Solver::Impl::freshLists() {
-  if (store.period().any() && strayed()) reordered = true;
-  const bool newLists = reordered || neighbours.stale(store) || frame >= lastSort + kSortInterval;
+  const bool newLists = needsLists();
   if (newLists) {
     if (store.period().any()) wrapIntoPeriod();
     neighbours.sortAndBuild(store);

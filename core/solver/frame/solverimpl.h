@@ -94,6 +94,7 @@ struct Solver::Impl {
   double energyOffset = 0;  ///< J: thermal energy minus the ledger's net, when both were last known to be right
   bool configured = false, modelChanged = false, structureChanged = true, reordered = true;
   std::vector<uint32_t> melted;
+  DensityError densityError;     ///< of this frame
   bool overshot = false;         ///< heat steps beyond the stable one left temperatures that cannot be
   std::string leapt;             ///< what went too far in this substep; "": nothing
   std::vector<uint8_t> grouped;  ///< 1 for members of groups
@@ -124,6 +125,7 @@ struct Solver::Impl {
   void startLeads();
   void runFrame();
   bool advance();
+  bool needsLists() const;
   void freshLists();
   /// Whether something lies so many images away from the periodic box that single precision begins to tell.
   bool strayed() const;
@@ -157,6 +159,8 @@ struct Solver::Impl {
   /// J by which the heat balance is open; 0 within what rounding explains.
   double openEnergy();
   void checkEnergy();
+  void measureDensity();
+  void judgeDensity();
   void closeFrame();
   /// Id of the first particle whose position, velocity or temperature is no finite number, or -1.
   int64_t firstNotFinite(std::string& what) const;

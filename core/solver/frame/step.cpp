@@ -151,6 +151,7 @@ bool Solver::Impl::advance() {
   report.momentum.external = double3Of(external.drain());
   report.mechanical = balance.end(forces.given().torque);
   forces.end(store, vectorOf(settings.gravity), settings.dt);
+  measureDensity();
   bool exchanged = false;
   timed(Stage::Heat, [&] { exchanged = exchangeHeat(); });
   if (!exchanged || rejectIfNotFinite() || rejectIfUnphysical()) return false;
@@ -166,9 +167,20 @@ std::vector<PluginFault> Solver::Impl::drainFaults() {
   return faults;
 }
 
-void Solver::Impl::closeFrame() {
-  DensityError error;
-  timed(Stage::Density, [&] { error = density.measure(store, neighbours, bounds); });
+/// As the frame leaves it, while the near lists of the last substep are there: heat, which moves nothing, needs their
+/// room.
+void Solver::Impl::measureDensity() {
+  timed(Stage::Neighbours, [&] {
+    if (!neighbours.stale(store)) return;
+    neighbours.build(store);
+    listsChanged(false);
+  });
+  timed(Stage::Density, [&] { densityError = density.measure(store, neighbours, bounds); });
+}
+
+/// Of a frame that stands.
+void Solver::Impl::judgeDensity() {
+  const DensityError& error = densityError;
   report.densityErrorMean = error.mean;
   report.densityErrorMax = error.max;
   denseSeconds = error.mean > kDense ? denseSeconds + settings.dt : 0;
@@ -182,6 +194,10 @@ void Solver::Impl::closeFrame() {
     raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +
                                   " %, mean " + std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
   }
+}
+
+void Solver::Impl::closeFrame() {
+  judgeDensity();
   timed(Stage::Contact, [&] {
     hovering.observe({store, neighbours, pieceOf, density.wetSolids(), hanging, constraints.thinBodies()});
   });
@@ -363,11 +379,7 @@ void Solver::Impl::bookContact(double dt) {
 }
 
 bool Solver::Impl::exchangeHeat() {
-  if (neighbours.stale(store)) {
-    neighbours.build(store);
-    listsChanged(false);
-  }
-  if (heat.advance(store, neighbours, settings.dt, frame)) return true;
+  if (heat.advance(store, neighbours, settings.dt, frame, &density.lendRoom())) return true;
   backToLastGood();
   return false;
 }

@@ -68,7 +68,7 @@ void HeatStage::snapshotRange(const ParticleStore& store, HeatInstant& instant, 
 }
 
 /// Everything that stays the same during a frame: pairs, what lies around, the stable step.
-void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame) {
+void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame, PairRoom* room) {
   const size_t n = store.size();
   m_partials.resize(chunkCount(n, grain::kNeighbours));
   for (auto* list : {&m_joules, &m_frameJoules, &m_watts, &m_fixedConductance}) list->resize(n);
@@ -91,7 +91,8 @@ void HeatStage::prepare(ParticleStore& store, const Neighbours& neighbours, uint
   }
   m_pairs.build(store, neighbours.view(), m_materials,
                 {m_solver.spacing * m_solver.supportRatio, m_solver.spacing, m_solver.kernel,
-                 m_settings.momentCorrection, m_settings.contactConductance, m_insulated, m_convection});
+                 m_settings.momentCorrection, m_settings.contactConductance, m_insulated, m_convection},
+                room);
   if (m_bodyHeating.fluxes()) m_bodyFlux.measure(store, m_pairs, m_bodyHeating, m_solver);
   m_surroundings.measure(store, neighbours.view(), m_pairs, frame);
   m_surroundings.setAir(airTemperature());
@@ -115,15 +116,16 @@ void HeatStage::sumConductances(const ParticleStore& store, size_t first, size_t
   }
 }
 
-bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame) {
+bool HeatStage::advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame, PairRoom* room) {
   m_substeps = 0;
   m_swept = false;
   m_delivered = m_settings.timeScale;
   if (!works() || store.size() == 0) return true;
-  return guarded([&] { exchange(store, neighbours, dt, frame); });
+  return guarded([&] { exchange(store, neighbours, dt, frame, room); });
 }
 
-void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame) {
+void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame,
+                         PairRoom* room) {
   if (!isUpToDate()) bringUpToDate(store);
   double time = dt * m_settings.timeScale;
   if (!(time > 0)) return;
@@ -131,7 +133,7 @@ void HeatStage::exchange(ParticleStore& store, const Neighbours& neighbours, dou
   const api::ParticleView view = store.view();
   const api::NeighbourView lists = neighbours.view();
   if (isBalanced(store, view, lists, time)) return passTime(store, view, time);
-  prepare(store, neighbours, frame);
+  prepare(store, neighbours, frame, room);
   askPairLaw(view, lists);
   collectFrameHeat(store, view, std::min(time, std::max(explicitTime(), sweepTime())));
   time -= takeExplicitSteps(store, view, lists, time);

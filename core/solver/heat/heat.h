@@ -77,8 +77,9 @@ class HeatStage {
   bool initialise(ParticleStore& store, std::span<const uint32_t> indices);
   /// One frame of `dt` s of mechanical time. Lists must be fresh. Updates temperature and fractions, not volumes.
   /// False when the model threw: particles are then half changed, the ledger is not.
-  /// `frame`, its number, chooses the rays of radiation.
-  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0);
+  /// `frame`, its number, chooses the rays of radiation. Pairs lie in `room` where somebody lends one.
+  bool advance(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame = 0,
+               PairRoom* room = nullptr);
   /// Gives each particle joules[i] J at once, while no time passes; below 0 they are taken as far as kColdest, in
   /// rounds that a plateau may need several of. Leaves what each got, and books it as heaters. False without a model,
   /// and when it threw.
@@ -175,7 +176,7 @@ class HeatStage {
   void countAnew(ParticleStore& store);
   void noteCurves();
   void restoreCurves(const StateReader& reader);
-  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame);
+  void exchange(ParticleStore& store, const Neighbours& neighbours, double dt, uint64_t frame, PairRoom* room);
   void hold(ParticleStore& store);
   bool isHeld(const ParticleStore& store, size_t i) const {
     return m_bodyHeating.holds() && m_bodyHeating.heldAt(store, i) > 0;
@@ -184,7 +185,7 @@ class HeatStage {
   void passTime(ParticleStore& store, const api::ParticleView& view, double time);
   void deriveRange(ParticleStore& store, size_t first, size_t last);
   void snapshotRange(const ParticleStore& store, HeatInstant& instant, size_t first, size_t last) const;
-  void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame);
+  void prepare(ParticleStore& store, const Neighbours& neighbours, uint64_t frame, PairRoom* room);
   void sumConductances(const ParticleStore& store, size_t first, size_t last, Partial& partial);
   void collectFrameHeat(ParticleStore& store, const api::ParticleView& view, double frame);
   void filmHeat(const ParticleStore& store, size_t i, double frame, Partial& partial);
@@ -210,7 +211,13 @@ class HeatStage {
   void askPairLaw(const api::ParticleView& view, const api::NeighbourView& lists);
   void gatherPairLaw(const api::NeighbourView& lists, double step, size_t first, size_t last);
   double aboveColdest(const ParticleStore& store, size_t i) const;
-  bool giveRound(ParticleStore& store, std::span<double> left);
+  /// What is given, to whom, and in which chunks of particles they are.
+  struct Gift {
+    std::vector<uint32_t> rows;
+    std::vector<double> left;  ///< J
+    std::vector<uint32_t> chunks;
+  };
+  bool giveRound(ParticleStore& store, Gift& gift);
   double shareToTake(const ParticleStore& store, size_t i, double joules) const;
   void addFrameHeat(const ParticleStore& store, double step, bool firstStep, size_t first, size_t last,
                     Partial& partial);

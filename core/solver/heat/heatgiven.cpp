@@ -16,44 +16,55 @@ constexpr double kNothing = 1e-9;  // J: less than this is no way towards the co
 }  // namespace
 
 bool HeatStage::give(ParticleStore& store, std::span<double> joules) {
-  std::vector<double> left(joules.begin(), joules.end());
-  std::fill(joules.begin(), joules.end(), 0.0);
+  Gift gift;
+  for (size_t i = 0; i < joules.size(); ++i) {
+    if (joules[i] == 0) continue;
+    gift.rows.push_back(static_cast<uint32_t>(i));
+    gift.left.push_back(joules[i]);
+    const uint32_t chunk = static_cast<uint32_t>(i / grain::kNeighbours);
+    if (gift.chunks.empty() || gift.chunks.back() != chunk) gift.chunks.push_back(chunk);
+    joules[i] = 0;
+  }
   if (!works() || store.size() == 0) return false;
   const bool done = guarded([&] {
     if (!isUpToDate()) bringUpToDate(store);
+    m_joules.assign(store.size(), 0.0);
     for (int round = 0; round < kMostRounds; ++round) {
-      const bool more = giveRound(store, left);
-      for (size_t i = 0; i < joules.size(); ++i) joules[i] += m_joules[i];
+      const bool more = giveRound(store, gift);
+      for (const uint32_t i : gift.rows) joules[i] += m_joules[i];
       if (!more) break;
     }
   });
   if (!done) return false;
-  for (const double given : joules) {
-    m_ledger.heaters += given;
-    m_ledger.exchanged += std::abs(given);
+  for (const uint32_t i : gift.rows) {
+    m_ledger.heaters += joules[i];
+    m_ledger.exchanged += std::abs(joules[i]);
   }
   energy(store);  // what changes of materials and models go by
   return works();
 }
 
-/// All that is to come, and of what is to be taken as much as can surely be had now: m_joules. Takes it off `left`, and
-/// says whether another round would do more.
-bool HeatStage::giveRound(ParticleStore& store, std::span<double> left) {
-  m_joules.assign(left.begin(), left.end());
+/// All that is to come, and of what is to be taken as much as can surely be had now: m_joules. Takes it off what is
+/// left, and says whether another round would do more.
+bool HeatStage::giveRound(ParticleStore& store, Gift& gift) {
   bool more = false;
-  for (size_t i = 0; i < left.size(); ++i) {
-    if (left[i] < 0) m_joules[i] = std::max(left[i], -std::max(0.0, aboveColdest(store, i)));
-    left[i] -= m_joules[i];
-    more = more || (left[i] < 0 && m_joules[i] < -kNothing);
+  for (size_t k = 0; k < gift.rows.size(); ++k) {
+    const uint32_t i = gift.rows[k];
+    double& left = gift.left[k];
+    m_joules[i] = left < 0 ? std::max(left, -std::max(0.0, aboveColdest(store, i))) : left;
+    left -= m_joules[i];
+    more = more || (left < 0 && m_joules[i] < -kNothing);
   }
   const api::ThermalContext where = context();
   const api::ParticleView view = store.view();
-  const auto body = [&](size_t first, size_t last) {
+  // A hand reaches few of them.
+  forChunks(gift.chunks.size(), 1, [&](size_t chunk, size_t) {
+    const size_t first = gift.chunks[chunk] * grain::kNeighbours;
+    const size_t last = std::min(store.size(), first + grain::kNeighbours);
     const CalleeScope callee(m_modelName.c_str());
     m_model->addHeat(where, view, first, last, m_joules.data(), 0);
     deriveRange(store, first, last);
-  };
-  forChunks(store.size(), grain::kNeighbours, body);
+  });
   return more;
 }
 

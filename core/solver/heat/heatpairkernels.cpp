@@ -72,9 +72,9 @@ void SumHeatSlots(const HeatKernel& kernel, const HeatSlots& slots, const uint32
       const auto taken =
           hn::Or(hn::Lt(number, hn::Set(du, slots.same)), hn::Not(hn::Lt(number, hn::Set(du, slots.other))));
       const auto wanted = hn::RebindMask(d, taken);
-      const V r2 = hn::IfThenElse(wanted, hn::LoadU(d, square + k), hn::Set(d, 1));
+      const V r2 = hn::IfThenElse(wanted, hn::LoadU(d, square + (k - slots.begin)), hn::Set(d, 1));
       const Values pair = valuesOf(kernel, r2);
-      hn::StoreU(pair.value, d, kernelValue + k);
+      hn::StoreU(pair.value, d, kernelValue + (k - slots.begin));
       hn::StoreU(pair.slope, d, conductance + k);
       const auto id = hn::BitCast(hn::RebindToSigned<D>(), hn::IfThenElseZero(taken, hn::LoadU(du, partner + k)));
       const V v = hn::IfThenElseZero(wanted, hn::GatherIndex(d, volume, id));

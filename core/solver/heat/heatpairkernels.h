@@ -36,7 +36,8 @@ struct HeatSums {
   float moment = 0;  ///< V (-F) r2
   float filled = 0;  ///< V W
 };
-/// From squared distances in `square`: W into `kernel`, -F into `conductance`, where F r is the derivative of W.
+/// From squared distances in `square`: W into `kernel`, -F into `conductance`, where F r is the derivative of W. The
+/// first two belong to this particle alone and begin at its first slot.
 HeatSums sumHeatSlots(const HeatKernel& kernel, const HeatSlots& slots, const uint32_t* partner, const float* volume,
                       const float* square, float* kernelValue, float* conductance);
 

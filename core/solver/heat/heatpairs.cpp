@@ -32,21 +32,23 @@ double filmScaleOf(const Kernel& kernel, double dx) {
 
 }  // namespace
 
-void HeatPairs::prepare(size_t count, size_t slots) {
+void HeatPairs::prepare(size_t count, size_t slots, PairRoom& room) {
   for (auto* list : {&begin, &same, &other, &end}) list->resize(count);
   for (auto* values : {&conductivity, &volume, &filled, &immersion, &m_inverseMoment}) values->resize(count + 1);
   sameTotal.resize(count);
   otherTotal.resize(count);
-  makeRoomFor(partner, slots);
-  for (auto* values : {&conductance, &m_square, &m_kernel}) makeRoomFor(*values, slots);
+  makeRoomFor(room.partner, slots);
+  makeRoomFor(room.value, slots);
+  partner = room.partner;
+  conductance = room.value;
 }
 
 void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& lists,
-                      std::span<const BakedMaterial> materials, const Options& options) {
+                      std::span<const BakedMaterial> materials, const Options& options, PairRoom* room) {
   m_options = options;
   const size_t n = store.size();
   if (n == 0) return;
-  prepare(n, lists.slots);
+  prepare(n, lists.slots, room ? *room : m_ownRoom);
   m_oneMaterial = materials.size() == 1 && options.convection.empty();
   if (!options.convection.empty()) {
     m_filmScale = filmScaleOf(Kernel(options.kernel, options.support), options.spacing);
@@ -74,13 +76,14 @@ void HeatPairs::build(const ParticleStore& store, const api::NeighbourView& list
   forChunks(n, grain::kNeighbours, second);
 }
 
-float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
+/// `kernel` holds W by slot, from the particle's first one on.
+float HeatPairs::condensedAround(const ParticleStore& store, size_t i, const float* kernel) const {
   const double self = Kernel(m_options.kernel, m_options.support).value(0);
   double around = 0;
   const auto add = [&](uint32_t from, uint32_t to) {
     for (uint32_t k = from; k < to; ++k) {
       const uint32_t j = partner[k];
-      if (store.motion()[j] != api::Motion::Gas) around += double{store.position()[j].w} * double{m_kernel[k]};
+      if (store.motion()[j] != api::Motion::Gas) around += double{store.position()[j].w} * double{kernel[k - begin[i]]};
     }
   };
   add(begin[i], same[i]);
@@ -88,19 +91,19 @@ float HeatPairs::condensedAround(const ParticleStore& store, size_t i) const {
   return static_cast<float>(std::min(1.0, around / std::max(0.2, 1 - double{store.position()[i].w} * self)));
 }
 
-/// Writes partners within the support and their squared distances: those of the particle's own material from the front
-/// of its slots, others from the back.
+/// Writes partners within the support, and their squared distances into the room: those of the particle's own material
+/// from the front of its slots, others from the back.
 HeatSlots HeatPairs::findPartners(const ParticleStore& store, const api::NeighbourView& lists, uint32_t i, Room& room) {
   const float limit = static_cast<float>(m_options.support * m_options.support), tiny = 1e-12f * limit;
   const uint32_t first = lists.begin[i], *list = lists.index + first;
   const size_t count = lists.last[i] - first;
   HeatSlots slots{first, first, lists.end[i], lists.end[i]};
-  if (room.partner.size() < slots.end - first) {
-    room.partner.resize(2 * (slots.end - first));
-    room.square.resize(room.partner.size());
+  if (const size_t needed = slots.end - first; room.partner.size() < needed) {
+    room.partner.resize(2 * needed);
+    for (auto* values : {&room.found, &room.square, &room.kernel}) values->resize(2 * needed);
   }
   uint32_t* found = m_oneMaterial ? &partner[first] : room.partner.data();
-  float* square = m_oneMaterial ? &m_square[first] : room.square.data();
+  float* square = m_oneMaterial ? room.square.data() : room.found.data();
   size_t used = 0;
   if (store.period().any()) {
     for (size_t k = 0; k < count; ++k) {
@@ -121,7 +124,7 @@ HeatSlots HeatPairs::findPartners(const ParticleStore& store, const api::Neighbo
     const bool alike = material[found[k]] == own && !isFluidBehind(i) && !isFluidBehind(found[k]);
     const uint32_t slot = alike ? slots.same++ : --slots.other;
     partner[slot] = found[k];
-    m_square[slot] = square[k];
+    room.square[slot - first] = square[k];
   }
   return slots;
 }
@@ -133,12 +136,12 @@ void HeatPairs::measure(const ParticleStore& store, const api::NeighbourView& li
   for (size_t i = first; i < last; ++i) {
     const HeatSlots slots = findPartners(store, lists, static_cast<uint32_t>(i), room);
     begin[i] = slots.begin, same[i] = slots.same, other[i] = slots.other, end[i] = slots.end;
-    const HeatSums sums = sumHeatSlots(kernel, slots, partner.data(), volume.data(), m_square.data(), m_kernel.data(),
-                                       conductance.data());
+    const HeatSums sums = sumHeatSlots(kernel, slots, partner.data(), volume.data(), room.square.data(),
+                                       room.kernel.data(), conductance.data());
     const float full = volume[i] * selfKernel + sums.filled, m = std::clamp(sums.moment / 3, 0.8f, 1.25f);
     m_inverseMoment[i] = m_options.momentCorrection && full > kFullSupport ? 1 / m : 1.0f;
     filled[i] = full;
-    immersion[i] = store.gasFraction()[i] > 0 ? condensedAround(store, i) : 0.0f;
+    immersion[i] = store.gasFraction()[i] > 0 ? condensedAround(store, i, room.kernel.data()) : 0.0f;
   }
 }
 

@@ -6,6 +6,7 @@
 // no scatter: every particle sums its own list.
 #include "core/math/kernels.h"
 #include "core/matter/material.h"
+#include "core/particles/pairroom.h"
 #include "core/particles/particlestore.h"
 #include "core/solver/heat/heatpairkernels.h"
 
@@ -36,15 +37,16 @@ class HeatPairs {
     std::span<const float>
         convection{};  ///< by particle, W/(m2 K) of a fluid that it stands for, or 0; none: none does
   };
-  /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current.
+  /// Lists may be older than the positions by less than their skin. Temperature and fractions must be current. Partners
+  /// and conductances lie in `room` as long as nobody else writes there; without one in its own.
   void build(const ParticleStore& store, const api::NeighbourView& lists, std::span<const BakedMaterial> materials,
-             const Options& options);
+             const Options& options, PairRoom* room = nullptr);
   bool isInsulated(size_t i) const { return !m_options.insulated.empty() && m_options.insulated[i] != 0; }
 
   // Partners of particle i: [begin[i], same[i]) of its own material, [other[i], end[i]) of others.
   std::vector<uint32_t> begin, same, other, end;
-  std::vector<uint32_t> partner;
-  std::vector<float> conductance;
+  std::span<uint32_t> partner;
+  std::span<float> conductance;
   std::vector<double> sameTotal, otherTotal;  ///< sums of conductance over each particle's two ranges
   std::vector<float> conductivity;            ///< W/(m K), mixture of the phases present
   std::vector<float> volume;                  ///< m3, condensed
@@ -52,11 +54,12 @@ class HeatPairs {
   std::vector<float> immersion;  ///< share of the surroundings that keeps air away, 0..1; only of particles with vapour
 
  private:
-  void prepare(size_t count, size_t slots);
-  /// What of a chunk is found before it is put in order.
+  void prepare(size_t count, size_t slots, PairRoom& room);
+  /// Of one particle at a time, by its slots: partners as they are found, and with their squared distances as they are
+  /// put in order; W.
   struct Room {
     std::vector<uint32_t> partner;
-    std::vector<float> square;
+    std::vector<float> found, square, kernel;
   };
   HeatSlots findPartners(const ParticleStore& store, const api::NeighbourView& lists, uint32_t i, Room& room);
   void measure(const ParticleStore& store, const api::NeighbourView& lists, size_t first, size_t last);
@@ -66,12 +69,11 @@ class HeatPairs {
   bool isFluidBehind(size_t i) const { return !m_options.convection.empty() && m_options.convection[i] > 0; }
   void seeFilms(const ParticleStore& store, size_t first, size_t last);
   float throughFilm(uint32_t i, uint32_t j, float slope) const;
-  float condensedAround(const ParticleStore& store, size_t i) const;
+  float condensedAround(const ParticleStore& store, size_t i, const float* kernel) const;
 
   Options m_options;
+  PairRoom m_ownRoom;
   bool m_oneMaterial = false;
-  std::vector<float> m_square;         ///< squared distance, per slot
-  std::vector<float> m_kernel;         ///< W, per slot
   std::vector<float> m_inverseMoment;  ///< 1/M of the moment correction
   std::vector<Room> m_rooms;           ///< by chunk
   double m_filmScale = 0;              ///< m3, C of the above
