@@ -53,11 +53,12 @@ constexpr std::array<KindOfPlugin, 7> kKinds{{{PluginKind::Material, PHASESKETCH
 ///   fills_hollows   a brush may fill hollows
 ///   colours_matter  a brush may give that matter a colour of its own
 ///   stamps_shape    a brush may stamp the shape of a body
+///   sees_matter     a brush may see the matter near the hand
 ///   welds_matter  structure of ties may say, likewise, that it joins what a hand welds
-constexpr std::array<std::string_view, 16> kCapabilities{
+constexpr std::array<std::string_view, 17> kCapabilities{
     "opens_energy",  "pair_rates",     "holds_frozen", "structure_count", "spring_ties",   "group_poses",
     "holds_sheets",  "holds_lines",    "box_stamp",    "touches_matter",  "paints_matter", "smooths_matter",
-    "fills_hollows", "colours_matter", "stamps_shape", "welds_matter"};
+    "fills_hollows", "colours_matter", "stamps_shape", "welds_matter",    "sees_matter"};
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }

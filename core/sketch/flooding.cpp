@@ -2,6 +2,7 @@
 #include "core/sketch/flooding.h"
 
 #include "core/base/error.h"
+#include "core/base/progress.h"
 
 #include <algorithm>
 #include <array>
@@ -70,15 +71,21 @@ class Flood {
       asked.clear();
       std::vector<api::Cell> next;
       for (const api::Cell& cell : rim) {
-        if (!m_filled.contains(cell) && m_wet.insert(cell).second && m_wet.size() > m_most) refuse();
+        if (!m_filled.contains(cell) && m_wet.insert(cell).second && isTooMuch()) refuse();
         for (const api::Cell& way : kFaces) {
           const api::Cell other = beside(cell, way);
           if (heightOf(other) <= level && seen.insert(other).second)
             (m_filled.contains(other) ? next : asked).push_back(other);
         }
       }
-      const CellSet free = m_freeOf(m_grid, CellSet(asked));
-      next.insert(next.end(), free.cells().begin(), free.cells().end());
+      constexpr size_t kAtOnce = 256;  // cells, of which each is asked for between all walls
+      for (size_t first = 0; first < asked.size(); first += kAtOnce) {
+        const auto from = asked.begin() + static_cast<ptrdiff_t>(first);
+        const auto to = asked.begin() + static_cast<ptrdiff_t>(std::min(asked.size(), first + kAtOnce));
+        const CellSet free = m_freeOf(m_grid, CellSet(std::vector<api::Cell>(from, to)));
+        next.insert(next.end(), free.cells().begin(), free.cells().end());
+        advance(free.cells().size());
+      }
       rim = std::move(next);
     }
   }
@@ -87,6 +94,7 @@ class Flood {
 
  private:
   double heightOf(const api::Cell& cell) const { return m_grid.centreOf(cell).dot(m_up); }
+  bool isTooMuch() const { return m_wet.size() + m_filled.size() > m_most; }
   [[noreturn]] void refuse() const {
     throw InputError("From here more than " + std::to_string(m_most) +
                      " particles would run full: begin lower, close what is open, or make the particle spacing larger");

@@ -9,15 +9,16 @@ namespace ps {
 /// Those of some cells of a lattice that may be filled: not where others are, nor outside of the scene.
 using FreeOf = std::function<CellSet(const SketchGrid& grid, const CellSet& cells)>;
 
-/// Cells that one flood fills while somebody draws: what can be drawn at a time.
+/// Cells that one stroke lets run full while somebody draws: what can be drawn at a time.
 inline constexpr size_t kMostFlooded = 32768;
 
 /// What runs full from `seeds`: the free ones of them, and from each all free cells that are reached through the faces
 /// of free ones, none of them higher against `gravity` (m/s2; zero: y is up) than that seed. A seed that is not free
 /// stands for the cell above it: the pointer meets the bottom of a hollow in the matter that it is made of. Seeds that
 /// stand in `filled`, or in what an earlier one has filled, add nothing, so that it comes to the same however a stroke
-/// was cut into pieces that rise. What it fills is not in `filled`. Throws InputError where it would be more than
-/// `most`: it runs out, or is too large.
+/// was cut into pieces that rise. What it fills is not in `filled`. Throws InputError where both would be more than
+/// `most`: it runs out, or is too large. Advances the thread's progress by each cell that it comes to, and throws
+/// Cancelled.
 CellSet flooded(const SketchGrid& grid, const CellSet& seeds, const CellSet& filled, const Vector3& gravity,
                 const FreeOf& freeOf, size_t most = kMostFlooded);
 

@@ -4,6 +4,7 @@
 #include "core/base/shorttext.h"
 #include "core/sketch/symmetry.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace ps {
@@ -32,17 +33,13 @@ std::vector<api::Touch> touchesOf(const api::BrushPlugin& brush, const StrokeSet
   const api::StrokeContext own = contextOf(setup);
   const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
   TouchList list;
-  try {
-    for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
-      const std::vector<api::StrokeSample> copies = imageOf(all, image);
-      matter->touch(imageOf(own, image), kind, api::listOf(copies.data(), copies.size()), list);
-    }
-  } catch (const Error&) {  // of the list
-    throw;
-  } catch (const std::exception& error) {
-    throw BrushFault(shortText(error.what()));
-  } catch (...) {
-    throw BrushFault("it threw something that is no std::exception");
+  for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
+    const std::vector<api::StrokeSample> copies = imageOf(all, image);
+    api::StrokeContext context = imageOf(own, image);
+    const std::optional<SeenMatter> seen = seenBy(brush, setup, context, copies);
+    const api::NearMatter near = seen ? seen->view() : api::NearMatter{};
+    if (seen) context.matter = &near;
+    askBrush([&] { matter->touch(context, kind, api::listOf(copies.data(), copies.size()), list); });
   }
   return list.result();
 }

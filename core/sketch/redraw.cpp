@@ -24,16 +24,23 @@ CellSet floodedIn(const VoxelCanvas& canvas, const SketchGrid& grid, const CellS
 }  // namespace
 
 VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf,
-                   const Vector3& gravity) {
+                   const Vector3& gravity, const MatterBeside& matter) {
   VoxelShape out = shape;
   if (out.spacing != spacing) out.origin = Vector3::Constant(spacing / 2);
   out.spacing = spacing;
   VoxelCanvas canvas;
+  MatterWithin within;
+  if (matter)
+    within = [&](const Vector3& centre, double radius) {
+      out.runs = canvas.runs();
+      return matter(out, centre, radius);
+    };
   for (const VoxelShape::Stroke& stroke : shape.strokes) {
+    if (stroke.hidden) continue;
     const api::BrushPlugin* brush = brushOf(stroke.brush);
     if (!brush) throw InputError("the brush \"" + stroke.brush + "\" is not installed");
     const SketchGrid grid = gridOf(out);
-    const StrokeEdits edits = replayStroke(*brush, stroke, grid);
+    const StrokeEdits edits = replayStroke(*brush, stroke, grid, within);
     canvas.erase(edits.removed);
     canvas.paint(freeOf(grid, edits.added), stroke.palette);
     if (!edits.filled.empty()) canvas.paint(floodedIn(canvas, grid, edits.filled, gravity, freeOf), stroke.palette);

@@ -60,6 +60,17 @@ api::StrokeSample between(const api::StrokeSample& a, const api::StrokeSample& b
           std::lerp(a.way, b.way, t)};
 }
 
+constexpr double kSmoothed = 0.05;  // s, over which the speed of a hand is a mean
+
+/// m/s, of a hand that has come from one place to the next.
+api::Double3 velocityAt(const api::StrokeSample& before, const api::StrokeSample& here) {
+  const double passed = here.time - before.time;
+  if (!(passed > 0)) return before.velocity;
+  const Vector3 was = vectorOf(before.velocity);
+  const Vector3 now = (vectorOf(here.position) - vectorOf(before.position)) / passed;
+  return double3Of(was + (1 - std::exp(-passed / kSmoothed)) * (now - was));
+}
+
 /// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
 class Collector final : public api::EditSink {
  public:
@@ -121,7 +132,7 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   if (!finite(raw)) return dense;
   if (!m_last) {
     m_last = raw;
-    m_last->direction = {0, 0, 0};
+    m_last->direction = m_last->velocity = {0, 0, 0};
     m_last->way = 0;
     m_sinceLast = 0;
     return {*m_last};
@@ -129,6 +140,7 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   const double length = distance(m_last->position, raw.position);
   api::StrokeSample here = raw;
   here.way = m_last->way + length;
+  here.velocity = velocityAt(*m_last, raw);
   const double first = m_spacing - m_sinceLast;  // arc length from m_last to the next dense sample
   double placed = 0;
   for (; first + placed * m_spacing <= length; ++placed) {
@@ -202,22 +214,30 @@ api::StrokeContext contextOf(const StrokeSetup& setup) {
   return context;
 }
 
-StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
-                       std::span<const api::StrokeSample> samples) {
-  const api::StrokeContext own = contextOf(setup);
-  const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
-  Collector collector;
+void askBrush(const std::function<void()>& call) {
   try {
-    for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
-      const std::vector<api::StrokeSample> copies = imageOf(all, image);
-      brush.stroke(imageOf(own, image), kind, api::listOf(copies.data(), copies.size()), collector);
-    }
-  } catch (const Error&) {  // of the collector
+    call();
+  } catch (const Error&) {  // of what collects its answer
     throw;
   } catch (const std::exception& error) {
     throw BrushFault(shortText(error.what()));
   } catch (...) {
     throw BrushFault("it threw something that is no std::exception");
+  }
+}
+
+StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                       std::span<const api::StrokeSample> samples) {
+  const api::StrokeContext own = contextOf(setup);
+  const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
+  Collector collector;
+  for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
+    const std::vector<api::StrokeSample> copies = imageOf(all, image);
+    api::StrokeContext context = imageOf(own, image);
+    const std::optional<SeenMatter> seen = seenBy(brush, setup, context, copies);
+    const api::NearMatter matter = seen ? seen->view() : api::NearMatter{};
+    if (seen) context.matter = &matter;
+    askBrush([&] { brush.stroke(context, kind, api::listOf(copies.data(), copies.size()), collector); });
   }
   return collector.result();
 }
@@ -262,15 +282,18 @@ StrokeSetup setupOf(const api::BrushPlugin& brush, const VoxelShape::Stroke& str
           numbersOf(stroke.parameters, brush.parameters()),
           stroke.symmetry,
           {0, 0, 0},
-          stroke.stamp ? stampCells(*stroke.stamp) : nullptr};
+          stroke.stamp ? stampCells(*stroke.stamp) : nullptr,
+          {}};
 }
 
-StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid) {
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
+                         const MatterWithin& matterWithin) {
   std::vector<api::StrokeSample> raw;
   raw.reserve(stroke.samples.size());
   for (const auto& s : stroke.samples) raw.push_back({{s[0], s[1], s[2]}, s[3], s[4], {}, {}, {s[5], s[6], s[7]}});
-  return applyBrush(brush, setupOf(brush, stroke, grid), kindOf(brush, stroke.erase),
-                    resampleStroke(raw, grid.spacing));
+  StrokeSetup setup = setupOf(brush, stroke, grid);
+  setup.matterWithin = matterWithin;
+  return applyBrush(brush, setup, kindOf(brush, stroke.erase), resampleStroke(raw, grid.spacing));
 }
 
 }  // namespace ps

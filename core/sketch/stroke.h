@@ -2,6 +2,7 @@
 #pragma once
 #include "core/base/error.h"
 #include "core/sketch/cellset.h"
+#include "core/sketch/nearmatter.h"
 #include "core/sketch/stampcells.h"
 
 #include <phasesketch/brush.h>
@@ -22,7 +23,9 @@ std::vector<api::StrokeSample> interpolateStroke(const api::StrokeSample& from, 
 
 /// Turns the pointer's raw samples, which arrive once per frame or faster, into dense ones at arc lengths 0, dx, 2 dx,
 /// ... along the polyline and its end. The dense samples depend on the path alone, not on how often it was sampled: a
-/// straight stroke gives the same points at 10 and at 1000 samples per second (to rounding).
+/// straight stroke gives the same points at 10 and at 1000 samples per second (to rounding). How fast the hand is
+/// follows from the times of the raw samples, whatever velocity these have: a mean over 0.05 s, which forgets
+/// exponentially.
 class StrokeResampler {
  public:
   /// `spacing` in m, > 0: throws InputError otherwise.
@@ -65,6 +68,7 @@ struct StrokeSetup {
   std::optional<VoxelShape::Symmetry> symmetry{};
   Vector3 look{0, 0, 0};                      ///< unit vector, or zero: see api::StrokeContext
   std::shared_ptr<const StampCells> stamp{};  ///< nullptr: none
+  MatterWithin matterWithin{};                ///< of a brush that sees matter; nothing: nobody knows the scene
 };
 
 /// A brush threw, or gave what cannot be.
@@ -72,6 +76,9 @@ class BrushFault : public Error {
  public:
   using Error::Error;
 };
+
+/// Calls a brush: what it throws is a BrushFault from there on. An Error is the host's own, and goes on as it is.
+void askBrush(const std::function<void()>& call);
 
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
@@ -83,7 +90,8 @@ Matrix3 strokeAxes(const Vector3& up);
 Vector3 turnBetween(const Matrix3& from, const Matrix3& to);
 Matrix3 turnMatrix(const Vector3& turn);
 
-/// What the brush knows of a stroke: up, side and front of strokeAxes(). Borrows the setup's numbers and its stamp.
+/// What the brush knows of a stroke, but for the matter that it sees: up, side and front of strokeAxes(). Borrows the
+/// setup's numbers and its stamp.
 api::StrokeContext contextOf(const StrokeSetup& setup);
 
 /// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than
@@ -103,6 +111,7 @@ std::string colourOf(const api::BrushPlugin& brush, const StrokeSetup& setup);
 /// How a saved stroke was drawn.
 StrokeSetup setupOf(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
 /// Draws a saved stroke again (its samples are the raw ones).
-StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid);
+StrokeEdits replayStroke(const api::BrushPlugin& brush, const VoxelShape::Stroke& stroke, const SketchGrid& grid,
+                         const MatterWithin& matterWithin = {});
 
 }  // namespace ps

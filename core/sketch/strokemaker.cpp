@@ -43,7 +43,8 @@ std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples)
   if (fills) edits.filled = floodedFrom(edits.filled);
   std::vector<api::Cell> fresh;
   for (const api::Cell& cell : edits.of(m_kind).cells()) {
-    const bool isOutside = draws && !isInScene(m_scene.environment, m_setup.grid, cell);
+    // What runs full has been kept within.
+    const bool isOutside = draws && !fills && !isInScene(m_scene.environment, m_setup.grid, cell);
     if (isOutside) m_leavesScene = true;
     if (!m_cells.contains(cell) && !isOutside) fresh.push_back(cell);
   }
@@ -62,7 +63,8 @@ StrokeEdits StrokeMaker::ask(std::span<const api::StrokeSample> samples) {
   return applyBrush(m_brush, m_setup, m_kind, samples);
 }
 
-CellSet StrokeMaker::floodedFrom(const CellSet& seeds) const {
+CellSet StrokeMaker::floodedFrom(const CellSet& seeds) {
+  const ProgressScope filling(&m_filling);
   const Environment& environment = m_scene.environment;
   return flooded(m_setup.grid, seeds, m_cells, environment.gravity, [&](const SketchGrid& grid, const CellSet& cells) {
     std::vector<api::Cell> free;

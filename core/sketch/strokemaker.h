@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/progress.h"
 #include "core/sketch/stroke.h"
 
 #include <atomic>
@@ -33,13 +34,25 @@ class StrokeMaker {
   std::vector<api::Cell> lift();
   api::EditKind kind() const { return m_kind; }
   bool asksBrush() const noexcept { return m_asks; }  ///< now; from any thread
+  /// What is being filled is given up: add() or lift() throws Cancelled; from any thread.
+  void cancel() { m_filling.cancel(); }
+  size_t filled() const { return m_filling.cells(); }  ///< cells that have run full so far, about; from any thread
   /// The brush gave cells outside of the scene or in its walls, which are left out; from any thread.
   bool leavesScene() const noexcept { return m_leavesScene; }
 
  private:
+  /// Counts.
+  class Filling : public Progress {
+   public:
+    size_t cells() const { return m_cells; }
+
+   private:
+    void advanced(size_t steps) override { m_cells += steps; }
+    std::atomic<size_t> m_cells{0};
+  };
   StrokeEdits ask(std::span<const api::StrokeSample> samples);
   std::vector<api::Cell> feed(std::vector<api::StrokeSample> samples);
-  CellSet floodedFrom(const CellSet& seeds) const;
+  CellSet floodedFrom(const CellSet& seeds);
 
   std::string m_id;
   const api::BrushPlugin& m_brush;
@@ -49,6 +62,7 @@ class StrokeMaker {
   StrokeResampler m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   CellSet m_cells;                         ///< that have come so far
+  Filling m_filling;
   std::atomic<bool> m_asks = false, m_leavesScene = false;
 };
 

@@ -237,7 +237,7 @@ void InstallationTest::readmesNameWhatIsInstalled() {
 }
 
 void InstallationTest::checkSaysThatExamplesAreFine() {
-  for (const char* name : {"honey", "tether", "clump", "cohesion", "sensible", "lamp", "ring", "whisk"}) {
+  for (const char* name : {"honey", "tether", "clump", "cohesion", "sensible", "lamp", "ring", "whisk", "moss"}) {
     const QString path = pluginDirectory() + "/" + name + ".so";
     const Outcome outcome = runProgram(program("phasesketch-cli"), {"plugins", "--check", path});
     QVERIFY2(outcome.code == 0 && outcome.output.startsWith((path + ": fine: ").toUtf8()), outcome.text());
@@ -322,8 +322,9 @@ void InstallationTest::cohesionKeepsMomentum() {
 void InstallationTest::editorListsTheExamples() {
   const Outcome list = runProgram(program("phasesketch"), {"--list-plugins"}, pluginDirectory());
   QVERIFY2(list.code == 0, list.text());
-  for (const char* id : {"org.example.honey", "org.example.tether", "org.example.clump", "org.example.cohesion",
-                         "org.example.sensible", "org.example.lamp", "org.example.ring", "org.example.whisk"}) {
+  for (const char* id :
+       {"org.example.honey", "org.example.tether", "org.example.clump", "org.example.cohesion", "org.example.sensible",
+        "org.example.lamp", "org.example.ring", "org.example.whisk", "org.example.moss"}) {
     bool loaded = false;
     for (const QByteArray& line : list.output.split('\n'))
       loaded = loaded || (line.startsWith(id) && line.contains("loaded"));

@@ -37,12 +37,17 @@ inline constexpr const char* kColoursMatter = "colours_matter";
 /// the name. Its StrokeContext has the shape's cells, and it submits EditKind::Add or Remove.
 inline constexpr const char* kStampsShape = "stamps_shape";
 
+/// Capability of a brush of any kind that goes by the matter near the hand: extension(kSeesMatter) is its SeeingBrush.
+/// Its StrokeContext shows that matter.
+inline constexpr const char* kSeesMatter = "sees_matter";
+
 struct StrokeSample {
-  Double3 position;           ///< m
-  double pressure;            ///< 0 .. 1; 1 where nothing tells how hard it is
-  double time;                ///< s since the stroke began
-  Double3 direction;          ///< unit vector along which the hand goes; zero where it has not moved yet
-  Double3 velocity{0, 0, 0};  ///< m/s, of the hand that touches matter; zero where it stays
+  Double3 position;   ///< m
+  double pressure;    ///< 0 .. 1; 1 where nothing tells how hard it is
+  double time;        ///< s since the stroke began
+  Double3 direction;  ///< unit vector along which the hand goes; zero where it has not moved yet
+  /// m/s, of the hand: a mean over 0.05 s or so. Zero where it has just begun, and where it stays in matter.
+  Double3 velocity{0, 0, 0};
   /// How the pen or the hand is turned against the stroke's up, side and front: tilt and rotation as one turn about
   /// this axis by its length in rad. Zero: not at all, or by something, such as a mouse, that has no pose. A pen that
   /// stands upright on its tablet stands along up; a hand's pose is what turns up, side and front into its own.
@@ -52,6 +57,19 @@ struct StrokeSample {
 
 struct Cell {
   int32_t x, y, z;
+};
+
+/// Matter that a brush sees, to be read only: `count` values each, in an order that means nothing, of which no pointer
+/// is null where there are any. They last as long as the call.
+struct NearMatter {
+  size_t count = 0;
+  const Float4* position = nullptr;    ///< m, as samples lie; w: radius of a sphere of the rest volume, m
+  const float* temperature = nullptr;  ///< K
+  const float* speed = nullptr;        ///< m/s
+  const Phase* phase = nullptr;
+  const Motion* motion = nullptr;
+  const uint32_t* body = nullptr;      ///< equal for what belongs to one body
+  const uint32_t* material = nullptr;  ///< equal for what is of one material
 };
 
 /// Where a stroke lands: a lattice of cells of edge `spacing` whose cell (0, 0, 0) is centred at `origin`.
@@ -72,6 +90,11 @@ struct StrokeContext {
   double shapeSpacing = 0;
   Double3 shapeMiddle{0, 0, 0}, shapeHalf{0, 0, 0};
   Double3 shapeX{1, 0, 0}, shapeY{0, 1, 0}, shapeZ{0, 0, 1};
+  /// Of a brush that sees matter: all within its reach of any of the samples. Where it draws, as the scene was when the
+  /// stroke began, without its own; where it touches, as it was when the hand was last heard of. Where a sketch is
+  /// drawn again: the scene at its start with what is drawn before, all of it solid and at rest. nullptr where nobody
+  /// knows the scene, as for the picture of the brush at the pointer.
+  const NearMatter* matter = nullptr;
 };
 
 enum class EditKind : uint32_t {
@@ -128,9 +151,9 @@ class TouchSink {
   ~TouchSink() = default;
 };
 
-/// A brush's way with matter; see kTouchesMatter. It sees no particle: the host finds those within, books the heat that
-/// they get, and takes it back by undo as it does with ties that were cut or welded. What was pushed or held goes on as
-/// it was let go.
+/// A brush's way with matter; see kTouchesMatter. It need not see a particle: the host finds those within, books the
+/// heat that they get, and takes it back by undo as it does with ties that were cut or welded. What was pushed or held
+/// goes on as it was let go.
 class MatterBrush {
  public:
   /// Turns the places where the hand has been since the last call into touches, for each sample as many as for any
@@ -140,6 +163,16 @@ class MatterBrush {
 
  protected:
   ~MatterBrush() = default;
+};
+
+/// What a brush sees; see kSeesMatter.
+class SeeingBrush {
+ public:
+  /// m from each sample, 0 .. 10. The context shows no matter yet.
+  virtual double reach(const StrokeContext&) const noexcept = 0;
+
+ protected:
+  ~SeeingBrush() = default;
 };
 
 /// A brush's way with colours; see kColoursMatter.
