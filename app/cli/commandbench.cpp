@@ -109,6 +109,15 @@ void printDrag(const json& row) {
   std::fflush(stdout);
 }
 
+void printSketch(const json& row) {
+  std::printf("%-20s %8zu particles  %2d threads  ms of the engine's thread:\n", "sketch",
+              row["particles"].get<size_t>(), row["threads"].get<int>());
+  for (const auto& [what, cost] : row["edits"].items())
+    std::printf("  %-18s %7.3f ms a sample (p95 %.3f), at most %g\n", what.c_str(), cost["median"].get<double>(),
+                cost["p95"].get<double>(), cost["limit"].get<double>());
+  std::fflush(stdout);
+}
+
 void print(const json& scene) {
   const double milliseconds = scene["ms"]["median"];
   std::printf(
@@ -159,6 +168,9 @@ void measure(const std::string& name, std::optional<long> particles, const std::
     if (name == "drag") {
       rows.push_back(benchDrag(static_cast<int>(particles.value_or(100000)), plugins, frames / 4));
       printDrag(rows.back());
+    } else if (name == "sketch") {
+      rows.push_back(benchSketch(static_cast<int>(particles.value_or(80000)), plugins, std::max(1L, frames / 4)));
+      printSketch(rows.back());
     } else {
       rows.push_back(benchScene(name, projectOf(name, particles, plugins), plugins, frames).result);
       print(rows.back());
@@ -180,7 +192,8 @@ void writeTables(const Arguments& arguments, const json& rows) {
 std::string benchHelp() {
   return "phasesketch-cli bench [SCENE...] [options]\n\nMeasures the path that simulate runs. A scene is a project "
          "file, which begins at its start, the name of a sample or\nof one of the thesis's scenes, 'drag', the "
-         "tank while a slider is dragged at 250 edits a second, beside the same\nleft alone, or one of\n" +
+         "tank while a slider is dragged at 250 edits a second, beside the same\nleft alone, 'sketch', what strokes "
+         "and hands cost the engine's thread in it for each sample, or one of\n" +
          namedScenes() +
          ";\nwithout one: ice-on-hot-plate, tank and drag. iterations are those of a whole frame; ns_per_pair is the "
          "density stage\nover ordered pairs within the support; serial_share is what one thread does alone of a frame "

@@ -7,6 +7,7 @@
 #include "core/experiments/benchscenes.h"
 #include "core/experiments/drag.h"
 #include "core/experiments/runreport.h"
+#include "core/experiments/sketchcost.h"
 #include "core/particles/neighbours.h"
 #include "core/plugin_host/registry.h"
 #include "core/solver/solver.h"
@@ -179,6 +180,23 @@ json benchDrag(int particles, PluginRegistry& plugins, long frames) {
           {"frames_kept", drag.framesDragged / drag.framesAlone},
           {"bake_ms", drag.bakeMilliseconds},
           {"edit_ms", drag.editMilliseconds}};
+}
+
+json benchSketch(int particles, PluginRegistry& plugins, long frames) {
+  SketchCost cost = measureSketch(tank(particles), plugins, frames);
+  json edits, worst;
+  double most = -1;
+  for (EditTimes& edit : cost.edits) {
+    std::sort(edit.milliseconds.begin(), edit.milliseconds.end());
+    const size_t count = edit.milliseconds.size();
+    const double median = edit.milliseconds[count / 2], p95 = edit.milliseconds[count * 19 / 20];
+    edits[edit.what] = {{"median", median}, {"p95", p95}, {"limit", edit.limit}};
+    if (median / edit.limit <= most) continue;
+    most = median / edit.limit;
+    worst = {{"median", median}, {"p95", p95}};
+  }
+  return {
+      {"name", "sketch"}, {"particles", cost.particles}, {"threads", threadCount()}, {"ms", worst}, {"edits", edits}};
 }
 
 json benchMachine() {

@@ -19,6 +19,10 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
 /// A slider dragged over the tank, beside the same tank left alone: a row of bench's report.
 nlohmann::json benchDrag(int particles, PluginRegistry& plugins, long frames);
 
+/// What hands cost in the tank: a row of bench's report; its ms are those of the kind of edit that comes nearest to its
+/// limit.
+nlohmann::json benchSketch(int particles, PluginRegistry& plugins, long frames);
+
 nlohmann::json benchMachine();
 /// What the machine can do, so that figures of two machines may be compared.
 nlohmann::json benchCalibration(PluginRegistry& plugins);

@@ -58,14 +58,18 @@ std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::
   m->overlay.lift(m->project);
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });
+  // Of each sample of a stroke the same: nothing but its matter is new then.
+  const bool isAsItWas = known != bodies.end() && *known == body;
   if (known == bodies.end()) {
     bodies.push_back(body);
-  } else {
+  } else if (!isAsItWas) {
     *known = body;
   }
   m->overlay.lay(m->project);
-  m->recompile({{Owner::Body}});
-  m->bindTracks(m->solver->time());
+  if (!isAsItWas) {
+    m->recompile({{Owner::Body}});
+    m->bindTracks(m->solver->time());
+  }
   m->holdBodies();
   return ids;
 }

@@ -28,7 +28,7 @@ bool heats(const api::Touch& touch) { return touch.kind == api::TouchKind::Heat;
 std::vector<double> gripOf(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
   constexpr double kLoose = 0.01;  // not worth holding
   const ParticleStore& store = engine.particles();
-  const Reached reached = reach(engine, touch, isSpared);
+  const Reached reached = reach(engine, touch, reachable(engine, {&touch, 1}, isSpared));
   std::vector<double> grip(store.size());
   for (size_t k = 0; k < reached.rows.size(); ++k)
     grip[reached.rows[k]] = reached.weights[k] / store.mass()[reached.rows[k]];
@@ -115,32 +115,42 @@ std::vector<TieChange> Hand::changeTies(Engine& engine, const std::vector<uint8_
   return changes;
 }
 
+Reachable Hand::reachableBy(api::TouchKind kind, const Engine& engine, const std::vector<uint8_t>& isSpared) const {
+  std::vector<api::Touch> touches;
+  forEach([&](const api::Touch& touch, double) {
+    if (touch.kind == kind) touches.push_back(touch);
+  });
+  return reachable(engine, touches, isSpared);
+}
+
 HeatById Hand::heat(Engine& engine, const std::vector<uint8_t>& isSpared) const {
+  const Reachable among = reachableBy(api::TouchKind::Heat, engine, isSpared);
+  if (among.rows.empty()) return {};
   const double seconds = compileSettings(engine.project()).dt * compileThermal(engine.project()).timeScale;
   std::vector<double> joules(engine.particles().size());
   forEach([&](const api::Touch& touch, double share) {
-    if (heats(touch)) addHeat(engine, touch, seconds * share, isSpared, joules);
+    if (heats(touch)) addHeat(engine, touch, seconds * share, among, joules);
   });
-  if (std::all_of(joules.begin(), joules.end(), [](double one) { return one == 0; })) return {};
+  const auto isWarmed = [&](uint32_t row) { return joules[row] != 0; };
+  if (std::none_of(among.rows.begin(), among.rows.end(), isWarmed)) return {};
   return given(engine, std::move(joules));
 }
 
 void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
+  const Reachable among = reachableBy(api::TouchKind::Push, engine, isSpared);
+  const auto holds = [](const api::Touch& touch) { return touch.kind == api::TouchKind::Hold; };
+  if (among.rows.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return;
   const double dt = compileSettings(engine.project()).dt;
   std::vector<Vector3> change(engine.particles().size(), Vector3(0, 0, 0));
-  bool moves = false;
   forEach([&](const api::Touch& touch, double share) {
-    if (touch.kind != api::TouchKind::Push) return;
-    addPush(engine, touch, dt * share, isSpared, change);
-    moves = true;
+    if (touch.kind == api::TouchKind::Push) addPush(engine, touch, dt * share, among, change);
   });
   for (size_t k = 0; k < m_still.size(); ++k) {
-    if (m_still[k].kind != api::TouchKind::Hold) continue;
+    if (!holds(m_still[k])) continue;
     if (!m_held[k]) m_held[k] = take(engine, m_first[k], isSpared);
     hold(engine, m_still[k], *m_held[k], change);
-    moves = true;
   }
-  if (moves) engine.addVelocities(change);
+  engine.addVelocities(change);
 }
 
 std::vector<Hand::Held> Hand::take(const Engine& engine, const api::Touch& touch,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/command.h"
+#include "core/simulation/touch.h"
 #include "core/solver/matter.h"
 
 #include <cstdint>
@@ -50,6 +51,7 @@ class Hand {
   void forEach(Visit&& visit) const;
   /// All cuts, then all welds.
   std::vector<TieChange> changeTies(Engine& engine, const std::vector<uint8_t>& isSpared) const;
+  Reachable reachableBy(api::TouchKind kind, const Engine& engine, const std::vector<uint8_t>& isSpared) const;
   HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   void push(Engine& engine, const std::vector<uint8_t>& isSpared);
   static std::vector<Held> take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared);

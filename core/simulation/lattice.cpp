@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/lattice.h"
 
+#include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/scene/pose.h"
 #include "core/sketch/cellset.h"
@@ -211,15 +212,25 @@ std::vector<api::Double3> cellCentres(const VoxelShape& voxels, double spacing, 
   return centres;
 }
 
+std::vector<uint32_t> rowsNear(const ParticleStore& store, std::span<const api::Double3> places, double margin) {
+  std::vector<uint32_t> rows;
+  const NearBox box(places, margin, store.period());
+  if (!places.empty()) findIndices(store.size(), rows, [&](size_t i) { return box.holds(store.position()[i]); });
+  return rows;
+}
+
 OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more) {
   OccupiedPlaces occupied(clearance, store.size() + more, store.period());
   for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
   return occupied;
 }
 
+/// Of a brush's few places in a scene of many particles: those far from all of them are not looked at again.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance) {
-  OccupiedPlaces occupied = occupiedPlaces(store, clearance, positions.size());
+  const std::vector<uint32_t> near = rowsNear(store, positions, clearance);
+  OccupiedPlaces occupied(clearance, near.size() + positions.size(), store.period());
+  for (const uint32_t i : near) occupied.add(store.wrappedPosition(i));
   std::vector<api::Double3> free;
   for (const api::Double3& p : positions) {
     if (!occupied.isFree(p)) continue;
@@ -264,8 +275,11 @@ SketchGrid wideGridOf(const VoxelShape& voxels) {
 std::vector<uint32_t> idsInCells(const ParticleStore& store, const VoxelShape& voxels, std::vector<CellIndex> cells) {
   std::sort(cells.begin(), cells.end());
   const SketchGrid grid = wideGridOf(voxels);
+  std::vector<api::Double3> middles;
+  middles.reserve(cells.size());
+  for (const CellIndex& c : cells) middles.push_back(double3Of(grid.centreOf({c[0], c[1], c[2]})));
   std::vector<uint32_t> ids;
-  for (size_t i = 0; i < store.size(); ++i) {
+  for (const uint32_t i : rowsNear(store, middles, voxels.spacing)) {  // half a cell's diagonal, and some
     const CellIndex cell = cellAt(store.wrappedPosition(i), grid);
     if (std::binary_search(cells.begin(), cells.end(), cell)) ids.push_back(store.id()[i]);
   }

@@ -62,6 +62,9 @@ class NearBox {
   std::array<double, 3> m_low, m_high;  ///< m
 };
 
+/// Particles, by their places in the store, in a box around some places with `margin` m to spare: all that are as near
+/// as that to one of them, and others.
+std::vector<uint32_t> rowsNear(const ParticleStore& store, std::span<const api::Double3> places, double margin);
 /// The places of a store's particles, and room for `more`.
 OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more);
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/touch.h"
 
-#include "core/base/parallel.h"
 #include "core/simulation/engine.h"
+#include "core/simulation/lattice.h"
 #include "core/solver/solver.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -57,17 +58,29 @@ bool canBe(const api::Touch& touch) {
   return touch.kind <= api::TouchKind::Weld && place && heat && motion && blade;
 }
 
-Reached reach(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
+Reachable reachable(const Engine& engine, std::span<const api::Touch> touches, std::vector<uint8_t> isSpared) {
+  std::vector<api::Double3> places;
+  double radius = 0;
+  for (const api::Touch& touch : touches) {
+    places.push_back(touch.centre);
+    radius = std::max(radius, touch.radius);
+  }
+  constexpr double kRounding = 1.001;  // offsets are known in single precision
+  return {rowsNear(engine.particles(), places, kRounding * radius), std::move(isSpared)};
+}
+
+Reached reach(const Engine& engine, const api::Touch& touch, const Reachable& among) {
   const ParticleStore& store = engine.particles();
+  const std::vector<uint8_t>& isSpared = among.isSpared;
   const bool moves = touch.kind != api::TouchKind::Heat;
-  const auto distanceOf = [&](size_t i) { return offsetOf(store, i, touch.centre).norm(); };
   Reached reached;
-  findIndices(store.size(), reached.rows, [&](size_t i) {
-    if (store.body()[i] < isSpared.size() && isSpared[store.body()[i]]) return false;
-    return !(moves && store.velocity()[i].w == 0) && distanceOf(i) < touch.radius;
-  });
-  for (const uint32_t i : reached.rows) {
-    reached.weights.push_back(weightOf(touch, distanceOf(i)) * store.mass()[i]);
+  for (const uint32_t i : among.rows) {
+    if (store.body()[i] < isSpared.size() && isSpared[store.body()[i]]) continue;
+    if (moves && store.velocity()[i].w == 0) continue;
+    const double distance = offsetOf(store, i, touch.centre).norm();
+    if (!(distance < touch.radius)) continue;
+    reached.rows.push_back(i);
+    reached.weights.push_back(weightOf(touch, distance) * store.mass()[i]);
     reached.total += reached.weights.back();
   }
   return reached;
@@ -80,9 +93,9 @@ std::vector<uint8_t> flagged(const Engine& engine, const std::vector<std::string
   return flags;
 }
 
-void addHeat(const Engine& engine, const api::Touch& touch, double seconds, const std::vector<uint8_t>& isSpared,
+void addHeat(const Engine& engine, const api::Touch& touch, double seconds, const Reachable& among,
              std::vector<double>& joules) {
-  const Reached reached = reach(engine, touch, isSpared);
+  const Reached reached = reach(engine, touch, among);
   for (size_t k = 0; k < reached.rows.size(); ++k) {
     const uint32_t row = reached.rows[k];
     const double wanted = touch.power * seconds * reached.weights[k] / reached.total;
@@ -92,10 +105,10 @@ void addHeat(const Engine& engine, const api::Touch& touch, double seconds, cons
   }
 }
 
-void addPush(const Engine& engine, const api::Touch& touch, double seconds, const std::vector<uint8_t>& isSpared,
+void addPush(const Engine& engine, const api::Touch& touch, double seconds, const Reachable& among,
              std::vector<Vector3>& change) {
   const ParticleStore& store = engine.particles();
-  const Reached reached = reach(engine, touch, isSpared);
+  const Reached reached = reach(engine, touch, among);
   for (size_t k = 0; k < reached.rows.size(); ++k) {
     const uint32_t row = reached.rows[k];
     const Vector3 wanted = vectorOf(touch.velocity) + vectorOf(touch.spin).cross(offsetOf(store, row, touch.centre));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/scene/pose.h"
 #include "core/sketch/cellset.h"
 #include "core/sketch/drawingplane.h"
@@ -10,6 +11,8 @@
 #include "core/sketch/strokemaker.h"
 #include "core/sketch/symmetry.h"
 
+#include <Eigen/Geometry>
+
 #include <QTest>
 
 #include <algorithm>
@@ -17,6 +20,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 using namespace ps;
 using api::Cell;
@@ -341,6 +345,73 @@ class TestSketch : public QObject {
     QCOMPARE(vectorOf(end[0].direction), Vector3(1, 0, 0));
   }
 
+  /// By the times of the raw samples: 2 m/s for long enough, and then at rest.
+  void denseSamplesKnowHowFastTheHandIs() {
+    StrokeResampler resampler(0.1);
+    std::vector<StrokeSample> dense;
+    for (int k = 0; k <= 60; ++k) {
+      StrokeSample raw = at(2 * k / 60.0, 0, 0, 1, k / 60.0);
+      raw.velocity = {7, 7, 7};  // nobody asks for it
+      const std::vector<StrokeSample> more = resampler.add(raw);
+      dense.insert(dense.end(), more.begin(), more.end());
+    }
+    QCOMPARE(vectorOf(dense.front().velocity), Vector3(0, 0, 0));
+    QVERIFY((vectorOf(dense.back().velocity) - Vector3(2, 0, 0)).norm() < 1e-6);  // exp(-1 s / 0.05 s)
+    for (size_t k = 1; k < dense.size(); ++k) QVERIFY(dense[k].velocity.x >= dense[k - 1].velocity.x);
+    resampler.add(at(2, 0, 0, 1, 2));
+    resampler.add(at(2.05, 0, 0, 1, 2));  // no time has passed: as fast as before
+    QVERIFY(vectorOf(resampler.finish().at(0).velocity).norm() < 1e-6);
+  }
+
+  /// Within reach of the samples, in the directions of a turned sketch, at each of the copies.
+  void aBrushSeesTheMatterWithinItsReach() {
+    class Seeing final : public BallBrush, public api::SeeingBrush {
+     public:
+      double reach(const api::StrokeContext& c) const noexcept override { return c.matter ? 100 : far; }
+      const void* extension(const char* name) const noexcept override {
+        return std::string_view(name) == api::kSeesMatter ? static_cast<const api::SeeingBrush*>(this) : nullptr;
+      }
+      void stroke(const api::StrokeContext& c, EditKind, const api::List<StrokeSample>&,
+                  api::EditSink&) const override {
+        knows = c.matter != nullptr;
+        for (size_t i = 0; knows && i < c.matter->count; ++i)
+          seen.emplace_back(vectorOf(c.matter->position[i]), c.matter->temperature[i]);
+      }
+      double far = 1.5;
+      mutable bool knows = false;
+      mutable std::vector<std::pair<Vector3, float>> seen;
+    } brush;
+    StrokeSetup setup{{{0, 0, 0}, 1.0}, 0.5, {0, 1, 0}, {}};
+    const std::vector<StrokeSample> samples{at(0, 0, 0), at(4, 0, 0)};
+    applyBrush(brush, setup, EditKind::Add, samples);
+    QVERIFY(!brush.knows);
+    setup.matterWithin = [](const Vector3& centre, double radius) {
+      SeenMatter all;
+      for (const Vector3& place : {Vector3(0, 1, 0), Vector3(2, 0, 0), Vector3(5, 0, 0), Vector3(-4, 0, 0)}) {
+        if ((place - centre).norm() > radius) continue;
+        all.position.push_back(float4Of(place, 0));
+        all.temperature.push_back(static_cast<float>(300 + place.x()));
+        all.speed.push_back(0), all.phase.push_back(api::Phase::Solid), all.motion.push_back(api::Motion::Solid);
+        all.body.push_back(0), all.material.push_back(0);
+      }
+      return all;
+    };
+    applyBrush(brush, setup, EditKind::Add, samples);
+    const auto places = [&] { return std::exchange(brush.seen, {}); };
+    QVERIFY((places() == std::vector<std::pair<Vector3, float>>{{{0, 1, 0}, 300.0F}, {{5, 0, 0}, 305.0F}}));
+    setup.symmetry = VoxelShape::Symmetry{"x", 1, Vector3(0, 0, 0)};
+    applyBrush(brush, setup, EditKind::Add, samples);
+    QCOMPARE(places().size(), size_t{4});  // in the mirror what is at 0 again, and what is at -4
+    setup.symmetry.reset();
+    setup.grid.pose = {Quaternion(Eigen::AngleAxisd(M_PI / 2, Vector3(0, 0, 1))), {0, 1, 0}};
+    applyBrush(brush, setup, EditKind::Add, std::vector{at(0, 0, 0)});  // stands at (0, 1, 0)
+    const auto turned = places();
+    QCOMPARE(turned.size(), size_t{1});
+    QVERIFY(turned[0].first.norm() < 1e-6 && turned[0].second == 300.0F);
+    brush.far = 11;
+    QVERIFY_EXCEPTION_THROWN(applyBrush(brush, setup, EditKind::Add, samples), BrushFault);
+  }
+
   void copiesLieInTheMirrorAndAboutTheAxis() {
     VoxelShape::Symmetry symmetry;
     QCOMPARE(imagesOf(symmetry).size(), size_t(1));
@@ -460,6 +531,16 @@ class TestSketch : public QObject {
             flooded(grid, cellsOf({{0, 0, 0}}), {}, gravity, open));
     QVERIFY(flooded(grid, cellsOf({{2, 3, 0}}), {}, gravity, open).empty());
     QVERIFY_EXCEPTION_THROWN(flooded(grid, cellsOf({{0, 3, 0}}), {}, gravity, open, 10), InputError);
+    // What the stroke has filled by then counts as well.
+    QCOMPARE(flooded(grid, cellsOf({{0, 3, 0}}), {}, gravity, open, left.size()).size(), left.size());
+    QVERIFY_EXCEPTION_THROWN(flooded(grid, cellsOf({{0, 3, 0}}), cellsOf({{90, 0, 0}}), gravity, open, left.size()),
+                             InputError);
+    Progress progress;
+    progress.cancel();
+    {
+      const ProgressScope scope(&progress);
+      QVERIFY_EXCEPTION_THROWN(flooded(grid, cellsOf({{0, 3, 0}}), {}, gravity, open), Cancelled);
+    }
     // Over the rim everything outside fills as well, down to the bottom of the scene.
     QVERIFY(flooded(grid, cellsOf({{0, 5, 0}}), {}, gravity, open).size() > 10000);
     const FreeOf endless = [](const SketchGrid&, const CellSet& cells) { return cells; };
