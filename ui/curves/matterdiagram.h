@@ -20,7 +20,7 @@ class MatterDiagram : public QWidget {
   QString caption() const;  ///< of what at which pressure, and the summary
   QString summary() const;  ///< how many particles are in which phase, or why there is no diagram
   const std::vector<HeatingCorner>& corners() const { return m_corners; }
-  QSize minimumSizeHint() const override { return {260, 120}; }
+  QSize minimumSizeHint() const override { return {260, 100}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

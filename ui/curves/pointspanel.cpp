@@ -80,6 +80,7 @@ PointsPanel::PointsPanel(CurveTarget& target, QWidget* parent)
   column->setContentsMargins(8, 6, 8, 8);
   column->setSpacing(6);
   m_table->setAccessibleName(QStringLiteral("Points"));
+  m_table->setTabKeyNavigation(false);  // Tab would go round in it for ever
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
   m_table->setSelectionMode(QAbstractItemView::SingleSelection);
   m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);

@@ -42,6 +42,12 @@ const api::ParameterDeclaration& declarationOf(const QString& key) {
   return propertyCatalogue()[static_cast<size_t>(propertyIndex(key.toStdString()))];
 }
 
+/// Up to five of its rows are seen, as high as they are where it is.
+void fitRows(QListWidget& list) {
+  const int row = std::max(kOther, list.sizeHintForRow(0));
+  list.setFixedHeight(std::clamp(list.count(), 1, 5) * row + 4);
+}
+
 /// The phase that a property is of, where none of the matter is in it now: what the curve says there is of nothing.
 QString absentPhase(const QString& key, const MaterialNow& now) {
   using api::Phase;
@@ -188,6 +194,8 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
   connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
     if (item) m_target.choose({Owner::Material, m_target.material(), item->data(kKey).toString().toStdString()});
   });
+  for (const QListWidget* list : {m_list, m_tracks})
+    connect(list, &QListWidget::itemPressed, this, &ResponseList::chosen);
   connect(m_others, &QListWidget::itemChanged, this, &ResponseList::onCompared);
   connect(m_tracks, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
     const auto address = item ? Address::parse(item->data(kKey).toString().toStdString()) : std::nullopt;
@@ -203,10 +211,14 @@ ResponseList::ResponseList(Session& session, CurveTarget& target, QWidget* paren
   connect(&session, &Session::totalsDue, this, [this] {
     if (isVisible()) refresh();
   });
+  rebuild();  // on the board it is made when there is a target already
 }
 
-/// What it did not follow while it was hidden.
-void ResponseList::showEvent(QShowEvent*) { refresh(); }
+/// What it did not follow while it was hidden; a board in a headset has larger rows.
+void ResponseList::showEvent(QShowEvent*) {
+  for (QListWidget* list : {m_others, m_tracks}) fitRows(*list);
+  refresh();
+}
 
 void ResponseList::onCompared(QListWidgetItem* item) {
   m_target.compare(otherOf(*item), item->checkState() == Qt::Checked);
@@ -220,7 +232,7 @@ void ResponseList::showCompared() {
     QListWidgetItem* item = m_others->item(i);
     item->setCheckState(m_target.compared().contains(otherOf(*item)) ? Qt::Checked : Qt::Unchecked);
   }
-  m_others->setFixedHeight(std::clamp(m_others->count(), 1, 5) * kOther + 4);
+  fitRows(*m_others);
   m_others->setVisible(m_others->count() > 0);
 }
 
@@ -292,7 +304,7 @@ void ResponseList::rebuildTracks() {
     item->setToolTip(QStringLiteral("Edits its keys as a curve over time"));
     if (m_target.track() == *address) m_tracks->setCurrentItem(item);
   }
-  m_tracks->setFixedHeight(std::clamp(m_tracks->count(), 1, 5) * kOther + 4);
+  fitRows(*m_tracks);
   for (QWidget* widget : std::initializer_list<QWidget*>{m_keyed, m_tracks}) widget->setVisible(m_tracks->count() > 0);
 }
 

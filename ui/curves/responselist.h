@@ -26,6 +26,9 @@ class ResponseList : public QWidget {
   QListWidget* tracks() const { return m_tracks; }
   QToolButton* addButton() const { return m_add; }  ///< its menu has what is installed
 
+ Q_SIGNALS:
+  void chosen();  ///< by hand, a response or keys, which may have been chosen already
+
  protected:
   void showEvent(QShowEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;

@@ -77,6 +77,8 @@ void addFaded(std::vector<EdgeVertex>& out, const Vector3& a, const Vector3& b, 
   for (const size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) out.push_back(corners[k]);
 }
 
+bool isLevel(const Vector3& a, const Vector3& b) { return std::abs(a[1] - b[1]) < 1e-6; }
+
 /// Where panes end: at a lid, or where they fade out.
 struct Top {
   double height = 0;  // m
@@ -84,20 +86,27 @@ struct Top {
   bool lid = false;   // one is seen
 };
 
-// The edges of a pane from the floor up to a lid, or fading out where the bounds are its only upper end.
-void addPane(Furniture& out, const Face& shown, double top, bool open) {
+/// The edges of a pane that are drawn, from the floor up to a lid, or fading out where the bounds are its only upper
+/// end: visit(a, b, whether a, whether b is where it has faded out).
+template <class Visit>
+void eachPaneEdge(const Face& shown, double floor, const Top& top, const Visit& visit) {
   const size_t n = shown.corners.size();
   if (n < 3) return;
-  const auto faded = [&](const Vector3& p) { return open && p[1] > top - 1e-6; };
+  const auto faded = [&](const Vector3& p) { return top.open && p[1] > top.height - 1e-6; };
   for (size_t i = 0; i < n; ++i) {
     const Vector3 &a = shown.corners[i], &b = shown.corners[(i + 1) % n];
     if (faded(a) && faded(b)) continue;
-    const bool level = std::abs(a[1] - b[1]) < 1e-6;
-    if (level && std::min(a[1], b[1]) < out.floor + 1e-6) continue;  // the rim is there
-    // Upright edges belong to two panes and get half from each.
-    const double opacity = level ? 0.42 : 0.22;
-    addFaded(out.edges, a, b, faded(a) ? 0 : opacity, faded(b) ? 0 : opacity);
+    if (isLevel(a, b) && std::min(a[1], b[1]) < floor + 1e-6) continue;  // the rim is there
+    visit(a, b, faded(a), faded(b));
   }
+}
+
+void addPane(Furniture& out, const Face& shown, const Top& top) {
+  eachPaneEdge(shown, out.floor, top, [&](const Vector3& a, const Vector3& b, bool fadedA, bool fadedB) {
+    // Upright edges belong to two panes and get half from each.
+    const double opacity = isLevel(a, b) ? 0.42 : 0.22;
+    addFaded(out.edges, a, b, fadedA ? 0 : opacity, fadedB ? 0 : opacity);
+  });
 }
 
 void placeFloor(Furniture& out, const Environment& environment) {
@@ -298,6 +307,21 @@ Face leftOf(const Environment& environment, size_t wall, const std::optional<Sec
   return roleOf(environment.walls[wall]) == Role::Floor ? whole : left;
 }
 
+std::vector<std::pair<Vector3, Vector3>> paneLines(const Environment& environment, size_t wall,
+                                                   const std::optional<Section>& section) {
+  constexpr double kSeen = 2.0 / 3;  // of an edge that fades: beyond, less than a third of its ink is left
+  Lines lines;
+  if (isRound(environment, wall) || roleOf(environment.walls[wall]) != Role::Side) return lines;
+  Furniture floor;
+  placeFloor(floor, environment);
+  eachPaneEdge(leftOf(environment, wall, section), floor.floor, topOf(environment, floor),
+               [&](const Vector3& a, const Vector3& b, bool fadedA, bool fadedB) {
+                 lines.emplace_back(fadedA ? Vector3(b + kSeen * (a - b)) : a,
+                                    fadedB ? Vector3(a + kSeen * (b - a)) : b);
+               });
+  return lines;
+}
+
 std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole) {
   const WallFace face = faceOf(environment.walls[wall]);
   if (!face.isCurved()) return {};
@@ -350,7 +374,7 @@ Furniture buildFurniture(const Environment& environment, bool dark, const std::o
                 with(lid, 0.16), with(lid, 0.22));
         break;
       case Role::Side:
-        addPane(out, face, top.height, top.open);
+        addPane(out, face, top);
         break;
     }
   }

@@ -31,6 +31,10 @@ Face wallFace(const Environment& environment, size_t wall);
 Face seenFace(const Environment& environment, size_t wall);
 /// What a section leaves of that. A floor stays whole as long as any of it is left: it is what things stand on.
 Face leftOf(const Environment& environment, size_t wall, const std::optional<Section>& section);
+/// The edges of a side that are drawn, m, as far as something is to be seen of them: not along the floor, whose rim is
+/// there, and not where they have faded out. Nothing of other walls.
+std::vector<std::pair<Vector3, Vector3>> paneLines(const Environment& environment, size_t wall,
+                                                   const std::optional<Section>& section);
 /// The lines by which a curved wall is seen, m: rings and straight lines of a cylinder from floor to lid, or where
 /// panes fade; three great circles of a sphere, as far as planes do not hide them, or `whole`. Nothing of a plane.
 std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environment, size_t wall, bool whole = false);

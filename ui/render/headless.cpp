@@ -113,11 +113,11 @@ struct Picture {
 
 }  // namespace
 
-std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size) {
+std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size, int coarser) {
   renderer.checkSize(size);
   const render::GlState state;
   const Picture picture(size.width, size.height);
-  renderer.draw(eye, {picture.framebuffer, 0, 0, size});
+  renderer.draw(eye, {picture.framebuffer, 0, 0, size, 0, nullptr, coarser});
 
   const size_t row = static_cast<size_t>(size.width) * 4;
   std::vector<uint8_t> pixels(row * static_cast<size_t>(size.height));

@@ -48,8 +48,18 @@ Quality qualityOf(const char* rendererName, PixelWork work) {
   return quality;
 }
 
+Quality coarser(const Quality& full, int steps) {
+  Quality quality = full;
+  for (int step = 0; step < std::min(steps, kSoftSteps); ++step)
+    for (int* samples : {&quality.shadowTaps, &quality.occlusionSamples, &quality.fluidTaps, &quality.fluidRounds,
+                         &quality.steamSprites})
+      *samples = std::max(1, *samples / 2);
+  return quality;
+}
+
 Passes::Passes(PixelWork work)
     : m_quality(qualityOf(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), work)),
+      m_full(m_quality),
       m_programs(m_quality.compute),
       m_shadow(m_quality.compute ? GL_R32F : GL_DEPTH_COMPONENT24, m_quality.compute ? GL_NEAREST : GL_LINEAR) {
   if (m_quality.compute)
@@ -303,6 +313,7 @@ void Passes::prepare(const Prepared& prepared) {
 
 void Passes::draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers) {
   const VertexArray plain;
+  m_quality = coarser(m_full, frame.coarser);
   m_fence.wait();
   PassClock clock(m_times);
   const Job job{prepared, frame, layers, plain, clock};

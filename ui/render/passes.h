@@ -33,6 +33,9 @@ struct Quality {
   bool takesTurns = false;  ///< no two threads may draw at once, each in a context of its own
 };
 Quality qualityOf(const char* rendererName, PixelWork work);
+/// With half as many samples of what is soft for each step, as RenderTarget::coarser has them. Textures keep their
+/// sizes.
+Quality coarser(const Quality& full, int steps);
 /// Of the buffer's corners of triangles, MeshVertex or EdgeVertex, in the vertex array that is bound.
 void meshAttributes(GLuint buffer);
 
@@ -110,7 +113,8 @@ class Passes {
   void tellParticles(const Program& program, const Buffer& particles, Range range);
   void drawTiles(const Tiles& tiles);
 
-  Quality m_quality;
+  Quality m_quality;  ///< of the picture being drawn
+  const Quality m_full;
   std::vector<PassTime>* m_times = nullptr;
   GLint m_largest = 0;
   Programs m_programs;

@@ -80,7 +80,11 @@ struct RenderTarget {
   uint32_t texture = 0;
   /// What need not be drawn, and is left black, but for an edge; nullptr: all is seen.
   std::shared_ptr<const HiddenTriangles> hidden = nullptr;
+  /// By how many steps what is soft (shadows, crevices, the skin of liquids, vapour) is coarser than it could be, for
+  /// time: 0..kSoftSteps. Matter keeps its shapes, places and colours.
+  int coarser = 0;
 };
+inline constexpr int kSoftSteps = 2;
 
 /// The scene's furniture that is drawn around particles.
 struct RenderScene {
@@ -202,7 +206,8 @@ class HeadlessContext {
   std::unique_ptr<Impl> m;
 };
 
-/// Draws what is prepared into an image of RGBA8 rows from the top; needs a current context.
-std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size);
+/// Draws what is prepared into an image of RGBA8 rows from the top; needs a current context. `coarser`: as RenderTarget
+/// has it.
+std::vector<uint8_t> renderImage(Renderer& renderer, const Eye& eye, const PictureSize& size, int coarser = 0);
 
 }  // namespace ps

@@ -70,6 +70,7 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   width = target.size.width * scale;
   height = target.size.height * scale;
   still = target.size.still;
+  coarser = target.coarser;
   culled = quality.cull;
   const BodyOutline line = prepared.look.outline.value_or(BodyOutline());
   lineWidth = line.lineWidth * static_cast<float>(scale);

@@ -20,6 +20,7 @@ struct ViewFrame {
   PicturePlace place;
   uint32_t texture = 0;       ///< behind the framebuffer, where that is known
   int width = 0, height = 0;  ///< of the inner targets, pixels
+  int coarser = 0;            ///< as RenderTarget has it
   bool still = false;         ///< inner targets have two pixels for one of the picture, along each side
   bool culled = false;        ///< `visible` has the spheres that show; else all do
   bool lidInFront = true;     ///< the eye is above the lid

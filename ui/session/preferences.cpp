@@ -18,10 +18,12 @@ constexpr const char *kMemory = "recording/memory", *kUndo = "undo/memory", *kDi
                      *kMouse = "look/mouse", *kPivot = "handles/pivot", *kSnap = "handles/snap",
                      *kSurfaces = "handles/surfaces", *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
                      *kScaleStep = "handles/scaleStep", *kBrushes = "sketch/favouriteBrushes",
-                     *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye";
+                     *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye", *kLeftHanded = "vr/leftHanded",
+                     *kOneHanded = "vr/oneHanded", *kSeated = "vr/seatedHeight";
 constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
 constexpr int kUsualUndo = 512, kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
+constexpr int kMostSeated = 100;  // cm
 constexpr int kUsualAutosave = 30, kLeastAutosave = 5, kMostAutosave = 3600;
 
 /// Whatever stands in the file.
@@ -114,6 +116,13 @@ void setHandles(const HandleSettings& settings) {
 
 int vibration() { return number(kVibration, 60, 0, 100); }
 void setVibration(int percent) { set(kVibration, percent); }
+
+bool leftHanded() { return QSettings().value(QLatin1String(kLeftHanded), false).toBool(); }
+void setLeftHanded(bool on) { set(kLeftHanded, on); }
+bool oneHanded() { return QSettings().value(QLatin1String(kOneHanded), false).toBool(); }
+void setOneHanded(bool on) { set(kOneHanded, on); }
+int seatedHeight() { return number(kSeated, 0, 0, kMostSeated); }
+void setSeatedHeight(int centimetres) { set(kSeated, centimetres); }
 
 bool showsEye() { return QSettings().value(QLatin1String(kShowsEye), false).toBool(); }
 void setShowsEye(bool on) { set(kShowsEye, on); }

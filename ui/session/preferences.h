@@ -58,6 +58,15 @@ void setHandles(const HandleSettings& settings);
 int vibration();
 void setVibration(int percent);
 
+/// Which hand is the main one in a headset, and whether it is alone.
+bool leftHanded();
+void setLeftHanded(bool on);
+bool oneHanded();
+void setOneHanded(bool on);
+/// cm, by which the scene stands lower than before one who sits.
+int seatedHeight();
+void setSeatedHeight(int centimetres);
+
 /// Whether the window shows what the left eye sees while a headset is on; else it shows its view.
 bool showsEye();
 void setShowsEye(bool on);

@@ -41,6 +41,14 @@ HandPose gripOf(size_t hand, const HandPose& palm) {
 
 }  // namespace
 
+HandPose palmOf(size_t hand, const HandPose& grip) {
+  const Matrix3 own = grip.orientation.normalized().toRotationMatrix();
+  const double side = hand == kLeft ? -1 : 1;
+  Matrix3 axes;
+  axes << side * own.col(2), side * own.col(0), own.col(1);
+  return {grip.position, Quaternion(axes)};
+}
+
 double pinchOf(const SeenHand& hand) {
   const HandJoint &thumb = hand.joints[kThumbTip], &index = hand.joints[kIndexTip];
   return std::clamp(1 - (between(thumb, index) - thumb.radius - index.radius) / kPinch, 0.0, 1.0);

@@ -20,6 +20,9 @@ double fistOf(const SeenHand& hand);
 /// Whether its index is straight while the three fingers beside it are closed.
 bool pointsWith(const SeenHand& hand);
 
+/// Of a hand whose grip is known, as SeenHand::palm.
+HandPose palmOf(size_t hand, const HandPose& grip);
+
 /// Has a hand's input say what its bare hand does: the tip of the index is where things are drawn and pressed.
 /// `told`: who reads hands tells already where it aims and how far it pinches and holds; else that follows from joints.
 void useBareHand(HandInput& input, size_t hand, const SeenHand& seen, bool told);

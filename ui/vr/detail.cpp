@@ -16,7 +16,7 @@ void Detail::note(double cost, double period) {
   ++m_frames;
   if (cost > period) ++m_late;
   m_quick = cost < kHaste * period ? m_quick + 1 : 0;
-  if (m_late >= kMany && m_step + 1 < std::size(kScales)) {
+  if (m_late >= kMany && m_step + 1 < std::size(kSteps)) {
     ++m_step;
     m_frames = m_late = m_quick = 0;
   } else if (m_quick >= kCalm && m_step > 0) {

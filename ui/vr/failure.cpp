@@ -33,6 +33,12 @@ std::string sentenceOf(XrResult result, const std::string& call) {
       return "The headset was lost; see that it is connected, and enter VR again.";
     case XR_ERROR_INSTANCE_LOST:
       return "The headset's software has stopped; start it, and enter VR again.";
+    case XR_ERROR_LIMIT_REACHED:
+      if (call != "xrCreateInstance")
+        return "The headset's software takes no more (" + call +
+               "); close what else uses the headset, and enter VR again.";
+      return "The headset's software still keeps the last stay; wait until it answers, or save and start the program "
+             "again.";
     case XR_ERROR_OUT_OF_MEMORY:
       return "The headset's software has no memory left; close what else runs.";
     default:

@@ -13,6 +13,15 @@ namespace ps::vr {
 inline constexpr size_t kLeft = 0, kRight = 1;
 inline constexpr double kTip = 0.06;  ///< m before where a hand aims from: there its brush is
 
+/// What the hands are to their wearer: the main one draws, undoes and chooses, the other one erases, holds the palette,
+/// plays and goes.
+struct HandRoles {
+  size_t main = kRight;
+  bool alone = false;  ///< the main one alone is used: it brings the palette as well
+  size_t other() const { return kLeft + kRight - main; }
+  bool operator==(const HandRoles&) const = default;
+};
+
 /// Where something is, in the floor's space; metres.
 struct HandPose {
   Vector3 position{0, 0, 0};
@@ -34,10 +43,12 @@ struct HandInput {
   double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
   double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
   std::string_view profile;       ///< what it holds: of OpenXR, as suggestions() have it, or of handlabels.h; "": none
+  bool bare = false;              ///< nothing: whoever reads hands tells how far it pinches and holds
   bool pad = false;               ///< a pad steers, which means something where it is pressed
   std::optional<HandJoints> joints;  ///< of a bare hand that is seen, in the floor's space
   bool points = false;               ///< a bare hand, of which the index alone is straight
   bool steerPressed = false, first = false, second = false;
+  bool menu = false;  ///< asks for the palette
 };
 
 /// What a controller shall let feel.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/vr/handlabels.h"
 
-#include "ui/vr/handinput.h"
 #include "ui/vr/suggestions.h"
 
 #include <algorithm>
@@ -31,60 +30,75 @@ std::string nameOf(std::string_view part) {
 }
 
 /// As VrHands and Moving take it.
-void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, size_t hand) {
+void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, bool main) {
   if (of.steer.empty()) return;
   const std::string name = nameOf(of.steer);
   if (of.steer != "/input/trackpad") {
-    labels.push_back({name, hand == kLeft ? "forward: go there" : "up, down: size; aside: turn"});
-    if (hand == kRight) labels.push_back({name + " pressed", "next material"});
-  } else if (hand == kLeft) {
-    labels.push_back({name, "forward: go there; aside: turn"});
-  } else {
+    labels.push_back({name, main ? "up, down: size; aside: turn" : "forward: go there"});
+    if (main) labels.push_back({name + " pressed", "next material"});
+  } else if (main) {
     labels.push_back({name, "middle: next material"});
     labels.push_back({"", "up, down: size; aside: shape"});
+  } else {
+    labels.push_back({name, "forward: go there; aside: turn"});
   }
 }
 
+/// What a trigger does on a panel and off it, and with the grip.
+const char* pulled(bool main) { return main ? "draw, press" : "erase, press"; }
+const char* pulledHeld(bool main) { return main ? "erase" : "draw"; }
+
 /// As the window of a trial takes them, whichever hand they lead.
-std::vector<HandLabel> keys() {
-  return {{"Left button", "draw, press"}, {"Shift", "hold"},      {"Shift, left button", "erase"},
-          {"G", "both hands: the scene"}, {"Wheel", "reach"},     {"Up, down", "size"},
-          {"Left, right", "turn"},        {"N", "next material"}, {"F", "go where the left hand points"},
-          {"Space", "play, pause"},       {"U", "undo"},          {"P", "board"},
+std::vector<HandLabel> keys(bool main) {
+  return {{"Left button", pulled(main)},
+          {"Shift", "hold"},
+          {"Shift, left button", pulledHeld(main)},
+          {"G", "both hands: the scene"},
+          {"Wheel", "reach"},
+          {"Up, down", "size"},
+          {"Left, right", "turn"},
+          {"N", "next material"},
+          {"F", "go where the other hand points"},
+          {"Space", "play, pause"},
+          {"U", "undo"},
+          {"P", "board"},
+          {"M", "palette"},
           {"Tab", "the other hand"}};
 }
 
-std::vector<HandLabel> ofBareHand(size_t hand) {
+std::vector<HandLabel> ofBareHand(bool main) {
   std::vector<HandLabel> labels{
-      {"Pinch", "draw, press"}, {"Fist", "hold; both hands: the scene"}, {"Fist, Pinch", "erase"}};
-  if (hand == kLeft) labels.push_back({"Index, then Pinch", "point; go there"});
+      {"Pinch", pulled(main)}, {"Fist", "hold; both hands: the scene"}, {"Fist, Pinch", pulledHeld(main)}};
+  if (!main) labels.push_back({"Index, then Pinch", "point; go there"});
   return labels;
 }
 
 }  // namespace
 
-std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand) {
-  if (profile == kMouse) return keys();
-  if (profile == kJointsAlone) return ofBareHand(hand);
+std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand, const HandRoles& roles) {
+  const bool main = hand == roles.main;
+  if (profile == kMouse) return keys(main);
+  if (profile == kJointsAlone) return ofBareHand(main);
   std::vector<HandLabel> labels;
   const std::vector<Suggestion>& all = suggestions();
   const auto of = std::find_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.profile == profile; });
   if (of == all.end()) return labels;
-  if (of->bareHand) return ofBareHand(hand);
-  labels.push_back({nameOf(of->draw), "draw, press"});
+  if (of->bareHand) return ofBareHand(main);
+  labels.push_back({nameOf(of->draw), pulled(main)});
   if (!of->hold.empty()) {
     const std::string hold = nameOf(of->hold);
     labels.push_back({hold, "hold; both hands: the scene"});
-    labels.push_back({hold + ", " + labels.front().part, "erase"});
+    labels.push_back({hold + ", " + labels.front().part, pulledHeld(main)});
   }
-  addSteering(labels, *of, hand);
+  addSteering(labels, *of, main);
   const std::string_view first = hand == kLeft ? of->leftFirst : of->rightFirst;
   const std::string_view second = hand == kLeft ? of->leftSecond : of->rightSecond;
-  const char* const does[] = {hand == kLeft ? "play, pause" : "undo", hand == kLeft ? "make real" : "board"};
+  const char* const does[] = {main ? "undo" : "play, pause", main ? "board" : "make real"};
   if (!first.empty()) labels.push_back({nameOf(first), does[0]});
   // One button for both: for half a second it is the second.
   if (!first.empty() && second.empty()) labels.push_back({nameOf(first) + " held", does[1]});
   if (!second.empty()) labels.push_back({nameOf(second), does[1]});
+  if (!of->menu.empty()) labels.push_back({nameOf(of->menu), "palette"});
   return labels;
 }
 

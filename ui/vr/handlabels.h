@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/vr/handinput.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -17,6 +19,6 @@ inline constexpr std::string_view kMouse = "mouse", kJointsAlone = "joints";
 
 /// What the parts of a controller, of a bare hand, or of mouse and keyboard do; none of a profile that is not
 /// suggested.
-std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand);
+std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand, const HandRoles& roles = {});
 
 }  // namespace ps::vr

@@ -5,6 +5,7 @@
 #include "ui/render/colourmap.h"
 #include "ui/render/uniforms.h"
 #include "ui/vr/barehand.h"
+#include "ui/vr/suggestions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,13 +91,56 @@ void addForm(std::vector<MeshVertex>& out, const Vector3& centre, const StampFor
 
 }  // namespace
 
-void addWand(Props& props, const HandPose& hand, double scale, const Colour& colour, bool dark) {
-  const Colour body = render::sceneColour(dark, "rim"), ring = render::sceneColour(dark, "foot");
+namespace {
+
+constexpr double kBack = 0.015;                            // m over the wand's axis, of what thumbs reach
+constexpr double kRing = 0.046, kRingTube = 0.0038;        // m
+constexpr double kRingTilt = 50 * std::numbers::pi / 180;  // forward, from across the wand
+const Vector3 kRingPlace(0, 0.022, 0.018);                 // m
+
+/// A disc on the wand's back, so far along it and aside.
+void addDisc(std::vector<MeshVertex>& out, const HandPose& hand, double scale, const Vector3& at, const Ring& top,
+             const Colour& colour) {
+  const HandPose up{hand.position + scale * (hand.orientation * at),
+                    hand.orientation * Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY())};
+  addBand(out, up, scale, {0, top.radius}, top, colour);
+  addBand(out, up, scale, top, {top.along, 0}, colour);
+}
+
+void addRing(std::vector<MeshVertex>& out, const HandPose& hand, double scale, const Colour& colour) {
+  constexpr int kParts = 28;
+  const auto at = [](int part) -> Vector3 {
+    const double angle = 2 * std::numbers::pi * part / kParts, up = kRing * std::sin(angle);
+    return kRingPlace + Vector3(kRing * std::cos(angle), up * std::cos(kRingTilt), -up * std::sin(kRingTilt));
+  };
+  for (int part = 0; part < kParts; ++part) {
+    const Vector3 from = at(part), way = at(part + 1) - from;
+    const HandPose along{hand.position + scale * (hand.orientation * from),
+                         hand.orientation * Quaternion::FromTwoVectors(Vector3::UnitZ(), way)};
+    addBand(out, along, scale, {0, kRingTube}, {way.norm(), kRingTube}, colour, kBoneSides);
+  }
+}
+
+}  // namespace
+
+void addController(Props& props, const HandPose& hand, double scale, const HandColours& colours,
+                   const ControllerParts& parts) {
+  const Colour body = render::sceneColour(colours.dark, "rim"), ring = render::sceneColour(colours.dark, "foot");
   constexpr Ring kRings[] = {{0.115, 0},      {0.112, 0.010},  {0.100, 0.014},  {0.020, 0.018},    {0.012, 0.0185},
                              {-0.004, 0.017}, {-0.012, 0.009}, {-kTip, 0.0012}, {-kTip - 0.001, 0}};
-  const Colour* colours[] = {&body, &body, &body, &ring, &body, &body, &colour, &colour};
+  const Colour* bands[] = {&body, &body, &body, &ring, &body, &body, &colours.tip, &colours.tip};
   for (size_t i = 0; i + 1 < std::size(kRings); ++i)
-    addBand(props.opaque, hand, scale, kRings[i + 1], kRings[i], *colours[i]);
+    addBand(props.opaque, hand, scale, kRings[i + 1], kRings[i], *bands[i]);
+  if (parts.ring) addRing(props.opaque, hand, scale, body);
+  if (parts.pad) addDisc(props.opaque, hand, scale, {0, kBack, 0.045}, {0.006, 0.017}, ring);
+  if (parts.stick) {
+    addDisc(props.opaque, hand, scale, {0, kBack, 0.028}, {0.010, 0.004}, body);
+    addDisc(props.opaque, hand, scale, {0, kBack + 0.010, 0.028}, {0.003, 0.008}, ring);
+  }
+  for (int button = 0; button < parts.buttons; ++button) {
+    const double aside = parts.buttons > 1 ? 0.006 * (2 * button - 1) : 0;
+    addDisc(props.opaque, hand, scale, {aside, kBack, parts.pad ? 0.072 : 0.05}, {0.0045, 0.0045}, ring);
+  }
 }
 
 void addHand(Props& props, const HandJoints& joints, const Colour& colour, bool dark) {

@@ -6,9 +6,17 @@
 
 namespace ps::vr {
 
-/// A wand as long as a hand, with a point of the brush's colour. `hand` is in the scene, of which `scale` m are one of
-/// the room.
-void addWand(Props& props, const HandPose& hand, double scale, const std::array<float, 3>& colour, bool dark);
+struct ControllerParts;
+
+struct HandColours {
+  std::array<float, 3> tip{};  ///< sRGB, of the brush
+  bool dark = true;            ///< of the theme
+};
+
+/// A wand as long as a hand, with a point of the brush's colour, and on it what the controller has. `hand` is in the
+/// scene, of which `scale` m are one of the room.
+void addController(Props& props, const HandPose& hand, double scale, const HandColours& colours,
+                   const ControllerParts& parts);
 /// A bare hand by its joints, in the scene; the index's tip has the brush's colour.
 void addHand(Props& props, const HandJoints& joints, const std::array<float, 3>& colour, bool dark);
 /// A beam from the wand's tip to `length` m from where the hand aims, and a dot at its end.

@@ -67,6 +67,7 @@ void Hands::makeActions() {
   m_steerPress = make("steer_press", "Confirm the choice", XR_ACTION_TYPE_BOOLEAN_INPUT);
   m_first = make("first", "Undo, or play", XR_ACTION_TYPE_BOOLEAN_INPUT);
   m_second = make("second", "Board, or make real", XR_ACTION_TYPE_BOOLEAN_INPUT);
+  m_menu = make("menu", "Palette", XR_ACTION_TYPE_BOOLEAN_INPUT);
   m_feel = make("feel", "Feel", XR_ACTION_TYPE_VIBRATION_OUTPUT);
 }
 
@@ -86,6 +87,7 @@ void Hands::suggest() {
       bind(m_steerPress, hand, suggestion.steerPress);
       bind(m_first, hand, hand == kLeft ? suggestion.leftFirst : suggestion.rightFirst);
       bind(m_second, hand, hand == kLeft ? suggestion.leftSecond : suggestion.rightSecond);
+      bind(m_menu, hand, suggestion.menu);
       bind(m_feel, hand, suggestion.bareHand ? "" : "/output/haptic");
     }
     auto info = structure<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
@@ -186,11 +188,13 @@ HandInput Hands::input(size_t hand, XrTime time) const {
   if (state.isActive) input.steerX = double(state.currentState.x), input.steerY = double(state.currentState.y);
   if (const Suggestion* what = held(hand)) {
     input.profile = what->profile;
+    input.bare = what->bareHand;
     input.pad = what->steer == kPad;
   }
   input.steerPressed = pressed(m_steerPress, hand);
   input.first = pressed(m_first, hand);
   input.second = pressed(m_second, hand);
+  input.menu = pressed(m_menu, hand);
   return input;
 }
 

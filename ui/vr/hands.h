@@ -48,7 +48,7 @@ class Hands {
   XrActionSet m_set = XR_NULL_HANDLE;
   XrAction m_grip = XR_NULL_HANDLE, m_aim = XR_NULL_HANDLE, m_draw = XR_NULL_HANDLE, m_hold = XR_NULL_HANDLE;
   XrAction m_steer = XR_NULL_HANDLE, m_steerPress = XR_NULL_HANDLE, m_first = XR_NULL_HANDLE, m_second = XR_NULL_HANDLE;
-  XrAction m_feel = XR_NULL_HANDLE;
+  XrAction m_menu = XR_NULL_HANDLE, m_feel = XR_NULL_HANDLE;
   std::array<XrSpace, 2> m_gripSpaces{}, m_aimSpaces{};
 };
 

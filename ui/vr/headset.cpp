@@ -14,8 +14,13 @@
 #include "ui/vr/visibilitymask.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <span>
+#include <utility>
 
 namespace ps::vr {
 namespace {
@@ -25,7 +30,10 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kPause{5};        // between looks at a headset that lies on the table
 constexpr milliseconds kPatience{2000};  // for the runtime to let go, once it was asked
-constexpr double kNanosecond = 1e-9;     // s
+// For a call into the runtime to come back, of which xrWaitFrame() may take a second where a headset is not seen; and
+// from when it was asked to leave until it is left in there.
+constexpr milliseconds kHung{3000}, kGrace{1000};
+constexpr double kNanosecond = 1e-9;  // s
 
 double secondsSince(steady_clock::time_point start) {
   return std::chrono::duration<double>(steady_clock::now() - start).count();
@@ -69,46 +77,102 @@ class Current {
 
 }  // namespace
 
+/// What the thread and who has made it share. It outlives whoever lets go of it first.
+struct Headset::Stay {
+  explicit Stay(HeadsetSetup own) : setup(std::move(own)) {}
+  void run();
+  Ending last();
+  /// Throws Error where it was abandoned in the runtime: then there is nobody to show anything to.
+  void requireOwner() const;
+  class Asking;
+  /// With the mutex.
+  bool hangs() const { return waits && steady_clock::now() - *waits > kHung; }
+  bool overdue() const { return hangs() && asked && steady_clock::now() - *asked > kGrace; }
+
+  const HeadsetSetup setup;
+  std::atomic<bool> leave = false;
+  std::atomic<uint64_t> frames = 0;
+  std::atomic<double> detail = 1, hertz = 0;
+  std::atomic<int> coarser = 0;
+  std::atomic<Worn> worn = Worn::Off;
+  std::array<std::atomic<bool>, 2> sees{};
+
+  mutable std::mutex mutex;  ///< of what follows
+  std::condition_variable changed;
+  std::optional<Ending> ending;
+  std::optional<steady_clock::time_point> waits, asked;  ///< in the runtime, and to leave, since when
+  bool abandoned = false;                                ///< nobody waits for the thread any more
+};
+
+/// While it lives the runtime has the thread, which it may keep for good.
+class Headset::Stay::Asking {
+ public:
+  explicit Asking(Stay& stay) : m_stay(stay) { note(steady_clock::now()); }
+  ~Asking() { note({}); }
+  Asking(const Asking&) = delete;
+  Asking& operator=(const Asking&) = delete;
+
+ private:
+  void note(std::optional<steady_clock::time_point> since) {
+    const std::lock_guard lock(m_stay.mutex);
+    m_stay.waits = since;
+  }
+  Stay& m_stay;
+};
+
 /// What there is during a stay; made in this order, and put away in the other.
 class Headset::Loop {
  public:
-  Loop(Headset& told)
-      : m_setup(told.m_setup),
+  explicit Loop(Stay& told)
+      : m_setup(told.setup),
         m_told(told),
+        m_making(std::in_place, told),
         m_runtime(wishes()),
         m_session(m_runtime),
         m_rate(m_runtime, m_session.handle()),
         m_mask(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
-        m_tracking(m_runtime, m_session),
-        m_scene(m_setup.makeScene()) {
+        m_tracking(m_runtime, m_session) {
+    m_making.reset();
+    m_told.requireOwner();
+    m_scene = m_setup.makeScene();
+    m_making.emplace(m_told);
     const auto sizes = recommendedSizes(m_runtime);
     for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
     if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, m_setup.nearPlane, m_setup.farPlane);
+    m_making.reset();
+    m_told.requireOwner();
   }
 
   Session& session() { return m_session; }
   void handleEvents() {
-    m_session.handleEvents([this](const XrEventDataBuffer& event) {
-      m_rate.notice(event);
-      m_mask.notice(event);
-    });
-    m_told.m_hertz = m_rate.hertz();
-    m_told.m_worn = m_session.focused() ? Worn::On : m_session.visible() ? Worn::BehindMenu : Worn::Off;
+    {
+      const Stay::Asking asking(m_told);
+      m_session.handleEvents([this](const XrEventDataBuffer& event) {
+        m_rate.notice(event);
+        m_mask.notice(event);
+      });
+    }
+    m_told.requireOwner();
+    m_told.hertz = m_rate.hertz();
+    m_told.worn = m_session.focused() ? Worn::On : m_session.visible() ? Worn::BehindMenu : Worn::Off;
   }
 
   void frame() {
-    const XrFrameState state = m_session.waitFrame();
-    const steady_clock::time_point began = steady_clock::now();
+    XrFrameState state;
+    steady_clock::time_point began;
     m_waited = 0;
-    m_session.beginFrame();
-    m_hands.sync();
     std::optional<std::array<XrView, 2>> views;
-    if (state.shouldRender) views = m_session.locateEyes(state.predictedDisplayTime);
-    if (!views) {
-      m_session.endFrame(state.predictedDisplayTime, {});
-      return;
+    {
+      const Stay::Asking asking(m_told);
+      state = m_session.waitFrame();
+      began = steady_clock::now();
+      m_session.beginFrame();
+      m_hands.sync();
+      if (state.shouldRender) views = m_session.locateEyes(state.predictedDisplayTime);
     }
+    m_told.requireOwner();
+    if (!views) return submit(state.predictedDisplayTime, {});
     m_clock.begin();
     prepare(state, *views);
     auto layer = structure<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
@@ -120,13 +184,22 @@ class Headset::Loop {
     layer.views = shown.data();
     const auto* header = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
     const double worked = secondsSince(began) - m_waited;
-    m_session.endFrame(state.predictedDisplayTime, {&header, 1});
+    submit(state.predictedDisplayTime, {&header, 1});
     if (m_setup.measured) m_setup.measured({worked, secondsSince(began), m_clock.took()});
     m_detail.note(std::max(worked, m_clock.took()), kNanosecond * double(state.predictedDisplayPeriod));
-    m_told.m_detail = m_detail.scale();
+    m_told.detail = m_detail.scale();
+    m_told.coarser = m_detail.coarser();
   }
 
  private:
+  void submit(XrTime time, std::span<const XrCompositionLayerBaseHeader* const> layers) {
+    {
+      const Stay::Asking asking(m_told);
+      m_session.endFrame(time, layers);
+    }
+    m_told.requireOwner();
+  }
+
   void prepare(const XrFrameState& state, const std::array<XrView, 2>& views) {
     HeadsetFrame frame;
     const HandPose left = poseOf(views[0].pose), right = poseOf(views[1].pose);
@@ -134,9 +207,14 @@ class Headset::Loop {
     frame.time = kNanosecond * double(state.predictedDisplayTime);
     frame.period = kNanosecond * double(state.predictedDisplayPeriod);
     frame.focused = m_session.focused();
-    for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
-    for (const size_t hand : {kLeft, kRight}) m_told.m_sees[hand] = frame.hands[hand].aim.has_value();
+    {
+      const Stay::Asking asking(m_told);
+      for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
+    }
+    m_told.requireOwner();
+    for (const size_t hand : {kLeft, kRight}) m_told.sees[hand] = frame.hands[hand].aim.has_value();
     const auto vibrations = m_scene->prepare(frame);
+    const Stay::Asking asking(m_told);
     for (const size_t hand : {kLeft, kRight})
       if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
   }
@@ -153,19 +231,24 @@ class Headset::Loop {
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
     EyePicture& picture = *m_pictures[eye];
     const steady_clock::time_point asked = steady_clock::now();
+    std::optional<Stay::Asking> asking(std::in_place, m_told);
     RenderTarget target = picture.acquire(m_detail.scale());
+    target.coarser = m_detail.coarser();
     target.hidden = m_mask.hidden(eye);
     const bool hasDepth = m_depth && m_depth->isTaken();
     const RenderTarget depth = hasDepth ? m_depth->acquire(eye) : RenderTarget();
+    asking.reset();
+    m_told.requireOwner();
     m_waited += secondsSince(asked);
     const Eye seen = eyeOf(view, m_setup.nearPlane, m_setup.farPlane);
     m_scene->draw(eye, seen, target);
-    if (hasDepth) {
-      m_scene->drawDepth(eye, seen, depth);
-      m_depth->release(eye);
-    }
+    if (hasDepth) m_scene->drawDepth(eye, seen, depth);
     if (eye == kLeft && m_setup.mirror) m_setup.mirror->offer(picture.texture(), target.size);
+    asking.emplace(m_told);
+    if (hasDepth) m_depth->release(eye);
     picture.release();
+    asking.reset();
+    m_told.requireOwner();
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
     shown.pose = view.pose;
     shown.fov = view.fov;
@@ -175,7 +258,8 @@ class Headset::Loop {
   }
 
   const HeadsetSetup& m_setup;
-  Headset& m_told;
+  Stay& m_told;
+  std::optional<Stay::Asking> m_making;  ///< what follows, up to the scene
   Runtime m_runtime;
   Session m_session;
   RefreshRate m_rate;
@@ -190,47 +274,83 @@ class Headset::Loop {
   CardClock m_clock;
 };
 
-Headset::Headset(HeadsetSetup setup) : m_setup(std::move(setup)), m_thread([this] { run(); }) {}
+Headset::Headset(HeadsetSetup setup)
+    : m_stay(std::make_shared<Stay>(std::move(setup))), m_thread([stay = m_stay] { stay->run(); }) {}
 
 Headset::~Headset() {
   leave();
-  m_thread.join();
+  std::unique_lock lock(m_stay->mutex);
+  while (!m_stay->ending && !m_stay->overdue()) m_stay->changed.wait_for(lock, kPause);
+  m_stay->abandoned = !m_stay->ending;
+  lock.unlock();
+  m_stay->abandoned ? m_thread.detach() : m_thread.join();
+}
+
+void Headset::leave() {
+  const std::lock_guard lock(m_stay->mutex);
+  if (!m_stay->asked) m_stay->asked = steady_clock::now();
+  m_stay->leave = true;
 }
 
 std::optional<Ending> Headset::ending() const {
-  const std::lock_guard lock(m_mutex);
-  return m_ending;
+  const std::lock_guard lock(m_stay->mutex);
+  return !m_stay->ending && m_stay->overdue() ? Ending{true, kNoAnswer} : m_stay->ending;
 }
 
-void Headset::run() {
-  Ending ending;
+bool Headset::answers() const {
+  const std::lock_guard lock(m_stay->mutex);
+  return !m_stay->hangs();
+}
+
+uint64_t Headset::frames() const { return m_stay->frames; }
+double Headset::detail() const { return m_stay->detail; }
+int Headset::coarser() const { return m_stay->coarser; }
+double Headset::hertz() const { return m_stay->hertz; }
+Headset::Worn Headset::worn() const { return m_stay->worn; }
+bool Headset::sees(size_t hand) const { return m_stay->sees.at(hand); }
+
+void Headset::Stay::run() {
+  Ending how;
   try {
-    ending = stay();
+    how = last();
   } catch (const std::exception& error) {
-    ending = {true, error.what()};
+    how = {true, error.what()};
   }
-  const std::lock_guard lock(m_mutex);
-  m_ending = std::move(ending);
+  const std::lock_guard lock(mutex);
+  ending = std::move(how);
+  changed.notify_all();
 }
 
-Ending Headset::stay() {
-  const Current current(m_setup);
+void Headset::Stay::requireOwner() const {
+  const std::lock_guard lock(mutex);
+  if (abandoned) throw Error(kNoAnswer);
+}
+
+Ending Headset::Stay::last() {
+  const Current current(setup);
+  std::optional<Asking> closing;  // outlives what is put away
   Loop loop(*this);
+  struct Closes {
+    ~Closes() { closing.emplace(stay); }
+    std::optional<Asking>& closing;
+    Stay& stay;
+  } const closes{closing, *this};
   Session& session = loop.session();
-  std::optional<steady_clock::time_point> asked;
+  std::optional<steady_clock::time_point> requested;
   for (;;) {
     loop.handleEvents();
     if (session.ending()) return *session.ending();
-    if (m_leave && !session.running()) return {};
-    if (m_leave && !asked) {
-      asked = steady_clock::now();
+    if (leave && !session.running()) return {};
+    if (leave && !requested) {
+      requested = steady_clock::now();
+      const Asking asking(*this);
       session.requestExit();
-    } else if (asked && steady_clock::now() - *asked > kPatience) {
+    } else if (requested && steady_clock::now() - *requested > kPatience) {
       return {true, kNoAnswer};
     }
     if (session.running()) {
       loop.frame();
-      ++m_frames;
+      ++frames;
     } else {
       std::this_thread::sleep_for(kPause);
     }

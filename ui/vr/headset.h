@@ -5,10 +5,8 @@
 #include "ui/vr/handinput.h"
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -57,40 +55,35 @@ struct HeadsetSetup {
 /// A stay in the headset, from when it is made. The frames have a thread of their own, which the runtime's
 /// xrWaitFrame() paces: that waits for as long as the headset likes, and nobody else must. The thread owns everything
 /// of OpenXR, so that nothing of it needs a lock; others ask for the ending, and to leave. Whatever fails, in OpenXR,
-/// in OpenGL or in the scene, ends the stay with a sentence, and a new one can be made.
+/// in OpenGL or in the scene, ends the stay with a sentence, and a new one can be made. So does a runtime that keeps
+/// the thread for good: that is left to itself then, with all that it needs (what the setup's functions have is
+/// theirs), and puts it away where it ever comes back.
 class Headset {
  public:
   explicit Headset(HeadsetSetup setup);
-  ~Headset();  ///< leaves, and waits until it has
+  ~Headset();  ///< leaves, and waits until it has, for seconds at most where the runtime does not answer
   Headset(const Headset&) = delete;
   Headset& operator=(const Headset&) = delete;
 
-  void leave() { m_leave = true; }
+  void leave();
   /// Nothing while it lasts.
   std::optional<Ending> ending() const;
-  uint64_t frames() const { return m_frames; }  ///< that were submitted
+  bool answers() const;     ///< false: the runtime has kept the thread for seconds
+  uint64_t frames() const;  ///< that were submitted
   /// Pixels along a side of the eyes' pictures, of those that the headset asks for: fewer while frames come late.
-  double detail() const { return m_detail; }
+  double detail() const;
+  int coarser() const;  ///< steps by which what is soft in them is, likewise; as RenderTarget has it
   /// Pictures a second that it shows; 0: it does not say.
-  double hertz() const { return m_hertz; }
+  double hertz() const;
   enum class Worn { Off, BehindMenu, On };
   /// Off: it shows nothing, and lies on the table perhaps. BehindMenu: one of its own lies over the picture.
-  Worn worn() const { return m_worn; }
-  bool sees(size_t hand) const { return m_sees[hand]; }  ///< where a hand is
+  Worn worn() const;
+  bool sees(size_t hand) const;  ///< where a hand is
 
  private:
-  void run();
-  Ending stay();
+  struct Stay;
   class Loop;
-
-  HeadsetSetup m_setup;
-  std::atomic<bool> m_leave = false;
-  std::atomic<uint64_t> m_frames = 0;
-  std::atomic<double> m_detail = 1, m_hertz = 0;
-  std::atomic<Worn> m_worn = Worn::Off;
-  std::array<std::atomic<bool>, 2> m_sees{};
-  mutable std::mutex m_mutex;
-  std::optional<Ending> m_ending;
+  std::shared_ptr<Stay> m_stay;
   std::thread m_thread;
 };
 

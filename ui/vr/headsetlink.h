@@ -57,6 +57,7 @@ struct HandsSeen {
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
   bool carries = false;  ///< both grips carry the scene
+  HandRoles roles;       ///< as the view had them
 };
 
 /// What a hand feels for as long as it does.
@@ -81,8 +82,11 @@ struct HeadsetView {
   std::array<PanelView, kPanels> panels;
   std::array<PanelView, 2> labels;  ///< of what the hands hold, beside them
   uint64_t brought = 0;             ///< with another one the board is set before its wearer anew
-  std::array<float, 3> accent{};    ///< sRGB, of beams
-  Box box;                          ///< m, around all that there is to see of the project when it came
+  HandRoles roles;
+  double raised = 0;              ///< m, by which the scene stands lower than before one who sits
+  int64_t turns = 0;              ///< by 30 degrees that were asked for so far, to the right less those to the left
+  std::array<float, 3> accent{};  ///< sRGB, of beams
+  Box box;                        ///< m, around all that there is to see of the project when it came
 };
 
 /// Between the interface's thread and the headset's. What is handed over nobody changes any more; neither waits for

@@ -2,6 +2,8 @@
 #include "ui/vr/livescene.h"
 
 #include "ui/vr/handmodel.h"
+#include "ui/vr/posedhand.h"
+#include "ui/vr/suggestions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +11,9 @@
 namespace ps::vr {
 namespace {
 
-constexpr double kLongest = 0.2;  // s: after a longer wait nobody expects that it is made up for
-constexpr double kHeld = 0.5;     // of a grip's way
+constexpr double kLongest = 0.2;    // s: after a longer wait nobody expects that it is made up for
+constexpr double kHeld = 0.5;       // of a grip's way
+constexpr double kNearPanel = 0.3;  // m, of a hand that points at one
 
 Vector3 tipOf(const HandPose& aim) { return aim.position + aim.orientation * Vector3(0, 0, -kTip); }
 
@@ -23,7 +26,7 @@ bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
 
 std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& frame) {
   take(m_link->shown(), frame);
-  m_moving.follow(frame, m_panels.takes(kLeft), m_view->keeps);
+  m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.other()), m_view->keeps);
   m_panels.follow(frame, *m_view);
   tellHands(frame);
   showHands(frame);
@@ -49,6 +52,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
   seen.carries = m_moving.carries();
+  seen.roles = m_view->roles;
   for (const size_t hand : {kLeft, kRight}) {
     const HandInput& input = frame.hands[hand];
     HandsSeen::Hand& told = seen.hands[hand];
@@ -66,12 +70,18 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   m_link->tell(seen);
 }
 
-void LiveScene::showHand(const HandInput& input, const std::array<float, 3>& colour) {
+/// By its joints, or as what it does holds them where nobody tells; else what it holds.
+void LiveScene::showHand(size_t hand, const HandInput& input, const std::array<float, 3>& colour) {
   const Stand& stand = m_moving.stand();
-  if (!input.joints) return addWand(m_props, stand.toScene(*input.aim), 1 / stand.scale, colour, m_view->look.dark);
-  HandJoints joints = *input.joints;
-  for (HandJoint& joint : joints) joint = {stand.toScene(joint.position), joint.radius / stand.scale};
-  addHand(m_props, joints, colour, m_view->look.dark);
+  std::optional<HandJoints> joints = input.joints;
+  if (!joints && input.bare && input.grip)
+    joints = posedJoints(hand, *input.grip, shapeOf(input, m_panels.isNear(input.grip->position, kNearPanel)));
+  if (!joints) {
+    const ControllerParts parts = partsOf(input.profile, hand);
+    return addController(m_props, stand.toScene(*input.aim), 1 / stand.scale, {colour, m_view->look.dark}, parts);
+  }
+  for (HandJoint& joint : *joints) joint = {stand.toScene(joint.position), joint.radius / stand.scale};
+  addHand(m_props, *joints, colour, m_view->look.dark);
 }
 
 void LiveScene::showHands(const HeadsetFrame& frame) {
@@ -82,7 +92,7 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
     const std::optional<HandPose>& aim = frame.hands[hand].aim;
     if (!aim) continue;
     const BrushVolume& brush = m_view->brushes[hand];
-    showHand(frame.hands[hand], brush.colour);
+    showHand(hand, frame.hands[hand], brush.colour);
     if (m_moving.carries()) continue;
     if (const auto hit = m_panels.hit(hand))
       addBeam(m_props, m_moving.stand().toScene(*aim), 1 / m_moving.stand().scale, (*hit - aim->position).norm(),
@@ -120,7 +130,12 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
     m_came = frame.time;
   }
   if (m_view->project == 0) m_felt = view->ticks;  // those of earlier stays
-  if (view->project != m_view->project) m_moving.place(standBefore(frame.head, view->box));
+  const bool anew = view->project != m_view->project;
+  Stand stand = anew ? standBefore(frame.head, view->box) : m_moving.stand();
+  stand.roomPlace.y() -= anew ? view->raised : view->raised - m_view->raised;
+  if (anew || view->raised != m_view->raised) m_moving.place(stand);
+  if (m_view->project != 0 && view->turns != m_view->turns)
+    m_moving.turnBy(view->turns - m_view->turns, frame.head.position);
   m_view = std::move(view);
 }
 

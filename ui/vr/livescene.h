@@ -29,7 +29,7 @@ class LiveScene : public HeadsetScene {
   double share(double seconds) const;
   void tellHands(const HeadsetFrame& frame);
   void showHands(const HeadsetFrame& frame);
-  void showHand(const HandInput& input, const std::array<float, 3>& colour);
+  void showHand(size_t hand, const HandInput& input, const std::array<float, 3>& colour);
   std::array<std::optional<Vibration>, 2> feel();
 
   std::shared_ptr<HeadsetLink> m_link;

@@ -43,7 +43,12 @@ std::shared_ptr<const PanelImage> dimmer() {
 
 }  // namespace
 
-void Moving::follow(const HeadsetFrame& frame, bool busy, const std::array<bool, 2>& keeps) {
+void Moving::follow(const HeadsetFrame& frame, const HandRoles& roles, bool busy, const std::array<bool, 2>& keeps) {
+  if (std::exchange(m_roles, roles) != roles) {
+    m_goal.reset();
+    m_pointed.reset();
+    m_goes = false;
+  }
   m_dimmed = std::max(0.0, m_dimmed - frame.period);
   carry(frame, keeps);
   turn(frame);
@@ -73,14 +78,16 @@ void Moving::carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps) 
 }
 
 /// The scene goes round the other way than its wearer.
+void Moving::turnBy(int64_t steps, const Vector3& about) {
+  m_stand = turned(m_stand, about, kTurn * static_cast<double>(steps));
+  m_dimmed = kDimmed;
+}
+
 void Moving::turn(const HeadsetFrame& frame) {
-  const HandInput& hand = frame.hands[frame.hands[kLeft].pad ? kLeft : kRight];
+  const HandInput& hand = frame.hands[frame.hands[m_roles.other()].pad ? m_roles.other() : m_roles.main];
   const bool aside = std::abs(hand.steerX) > kPushed && std::abs(hand.steerX) > std::abs(hand.steerY);
   const bool asked = aside && (!hand.pad || hand.steerPressed);
-  if (asked && !m_turns && !m_carrying) {
-    m_stand = turned(m_stand, frame.head.position, hand.steerX > 0 ? kTurn : -kTurn);
-    m_dimmed = kDimmed;
-  }
+  if (asked && !m_turns && !m_carrying) turnBy(hand.steerX > 0 ? 1 : -1, frame.head.position);
   m_turns = asked;
 }
 
@@ -97,7 +104,7 @@ std::optional<Vector3> floorAt(const HandPose& aim, const Vector3& head) {
 }  // namespace
 
 void Moving::go(const HeadsetFrame& frame, bool busy) {
-  const HandInput& hand = frame.hands[kLeft];
+  const HandInput& hand = frame.hands[m_roles.other()];
   const bool forward = hand.steerY > kPushed && hand.steerY > std::abs(hand.steerX);
   const std::optional<Vector3> goal = std::exchange(m_goal, std::nullopt);
   m_goes = m_goes && hand.draw > kIdle;
@@ -111,7 +118,7 @@ void Moving::go(const HeadsetFrame& frame, bool busy) {
 
 /// The index leaves where it points as it comes to the thumb: where it was then is meant.
 void Moving::goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal) {
-  const HandInput& hand = frame.hands[kLeft];
+  const HandInput& hand = frame.hands[m_roles.other()];
   if (hand.points) {
     m_goal = floorAt(*hand.aim, frame.head.position);
     m_pointed = frame.time;
@@ -135,7 +142,7 @@ void Moving::arriveAt(const Vector3& goal, const HeadsetFrame& frame) {
 void Moving::addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const {
   const double scale = 1 / m_stand.scale;
   if (m_goal) {
-    const HandPose& aim = *frame.hands[kLeft].aim;
+    const HandPose& aim = *frame.hands[m_roles.other()].aim;
     addBeam(props, m_stand.toScene(aim), scale, (*m_goal - aim.position).norm(), accent);
     addVolume(props, m_stand.toScene(*m_goal), {scale * Vector3(kGoalWidth, kGoalHeight, kGoalWidth), false, accent});
   }

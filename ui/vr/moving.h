@@ -13,21 +13,27 @@ namespace ps::vr {
 /// How the scene stands in the room, and how its wearer changes that: both grips carry it, unless one has had something
 /// in it before the other came, the main stick aside turns
 /// it about them by 30 degrees, which eyes bear better than a turn, and the other one forward takes them to where that
-/// hand points on the floor as soon as it is let go; a bare left hand points there with its index, and then pinches.
-/// While it moves the edge of what is seen is dimmed.
+/// hand points on the floor as soon as it is let go; where that is bare it points there with its index, and then
+/// pinches. While it moves the edge of what is seen is dimmed.
 class Moving {
  public:
   const Stand& stand() const { return m_stand; }
-  void place(const Stand& stand) { m_stand = stand; }
-  /// `busy`: the left hand has another use for its stick. `keeps`: which hands have something in them.
-  void follow(const HeadsetFrame& frame, bool busy = false, const std::array<bool, 2>& keeps = {});
+  void place(const Stand& stand) {
+    m_stand = stand;
+    m_carrying.reset();  // it goes on from there
+  }
+  /// `busy`: the other hand has another use for its stick. `keeps`: which hands have something in them.
+  void follow(const HeadsetFrame& frame, const HandRoles& roles = {}, bool busy = false,
+              const std::array<bool, 2>& keeps = {});
+  /// Its wearer at a place of the room, by so many steps of 30 degrees to the right.
+  void turnBy(int64_t steps, const Vector3& about);
   bool carries() const { return m_carrying.has_value(); }
   /// It carries, or has not been let go since: it takes nothing else.
   bool usesGrip(size_t hand) const { return m_usesGrip[hand]; }
   /// m on the floor, where the wearer will be.
   const std::optional<Vector3>& goal() const { return m_goal; }
   /// Its pinch is none of the brush's business: it says go.
-  bool takes(size_t hand) const { return hand == kLeft && (m_goes || (m_goal && m_pointed)); }
+  bool takes(size_t hand) const { return hand == m_roles.other() && (m_goes || (m_goal && m_pointed)); }
   bool dims() const { return m_dimmed > 0; }
   /// The way to the goal, and what dims. Comes last: that lies before all else.
   void addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const;
@@ -40,6 +46,7 @@ class Moving {
   void arriveAt(const Vector3& goal, const HeadsetFrame& frame);
 
   Stand m_stand;
+  HandRoles m_roles;
   /// By both hands, from when they took hold of the scene.
   struct Carrying {
     Stand from;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOverHand = 0.12, kTilt = 35 * kDegree;  // of the palette: m from the palm, and from upright
+constexpr double kPinnedAway = 0.15, kPinnedUp = 0.05;    // m, of a pinned one from the hand that then points at it
 constexpr double kFacing = 0.55, kStillFacing = 0.4;      // cosine between the palm and the way to the eyes
 constexpr double kAway = 0.75, kBelow = 15 * kDegree;     // of the board: m from the eyes, and from their level
 constexpr double kBesideHand = 0.05;                      // m, of labels
@@ -41,6 +42,7 @@ bool Panels::Place::holds(const Vector3& own, double edge) const {
 
 void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view) {
   m_head = frame.head.position;
+  if (std::exchange(m_roles, view.roles) != view.roles) m_pinned.reset();
   placePalette(frame, view.panels[kPalette]);
   placeBoard(frame, view);
   placePopup(view);
@@ -51,15 +53,49 @@ void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view) {
 }
 
 void Panels::placePalette(const HeadsetFrame& frame, const PanelView& palette) {
-  const std::optional<HandPose>& palm = frame.hands[kLeft].grip;
-  const bool was = m_places[kPalette].has_value();
+  const bool was = m_places[kPalette].has_value() && !m_pinned;
   m_places[kPalette].reset();
-  if (!palm || !palette.image) return;
-  // OpenXR: of a left hand, x leads away from the palm.
+  if (!palette.image) return;
+  pinPalette(frame);
+  const size_t hand = m_roles.other();
+  if (m_pinned) {
+    m_places[kPalette] = Place{*m_pinned, palette.width, palette.height};
+  } else if (!m_roles.alone && palmFaces(frame, hand, was)) {
+    const Vector3 middle =
+        frame.hands[hand].grip->position + Vector3(0, kOverHand + palette.height / 2 * std::cos(kTilt), 0);
+    m_places[kPalette] = Place{{middle, facing(middle, m_head, kTilt)}, palette.width, palette.height};
+  }
+}
+
+/// A hand that is alone points at what it has brought: that has to stay behind.
+void Panels::pinPalette(const HeadsetFrame& frame) {
+  for (const size_t hand : {kLeft, kRight}) {
+    const bool byPalm = m_roles.alone && hand == m_roles.main;
+    const Asks did = m_asks[hand];
+    m_asks[hand] = {frame.hands[hand].menu, byPalm && palmFaces(frame, hand, did.byPalm)};
+    const bool asks = (m_asks[hand].byMenu && !did.byMenu) || (m_asks[hand].byPalm && !did.byPalm);
+    if (!asks || !frame.hands[hand].grip) continue;
+    if (std::exchange(m_pinned, std::nullopt)) continue;
+    m_pinned = atWrist(*frame.hands[hand].grip);
+  }
+}
+
+/// OpenXR: of a left hand, x leads away from the palm, of a right one into it.
+bool Panels::palmFaces(const HeadsetFrame& frame, size_t hand, bool did) const {
+  const std::optional<HandPose>& palm = frame.hands[hand].grip;
+  if (!palm) return false;
   const Vector3 toEyes = (m_head - palm->position).normalized();
-  if ((palm->orientation * Vector3::UnitX()).dot(toEyes) < (was ? kStillFacing : kFacing)) return;
-  const Vector3 middle = palm->position + Vector3(0, kOverHand + palette.height / 2 * std::cos(kTilt), 0);
-  m_places[kPalette] = Place{{middle, facing(middle, m_head, kTilt)}, palette.width, palette.height};
+  const Vector3 out = palm->orientation * Vector3(hand == kLeft ? 1 : -1, 0, 0);
+  return out.dot(toEyes) >= (did ? kStillFacing : kFacing);
+}
+
+/// Beyond the hand, as its wearer sees it, so that it can be pointed at from there.
+HandPose Panels::atWrist(const HandPose& palm) const {
+  Vector3 beyond = palm.position - m_head;
+  beyond.y() = 0;
+  const Vector3 middle =
+      palm.position + Vector3(0, kPinnedUp, 0) + kPinnedAway * beyond / std::max(beyond.norm(), 1e-3);
+  return {middle, facing(middle, m_head, kTilt)};
 }
 
 /// It stays where it was brought.
@@ -129,7 +165,8 @@ std::optional<PanelPoint> Panels::pointAnew(size_t hand, const HandPose& aim,
                                             const std::optional<PanelPoint>& before) const {
   std::optional<PanelPoint> beam;
   for (size_t panel = kPanels; panel-- > 0;) {
-    if (!m_places[panel] || (panel == kPalette && hand == kLeft)) continue;  // a hand does not point at its own
+    const bool own = panel == kPalette && hand == m_roles.other() && !m_pinned;  // at which a hand does not point
+    if (!m_places[panel] || own) continue;
     const bool was = before && before->panel == panel;
     if (auto tip = tipOn(panel, aim, was ? kBack : 0)) return tip;
     const auto one = beamOn(panel, aim, was ? kEdge : 0);
@@ -156,6 +193,14 @@ std::optional<PanelPoint> Panels::beamOn(size_t panel, const HandPose& aim, doub
   const Vector3 at = from + length * way;
   if (!place.holds(at, edge * length)) return std::nullopt;
   return PanelPoint{panel, at.x() / place.width + 0.5, 0.5 - at.y() / place.height, length, false, false};
+}
+
+bool Panels::isNear(const Vector3& place, double metres) const {
+  return std::any_of(m_places.begin(), m_places.end(), [&](const std::optional<Place>& panel) {
+    if (!panel) return false;
+    const Vector3 own = panel->own(place), half(panel->width / 2, panel->height / 2, 0);
+    return (own - own.cwiseMax(-half).cwiseMin(half)).norm() < metres;
+  });
 }
 
 std::optional<double> Panels::ahead(const HandPose& aim) const {

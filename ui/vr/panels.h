@@ -11,10 +11,12 @@
 
 namespace ps::vr {
 
-/// Where the interface's panels are in the room, and what hands point at on them. The palette floats over the left hand
-/// while its palm faces the wearer; the board stands where it was asked for, turned to them; a popup lies on the one
-/// that it came from; labels hang beside the hands, and nobody points at them. A hand points by a beam, or, close by,
-/// with the tip of its wand, which presses what it goes through. What it began to press it keeps until it lets go.
+/// Where the interface's panels are in the room, and what hands point at on them. The palette floats over the other
+/// hand while its palm faces the wearer, or stands pinned where a button asked for it, or, where the main hand is
+/// alone, where its palm did; asked for again it goes. The board stands where it was asked for, turned to them; a popup
+/// lies on the one that it came from; labels hang beside the hands, and nobody points at them. A hand points by a beam,
+/// or, close by, with the tip of its wand, which presses what it goes through. What it began to press it keeps until it
+/// lets go.
 class Panels {
  public:
   /// In the room; +z is the side that one looks at.
@@ -31,6 +33,8 @@ class Panels {
   const std::optional<Place>& place(size_t panel) const { return m_places.at(panel); }
   const std::optional<Place>& labels(size_t hand) const { return m_labels.at(hand); }
   const std::optional<PanelPoint>& pointed(size_t hand) const { return m_pointed.at(hand); }
+  /// Whether a place in the room is as near to a panel, m.
+  bool isNear(const Vector3& place, double metres) const;
   /// m along where a hand would point from a place, to the first panel there.
   std::optional<double> ahead(const HandPose& aim) const;
   /// Its trigger is none of the brush's business.
@@ -41,6 +45,9 @@ class Panels {
 
  private:
   void placePalette(const HeadsetFrame& frame, const PanelView& palette);
+  void pinPalette(const HeadsetFrame& frame);
+  bool palmFaces(const HeadsetFrame& frame, size_t hand, bool did) const;
+  HandPose atWrist(const HandPose& palm) const;
   void placeBoard(const HeadsetFrame& frame, const HeadsetView& view);
   void placePopup(const HeadsetView& view);
   void placeLabels(size_t hand, const HandInput& input, const PanelView& labels);
@@ -56,6 +63,12 @@ class Panels {
   Vector3 m_head{0, 0, 0};                     ///< m
   uint64_t m_brought = 0;
   std::optional<HandPose> m_board;  ///< since it was brought
+  HandRoles m_roles;
+  std::optional<HandPose> m_pinned;  ///< the palette, since it was asked for
+  struct Asks {
+    bool byMenu = false, byPalm = false;
+  };
+  std::array<Asks, 2> m_asks{};  ///< for it, by what hands do already
 };
 
 }  // namespace ps::vr

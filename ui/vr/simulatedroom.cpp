@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps::vr {
 namespace {
@@ -26,9 +27,20 @@ Quaternion along(const Vector3& way) {
 
 }  // namespace
 
-SimulatedRoom::SimulatedRoom() {
-  const Quaternion level = along({0, 0, -1});
-  m_hands[kLeft].aim = m_hands[kLeft].grip = HandPose{{-0.26, 1.2, -0.5}, level};
+SimulatedRoom::SimulatedRoom() { rest(); }
+
+/// The other hand, at its side.
+void SimulatedRoom::rest() {
+  const double x = m_roles.other() == kLeft ? -0.26 : 0.26;
+  HandInput& other = m_hands[m_roles.other()];
+  other = {};
+  other.aim = other.grip = HandPose{{x, 1.2, -0.5}, along({0, 0, -1})};
+}
+
+void SimulatedRoom::give(const HandRoles& roles) {
+  if (std::exchange(m_roles, roles).main == roles.main) return;
+  m_used = roles.main;
+  rest();
 }
 
 HandPose SimulatedRoom::head() const {
@@ -57,9 +69,11 @@ HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
   const double reach = m_most ? std::min(m_reach[m_used], *m_most - kBeforePanel) : m_reach[m_used];
   used.aim = used.grip =
       HandPose{eyes.position - (reach - kTip) * (eyes.orientation * Vector3::UnitZ()), eyes.orientation};
-  // The palm of a left hand that rests faces the eyes: it holds the palette.
-  HandPose& palm = *m_hands[kLeft].grip;
-  if (m_used != kLeft) palm.orientation = Quaternion::FromTwoVectors(Vector3::UnitX(), eyes.position - palm.position);
+  // The palm of the other hand, where that rests, faces the eyes: it holds the palette.
+  const size_t other = m_roles.other();
+  HandPose& palm = *m_hands[other].grip;
+  const Vector3 out(other == kLeft ? 1 : -1, 0, 0);
+  if (m_used != other) palm.orientation = Quaternion::FromTwoVectors(out, eyes.position - palm.position);
   HeadsetFrame frame;
   frame.time = seconds;
   frame.period = std::max(0.0, seconds - m_before);

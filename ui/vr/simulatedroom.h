@@ -21,12 +21,16 @@ class SimulatedRoom {
   void walk(const Vector3& way);        ///< m to the right, up, and on the level to where it looks
   void point(double right, double up);  ///< -1..1 across the eye's picture
   void reach(double more);              ///< m, from the eyes
+  /// From now on; another main hand is the one in use.
+  void give(const HandRoles& roles);
+  const HandRoles& roles() const { return m_roles; }
   void useOther() { m_used = 1 - m_used; }
   size_t used() const { return m_used; }
   HandInput& input(size_t hand) { return m_hands.at(hand); }  ///< what it presses
 
  private:
   HandPose head() const;
+  void rest();
 
   Vector3 m_place{0, 1.6, 0};
   double m_right = 0, m_up = -0.45;  // rad
@@ -34,6 +38,7 @@ class SimulatedRoom {
   std::array<double, 2> m_reach{0.55, 0.55};
   std::optional<double> m_most;
   std::array<HandInput, 2> m_hands;
+  HandRoles m_roles;
   size_t m_used = kRight;
   double m_before = 0;  // s, of the last frame
 };

@@ -4,6 +4,9 @@
 namespace ps::vr {
 namespace {
 
+constexpr XrDuration kPatience = 3'000'000'000;  // ns, for a picture that the headset still has
+const char* const kKept = "The headset's software gave no picture back; enter VR again.";
+
 std::vector<uint32_t> texturesOf(XrSwapchain swapchain) {
   const auto images = listed(
       "xrEnumerateSwapchainImages",
@@ -49,8 +52,8 @@ Swapchain::~Swapchain() {
 void Swapchain::acquire() {
   check(xrAcquireSwapchainImage(m_handle, nullptr, &m_index), "xrAcquireSwapchainImage");
   auto wait = structure<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
-  wait.timeout = XR_INFINITE_DURATION;
-  check(xrWaitSwapchainImage(m_handle, &wait), "xrWaitSwapchainImage");
+  wait.timeout = kPatience;
+  if (check(xrWaitSwapchainImage(m_handle, &wait), "xrWaitSwapchainImage") == XR_TIMEOUT_EXPIRED) throw Error(kKept);
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffer);

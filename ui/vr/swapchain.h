@@ -21,7 +21,8 @@ class Swapchain {
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  void acquire();  ///< the framebuffer has the next picture
+  /// The framebuffer has the next picture. Throws Failure, and Error where the headset keeps all of them for seconds.
+  void acquire();
   void release();  ///< it may be shown
   XrSwapchain handle() const { return m_handle; }
   uint32_t framebuffer() const { return m_framebuffer; }

@@ -176,6 +176,21 @@ void Preferences::addHeadset() {
           "brush that heats or cools, and what melts or boils. Ticks of panels and strokes stay."),
       {{QStringLiteral("None"), 0}, {text(30), 30}, {text(60), 60}, {text(100), 100}}, preferences::vibration(), text,
       [](int percent) { preferences::setVibration(percent); });
+  choice(
+      QStringLiteral("Main hand"),
+      QStringLiteral("It draws, undoes and chooses; the other one erases, holds the palette, plays and goes."),
+      {{QStringLiteral("Right"), 0}, {QStringLiteral("Left"), 1}}, preferences::leftHanded() ? 1 : 0,
+      [](int) { return QString(); }, [](int left) { preferences::setLeftHanded(left == 1); });
+  choice(
+      QStringLiteral("Hands in use"),
+      QStringLiteral(
+          "With one alone the palette comes where its palm has faced you, and stays there to be pointed at."),
+      {{QStringLiteral("Both"), 0}, {QStringLiteral("The main one alone"), 1}}, preferences::oneHanded() ? 1 : 0,
+      [](int) { return QString(); }, [](int alone) { preferences::setOneHanded(alone == 1); });
+  const auto higher = [](int centimetres) { return QStringLiteral("%1 cm higher").arg(centimetres); };
+  choice(QStringLiteral("Seated height"), QStringLiteral("Raises you over the scene while you sit, as if you stood."),
+         {{QStringLiteral("As you sit"), 0}, {higher(15), 15}, {higher(30), 30}, {higher(45), 45}},
+         preferences::seatedHeight(), higher, [](int centimetres) { preferences::setSeatedHeight(centimetres); });
   QAction* mirror = m_window.action(QStringLiteral("simulation.mirror"));
   choice(
       QStringLiteral("In the window"), QStringLiteral("What it shows while the headset is on."),
@@ -362,6 +377,9 @@ std::vector<DialogRow> preferenceRows() {
           {QStringLiteral("Mouse"), QStringLiteral("buttons preset Blender Maya")},
           {QStringLiteral("At the start"), QStringLiteral("welcome page last scene")},
           {QStringLiteral("Vibration"), QStringLiteral("headset VR hands haptics force")},
+          {QStringLiteral("Main hand"), QStringLiteral("headset VR left right handed")},
+          {QStringLiteral("Hands in use"), QStringLiteral("headset VR one-handed palette wrist")},
+          {QStringLiteral("Seated height"), QStringLiteral("headset VR sitting chair offset")},
           {QStringLiteral("In the window"), QStringLiteral("headset VR mirror eye")},
           {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
           {QStringLiteral("Keeps at most"), QStringLiteral("undo memory steps")},

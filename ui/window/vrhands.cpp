@@ -25,6 +25,9 @@ constexpr double kLong = 0.5;      // s
 constexpr const char* kGrabBrush = "grab";
 constexpr double kTurned = 0.05;  // about rad, after which a brush is shown turned
 
+/// Whether a hand does the opposite of what the brush is called: it erases.
+bool isOpposite(const vr::HandRoles& roles, size_t hand, bool holds) { return (hand == roles.other()) != holds; }
+
 }  // namespace
 
 VrHands::VrHands(Session& session, Toolbox& tools)
@@ -35,7 +38,8 @@ VrHands::VrHands(Session& session, Toolbox& tools)
       m_held{HandTool(tools), HandTool(tools)} {
   // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
   connect(&session.document().undoStack(), &History::indexChanged, this, [this] {
-    if (m_ends) return;
+    const auto finishes = [](const HandBrush& brush) { return brush.finishes(); };
+    if (m_ends || std::any_of(m_brushes.begin(), m_brushes.end(), finishes)) return;
     for (HandBrush& brush : m_brushes) brush.cancel();
     for (HandBrush& grab : m_grabs) grab.cancel();
     for (HandTool& held : m_held) held.letGo();
@@ -45,11 +49,12 @@ VrHands::VrHands(Session& session, Toolbox& tools)
 void VrHands::act(const vr::HandsSeen& seen, const SnapshotPtr& scene) {
   for (const size_t hand : {kLeft, kRight}) {
     draw(hand, seen, scene);
-    press(hand, seen.hands[hand].input, seen.seconds);
+    press(hand, seen.roles, seen.hands[hand].input, seen.seconds);
     const vr::HandsSeen::Hand &now = seen.hands[hand], &before = m_seen.hands[hand];
     m_changed = m_changed || now.holds != before.holds || (now.up - m_described[hand]).norm() > kTurned;
   }
-  if (!seen.hands[kRight].panel) choose(seen.hands[kRight].input, seen.seconds);  // else it scrolls there
+  const vr::HandsSeen::Hand& main = seen.hands[seen.roles.main];
+  if (!main.panel) choose(main.input, seen.seconds);  // else it scrolls there
   m_seen = seen;
 }
 
@@ -61,13 +66,15 @@ void VrHands::draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& sc
   m_ends = true;
   if (lead(hand, there, seen.carries, scene) || grab(hand, there, scene))
     there.pressure = 0;  // it has no brush meanwhile
+  there.opposite = isOpposite(seen.roles, hand, now.holds);
   const bool heated = brush.heats();
   brush.follow(there, scene);
   m_ends = false;
   m_changed = m_changed || brush.begun() != begun || heated || brush.heats();
 }
 
-/// A grip takes what is at hand. With the trigger it erases, whichever comes first. Whether the hand holds something.
+/// A grip takes what is at hand. With the trigger it turns the brush round, whichever comes first. Whether the hand
+/// holds something.
 bool VrHands::lead(size_t hand, const HandInScene& there, bool carries, const SnapshotPtr& scene) {
   HandTool& held = m_held[hand];
   const bool holds = m_seen.hands[hand].holds, pulls = there.pressure > 0;
@@ -124,9 +131,9 @@ std::pair<bool, bool> VrHands::pressed(size_t hand, const vr::HandInput& now, do
   return {!now.first && std::exchange(since, std::nullopt).has_value(), second};
 }
 
-void VrHands::press(size_t hand, const vr::HandInput& now, double seconds) {
+void VrHands::press(size_t hand, const vr::HandRoles& roles, const vr::HandInput& now, double seconds) {
   const auto [first, second] = pressed(hand, now, seconds);
-  if (hand == kLeft) {
+  if (hand == roles.other()) {
     if (first) m_session.playPause();
     if (second) Q_EMIT realWanted();
   } else {
@@ -138,7 +145,7 @@ void VrHands::press(size_t hand, const vr::HandInput& now, double seconds) {
 /// Sticks are pushed for the size, and pressed for the next material; of a pad the middle is pressed for that, its top
 /// and bottom for the size, its sides for the shape.
 void VrHands::choose(const vr::HandInput& now, double seconds) {
-  const bool pressed = now.steerPressed && !m_seen.hands[kRight].input.steerPressed;
+  const bool pressed = now.steerPressed && !m_seen.hands[m_seen.roles.main].input.steerPressed;
   const bool upright = std::abs(now.steerY) > std::abs(now.steerX);
   const bool pushed = std::max(std::abs(now.steerX), std::abs(now.steerY)) > kPushed;
   if (pushed && upright && (!now.pad || now.steerPressed)) {
@@ -158,8 +165,8 @@ void VrHands::step(int direction, double seconds) {
 
 void VrHands::letGo() {
   m_ends = true;
-  for (HandBrush& brush : m_brushes) brush.end();
-  for (HandBrush& grab : m_grabs) grab.end();
+  for (HandBrush& brush : m_brushes) brush.finish();
+  for (HandBrush& grab : m_grabs) grab.finish();
   for (HandTool& held : m_held) held.letGo();
   m_ends = false;
   m_seen = {};
@@ -167,11 +174,12 @@ void VrHands::letGo() {
 }
 
 /// Of what is drawn; what is taken away has none.
-std::array<float, 3> VrHands::colour(size_t hand, const Snapshot* scene) const {
+std::array<float, 3> VrHands::colour(size_t hand, const vr::HandRoles& roles, const Snapshot* scene) const {
   const auto channels = [](const QColor& c) { return std::array<float, 3>{c.redF(), c.greenF(), c.blueF()}; };
   const Theme& theme = Theme::current();
   if (m_tools.touchesMatter()) return channels(theme[Token::Accent]);
-  if (m_seen.hands[hand].holds != (m_tools.active() == kEraseTool)) return channels(theme[Token::Error]);
+  const bool erases = m_tools.active() == kEraseTool;
+  if (isOpposite(roles, hand, m_seen.hands[hand].holds) != erases) return channels(theme[Token::Error]);
   for (size_t k = 0; scene && k < std::min(scene->materialIds.size(), scene->materialLook.size()); ++k) {
     const auto [red, green, blue, clearness] = scene->materialLook[k];
     const std::string& wanted = m_tools.brush().material;
@@ -196,12 +204,14 @@ vr::Feeling VrHands::feeling(size_t hand, const Snapshot* scene) const {
 void VrHands::describe(vr::HeadsetView& view) {
   m_changed = false;
   view.vibration = preferences::vibration() / 100.0;
+  view.roles = {preferences::leftHanded() ? kLeft : kRight, preferences::oneHanded()};
+  view.raised = preferences::seatedHeight() / 100.0;
   for (const size_t hand : {kLeft, kRight}) {
     m_described[hand] = m_seen.hands[hand].up;
     vr::BrushVolume& brush = view.brushes[hand];
     std::tie(brush.half, brush.box) = m_tools.stamp(m_described[hand]);
     brush.form = m_tools.form(m_described[hand]);
-    brush.colour = colour(hand, view.matter.get());
+    brush.colour = colour(hand, view.roles, view.matter.get());
     view.ticks[hand] = m_brushes[hand].begun() + m_taken[hand];
     view.felt[hand] = feeling(hand, view.matter.get());
     view.felt[hand].strength *= view.vibration;

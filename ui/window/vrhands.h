@@ -15,9 +15,10 @@ namespace ps {
 
 class Session;
 
-/// What hands in the headset do in the editor: either draws with the chosen brush, or takes hold of what is there (of a
-/// body that is held in place, to lead it, or of free matter while time passes), and its buttons undo, play, and choose
-/// size, shape and material.
+/// What hands in the headset do in the editor: the main one draws with the chosen brush, the other one erases with it,
+/// or each does what the other does while its grip is held. Either takes hold of what is there (of a body that is held
+/// in place, to lead it, or of free matter while time passes), and buttons undo, play, and choose size, shape and
+/// material.
 class VrHands : public QObject {
   Q_OBJECT
  public:
@@ -40,11 +41,11 @@ class VrHands : public QObject {
   bool grab(size_t hand, HandInScene there, const SnapshotPtr& scene);
   bool meets(const HandInScene& there, const SnapshotPtr& scene) const;
   vr::Feeling feeling(size_t hand, const Snapshot* scene) const;
-  void press(size_t hand, const vr::HandInput& now, double seconds);
+  void press(size_t hand, const vr::HandRoles& roles, const vr::HandInput& now, double seconds);
   std::pair<bool, bool> pressed(size_t hand, const vr::HandInput& now, double seconds);
   void choose(const vr::HandInput& now, double seconds);
   void step(int direction, double seconds);
-  std::array<float, 3> colour(size_t hand, const Snapshot* scene) const;
+  std::array<float, 3> colour(size_t hand, const vr::HandRoles& roles, const Snapshot* scene) const;
 
   Session& m_session;
   Toolbox& m_tools;

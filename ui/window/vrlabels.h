@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/vr/handinput.h"
+
 #include <QtWidgets/QLabel>
 
 #include <string_view>
@@ -12,7 +14,7 @@ class VrLabels : public QLabel {
  public:
   VrLabels();
   /// Another controller; none ("") has no labels. The size follows.
-  void setProfile(std::string_view profile, size_t hand);
+  void setProfile(std::string_view profile, size_t hand, const vr::HandRoles& roles);
   bool any() const { return !text().isEmpty(); }
 
  protected:
@@ -20,6 +22,7 @@ class VrLabels : public QLabel {
 
  private:
   std::string_view m_profile;  ///< of a table that stays
+  vr::HandRoles m_roles;
 };
 
 }  // namespace ps

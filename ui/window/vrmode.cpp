@@ -24,6 +24,8 @@
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
+#include <QtCore/QCoreApplication>
+#include <QtCore/QThread>
 #include <QtGui/QAction>
 
 #include <cmath>
@@ -41,6 +43,25 @@ const QString kTopic = QStringLiteral("VR");
 QString asSentence(const std::string& text) {
   const QString said = sentence(QString::fromStdString(text));
   return said.left(1).toUpper() + said.mid(1);
+}
+
+/// Whoever has it last, it goes on the thread of the windows: the headset's may have been left in its runtime.
+std::shared_ptr<HeadsetContext> headsetContext(QOpenGLContext* window) {
+  return {new HeadsetContext(window), [](HeadsetContext* context) {
+            QCoreApplication* application = QCoreApplication::instance();
+            if (!application) return;  // its thread came back when all was over
+            if (QThread::currentThread() == application->thread()) return delete context;
+            QMetaObject::invokeMethod(
+                application, [context] { delete context; }, Qt::QueuedConnection);
+          }};
+}
+
+/// What pictures do without, to be in time.
+QString savings(double detail, int coarser) {
+  QString saved;
+  if (coarser > 0) saved += QStringLiteral(", soft light and liquids coarser by %1 of 2").arg(coarser);
+  if (detail < 1) saved += QStringLiteral(", pictures at %1 %").arg(std::lround(100 * detail));
+  return saved.isEmpty() ? saved : saved + QStringLiteral(", to be in time");
 }
 
 }  // namespace
@@ -98,6 +119,8 @@ void VrMode::begin() {
   m_link = std::make_shared<vr::HeadsetLink>();
   m_panels = std::make_shared<VrPanels>(
       VrPanels::Parts{m_parts.session, m_parts.tools, m_parts.curves, m_parts.view, m_parts.actions});
+  connect(m_panels.get(), &VrPanels::wayOutWanted, this, &VrMode::wayOutWanted);
+  connect(m_panels.get(), &VrPanels::refused, this, &VrMode::refused);
   show();
   m_timer.start();
   m_sinceHands.start();
@@ -110,10 +133,10 @@ void VrMode::enter() {
   if (active()) return showState();
   try {
     begin();
-    m_context = std::make_unique<HeadsetContext>(m_parts.view->context());
+    const std::shared_ptr<HeadsetContext> context = headsetContext(m_parts.view->context());
     vr::HeadsetSetup setup;
-    setup.makeCurrent = [this] { m_context->makeCurrent(); };
-    setup.release = [this] { m_context->release(); };
+    setup.makeCurrent = [context] { context->makeCurrent(); };
+    setup.release = [context] { context->release(); };
     setup.makeScene = [link = m_link] { return std::make_unique<vr::LiveScene>(link); };
     setup.mirror = m_pictures = std::make_shared<vr::Mirror>();
     m_headset = std::make_unique<vr::Headset>(std::move(setup));
@@ -215,7 +238,7 @@ void VrMode::showHands() {
   m_link->show(std::move(shown));
 }
 
-/// The thread is done by then, or as good as.
+/// The thread is done by then, or as good as, or left where its runtime keeps it.
 void VrMode::end(const vr::Ending& ending) {
   const bool trial = m_window != nullptr;
   m_timer.stop();
@@ -229,7 +252,6 @@ void VrMode::end(const vr::Ending& ending) {
   }
   m_hands->letGo();
   m_panels.reset();
-  m_context.reset();
   m_link.reset();
   const QString said = ending.failed ? asSentence(ending.sentence)
                        : m_leaving   ? QString()
@@ -263,8 +285,13 @@ void VrMode::showMirror() {
 
 /// What keeps its wearer from seeing the scene, or a hand from doing anything in it; "": nothing.
 QString VrMode::hindrance() const {
+  if (!m_headset->answers()) return QStringLiteral("the headset's software does not answer");
   if (m_headset->worn() == vr::Headset::Worn::Off) return QStringLiteral("the headset is not worn");
   if (m_headset->worn() == vr::Headset::Worn::BehindMenu) return QStringLiteral("behind a menu of the headset");
+  if (preferences::oneHanded()) {
+    const size_t main = preferences::leftHanded() ? vr::kLeft : vr::kRight;
+    return m_headset->sees(main) ? QString() : QStringLiteral("no hand is seen");
+  }
   const bool left = m_headset->sees(vr::kLeft), right = m_headset->sees(vr::kRight);
   if (left && right) return {};
   return !left && !right
@@ -281,8 +308,7 @@ void VrMode::showState() {
   m_mirrors.setToolTip(why);
   QString in = QStringLiteral("In VR");
   if (m_headset && m_headset->hertz() > 0) in += QStringLiteral(", %1 Hz").arg(std::lround(m_headset->hertz()));
-  if (m_headset && m_headset->detail() < 1)
-    in += QStringLiteral(", pictures at %1 %, to be in time").arg(std::lround(100 * m_headset->detail()));
+  if (m_headset) in += savings(m_headset->detail(), m_headset->coarser());
   if (const QString hinders = m_headset ? hindrance() : QString(); !hinders.isEmpty())
     in += QStringLiteral("; ") + hinders;
   m_parts.status.setHeadset(m_window                  ? QStringLiteral("Trying VR")

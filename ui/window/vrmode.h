@@ -20,7 +20,6 @@ struct Ending;
 
 class Actions;
 class CurveTarget;
-class HeadsetContext;
 class Notices;
 class Session;
 class StatusLine;
@@ -34,7 +33,7 @@ class VrWithout;
 /// The stay in a headset, or in a window in its place: an action enters and leaves it. It shows there what the view
 /// shows, and hands work there with the editor's brush; the run goes on as it is. Nothing here waits for the headset's
 /// thread, which starts and ends the stay by itself; only when this object goes during a stay does it wait until that
-/// is left.
+/// is left, or for seconds where the headset's software does not answer.
 class VrMode : public QObject {
   Q_OBJECT
  public:
@@ -62,6 +61,9 @@ class VrMode : public QObject {
 
  Q_SIGNALS:
   void ended(const QString& sentence);  ///< "": as it was asked for here
+  // As those of VrPanels.
+  void wayOutWanted(const QString& link);
+  void refused(const QString& title, const QString& why);
 
  private:
   void follow();
@@ -78,7 +80,6 @@ class VrMode : public QObject {
 
   const Parts m_parts;
   QAction &m_action, &m_without, &m_mirrors;  ///< by a headset, and without one; what the window shows meanwhile
-  std::unique_ptr<HeadsetContext> m_context;
   std::shared_ptr<vr::HeadsetLink> m_link;
   std::unique_ptr<VrHands> m_hands;
   std::shared_ptr<VrPanels> m_panels;  ///< of a stay; a menu that is open there keeps them until it closes

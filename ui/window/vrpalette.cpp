@@ -19,6 +19,7 @@
 #include <QtGui/QAction>
 #include <QtGui/QPainter>
 #include <QtWidgets/QGridLayout>
+#include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QToolButton>
 
@@ -72,20 +73,20 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
       *grid, QStringLiteral("Becomes"), [this] { return becomes(); }, [this](int by) { stepBecomes(by); });
   addChoice(
       *grid, QStringLiteral("Colour"), [this] { return colour(); }, [this](int by) { stepColour(by); });
-  addActions(*grid, {{"simulation.gravity", "gravity"},
-                     {"sketch.hold", "pin"},
-                     {"sketch.brush", "brush"},
-                     {"sketch.erase", "erase"},
-                     {"sketch.mirror", "plane"},
-                     {"view.section", "cut"}});
+  addTurns(*addActions(*grid, {{"simulation.gravity", "gravity"},
+                               {"sketch.hold", "pin"},
+                               {"sketch.brush", "brush"},
+                               {"sketch.erase", "erase"},
+                               {"sketch.mirror", "plane"},
+                               {"view.section", "cut"}}));
   addPages(*grid, pages);
   follow();
 }
 
-/// Names of actions, and their icons.
-void VrPalette::addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row) {
-  const int line = grid.rowCount();
-  int column = 0;
+/// Names of actions, and their icons, each in as much of the row as the others.
+QHBoxLayout* VrPalette::addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row) {
+  auto* line = new QHBoxLayout;
+  line->setSpacing(kGap);
   for (const auto& [name, iconName] : row) {
     QAction* action = m_actions.find(QString::fromLatin1(name));
     QToolButton* one = button(cleanText(*action), QString::fromLatin1(iconName));
@@ -99,7 +100,19 @@ void VrPalette::addActions(QGridLayout& grid, const std::vector<std::pair<const 
     // What is checked is what holds, not what was clicked.
     connect(one, &QToolButton::clicked, one, showState);
     showState();
-    grid.addWidget(one, line, column++);
+    line->addWidget(one, 1);
+  }
+  grid.addLayout(line, grid.rowCount(), 0, 1, kColumns);
+  return line;
+}
+
+/// For whoever has no stick to turn with.
+void VrPalette::addTurns(QHBoxLayout& row) {
+  for (const int steps : {-1, 1}) {
+    QToolButton* one = button(steps < 0 ? QStringLiteral("Turn left by 30°") : QStringLiteral("Turn right by 30°"),
+                              steps < 0 ? QStringLiteral("turn-left") : QStringLiteral("turn-right"));
+    connect(one, &QToolButton::clicked, this, [this, steps] { Q_EMIT turnWanted(steps); });
+    row.addWidget(one, 1);
   }
 }
 

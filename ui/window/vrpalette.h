@@ -6,6 +6,7 @@
 #include <vector>
 
 class QGridLayout;
+class QHBoxLayout;
 class QLabel;
 class QToolButton;
 
@@ -28,6 +29,7 @@ class VrPalette : public QWidget {
  Q_SIGNALS:
   void pageWanted(const QString& title);
   void labelsWanted(bool shown);  ///< of what the hands hold
+  void turnWanted(int steps);     ///< of the wearer, to the right
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -38,7 +40,8 @@ class VrPalette : public QWidget {
     QLabel* value;
     std::function<QString()> text;
   };
-  void addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row);
+  QHBoxLayout* addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row);
+  void addTurns(QHBoxLayout& row);
   void addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
                  const std::function<void(int)>& step);
   void addPages(QGridLayout& grid, const std::vector<const char*>& pages);

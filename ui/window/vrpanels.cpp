@@ -2,10 +2,12 @@
 #include "ui/window/vrpanels.h"
 
 #include "ui/curves/curvetarget.h"
+#include "ui/curves/responselist.h"
 #include "ui/panels/inspector.h"
 #include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/keyrows.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/paneltable.h"
 #include "ui/window/vrlabels.h"
@@ -32,7 +34,8 @@ namespace ps {
 namespace {
 
 /// Pages that the board can show, as their docks call them.
-constexpr const char* kPages[] = {"Brush", "Body", "Material", "Scene", "Graphs", "Curve", "Transport"};
+constexpr const char* kPages[] = {"Brush",  "Body",      "Material", "Scene",    "Outliner",
+                                  "Graphs", "Responses", "Curve",    "Transport"};
 /// m of the room for each logical pixel: rows of 26 are 34 mm on the board, where the eyes are 0.75 m away, and letters
 /// of 12 are 16 mm; the palette is held at half that.
 constexpr double kBoardPixel = 1.3e-3, kPalettePixel = 0.85e-3;
@@ -44,8 +47,9 @@ constexpr int kTwice = 400;                      // ms within which a second pre
 constexpr double kTwiceReach = 8;                // px
 constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
 constexpr int kNotch = 120;
-constexpr int kHeader = 28;
+constexpr int kHeader = 28, kNoteEdge = 8;
 constexpr std::chrono::minutes kLabelled{2};
+constexpr std::chrono::seconds kNoted{10};
 
 /// Shown to nobody, so that it is laid out and follows what it shows.
 void showUnseen(QWidget& widget, const QSize& size) {
@@ -101,6 +105,15 @@ VrPanels::VrPanels(const Parts& parts)
   m_pages = new QStackedWidget;
   column->addLayout(header);
   column->addWidget(m_pages, 1);
+  m_note = new QLabel;
+  m_note->setTextFormat(Qt::PlainText);
+  m_note->setWordWrap(true);
+  m_note->setMargin(kNoteEdge);
+  m_note->hide();
+  column->addWidget(m_note);
+  m_noteEnds.setSingleShot(true);
+  connect(&m_noteEnds, &QTimer::timeout, this, [this] { note({}, {}); });
+  connect(&parts.tools, &Toolbox::refused, this, &VrPanels::note);
   connect(m_palette.get(), &VrPalette::pageWanted, this, &VrPanels::showPage);
   showUnseen(*m_palette, kPaletteSize);
   showUnseen(*m_board, kBoardSize);
@@ -109,6 +122,7 @@ VrPanels::VrPanels(const Parts& parts)
     showUnseen(*labels, {1, 1});
   }
   connect(m_palette.get(), &VrPalette::labelsWanted, this, &VrPanels::showLabels);
+  connect(m_palette.get(), &VrPalette::turnWanted, this, [this](int steps) { m_turns += steps; });
   connect(&m_labelsEnd, &QTimer::timeout, this, [this] { showLabels(false); });
   m_labelsEnd.setSingleShot(true);
   m_labelsEnd.start(kLabelled);
@@ -127,24 +141,67 @@ VrPanels::~VrPanels() { letGo(); }
 QWidget* VrPanels::makePage(const QString& title) {
   QWidget*& page = m_made[title];
   if (page) return page;
-  if (!m_inspector) {
-    m_inspector = std::make_unique<Inspector>(m_parts.session, m_parts.tools.selection());
-    // Pages of it that nobody asks for go with the board.
-    for (ParameterPanel* panel : {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(),
-                                  m_inspector->solverPanel()}) {
-      panel->setParent(m_board.get());
-      panel->hide();
-    }
-  }
+  if (!m_inspector) makeInspector();
   const PanelContext context{
       m_parts.session, m_parts.tools.selection(), m_parts.tools, *m_inspector, m_parts.curves, m_parts.view,
       PointedBy::Hand};
   for (const PanelRow& row : panelTable()) {
     if (title == QLatin1String(row.title)) page = row.make(context);
   }
-  if (page) m_pages->addWidget(page);
+  if (!page) return nullptr;
+  m_pages->addWidget(page);
+  connectPage(*page);
   return page;
 }
+
+void VrPanels::makeInspector() {
+  m_inspector = std::make_unique<Inspector>(m_parts.session, m_parts.tools.selection());
+  // Pages of it that nobody asks for go with the board.
+  for (ParameterPanel* panel : {m_inspector->bodyPanel(), m_inspector->materialPanel(), m_inspector->scenePanel(),
+                                m_inspector->solverPanel()}) {
+    panel->setParent(m_board.get());
+    panel->hide();
+  }
+  connect(m_inspector.get(), &Inspector::curveWanted, this, [this](const Address& address) {
+    m_parts.curves.choose(address);
+    showCurve();
+  });
+  connect(m_inspector.get(), &Inspector::wayOutWanted, this, &VrPanels::wayOutWanted);
+  connect(m_inspector.get(), &Inspector::keyRefused, this,
+          [this](const QString& problem) { refuse(QStringLiteral("No key was set."), problem); });
+}
+
+/// What leads from one page to another: there is one board for all of them.
+void VrPanels::connectPage(QWidget& page) {
+  for (const KeyRows* keys : page.findChildren<KeyRows*>()) {
+    connect(keys, &KeyRows::refused, this,
+            [this](const QString& problem) { refuse(QStringLiteral("The keys stay as they are."), problem); });
+    connect(keys, &KeyRows::curveWanted, this, [this](const Address& address) {
+      m_parts.curves.chooseTrack(address);
+      showCurve();
+    });
+  }
+  if (const auto* list = qobject_cast<ResponseList*>(&page))
+    connect(list, &ResponseList::chosen, this, &VrPanels::showCurve, Qt::QueuedConnection);
+}
+
+/// Who wears the headset does not see what the window says.
+void VrPanels::note(const QString& title, const QString& why) {
+  m_note->setText(title + QLatin1Char(' ') + why);
+  m_note->setVisible(!why.isEmpty());
+  if (why.isEmpty())
+    m_noteEnds.stop();
+  else
+    m_noteEnds.start(kNoted);
+  m_touched = true;
+}
+
+void VrPanels::refuse(const QString& title, const QString& why) {
+  note(title, why);
+  Q_EMIT refused(title, why);
+}
+
+void VrPanels::showCurve() { showPage(QStringLiteral("Curve")); }
 
 /// Where it stands already it stays.
 void VrPanels::showPage(const QString& title) {
@@ -152,6 +209,7 @@ void VrPanels::showPage(const QString& title) {
   if (!page) return;
   m_pages->setCurrentWidget(page);
   m_title->setText(title);
+  if (m_boardShown) m_note->hide();
   if (!std::exchange(m_boardShown, true)) ++m_brought;
   m_touched = true;
 }
@@ -221,6 +279,7 @@ void VrPanels::describe(vr::HeadsetView& view) const {
   view.panels = m_painted;
   view.labels = m_paintedLabels;
   view.brought = m_brought;
+  view.turns = m_turns;
   const QColor accent = Theme::current()[Token::Accent];
   view.accent = {accent.redF(), accent.greenF(), accent.blueF()};
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) view.ticks[hand] += m_pointers[hand].ticks;
@@ -230,7 +289,7 @@ void VrPanels::act(const vr::HandsSeen& seen) {
   const uint64_t act = ++m_acts;
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
     const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
-    m_labels[hand]->setProfile(seen.hands[hand].input.profile, hand);
+    m_labels[hand]->setProfile(seen.hands[hand].input.profile, hand, seen.roles);
     follow(m_pointers[hand], point);
     if (act != m_acts) return;  // a menu was open meanwhile: these hands are old
     if (point && std::abs(seen.hands[hand].input.steerY) > kPushed)

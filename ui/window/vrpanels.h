@@ -58,6 +58,10 @@ class VrPanels : public QObject {
   void describe(vr::HeadsetView& view) const;
   QWidget* widget(size_t panel) const;  ///< nullptr: it is not there
 
+ Q_SIGNALS:
+  void wayOutWanted(const QString& link);                  ///< see ui/panels/wayout.h
+  void refused(const QString& title, const QString& why);  ///< "" for `why`: what was is over; the board says it too
+
  private:
   /// A hand as a mouse.
   struct Pointer {
@@ -78,6 +82,11 @@ class VrPanels : public QObject {
   void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button);
   void deliver(QWidget& target, QEvent& event);
   QWidget* makePage(const QString& title);
+  void makeInspector();
+  void connectPage(QWidget& page);
+  void note(const QString& title, const QString& why);
+  void refuse(const QString& title, const QString& why);
+  void showCurve();
   void findPopup();
   bool paintLabels();
 
@@ -85,17 +94,19 @@ class VrPanels : public QObject {
   std::unique_ptr<Inspector> m_inspector;  ///< of the board alone, once a page is asked for
   std::unique_ptr<VrPalette> m_palette;
   std::unique_ptr<QWidget> m_board;
-  QLabel* m_title = nullptr;
+  QLabel *m_title = nullptr, *m_note = nullptr;
   QStackedWidget* m_pages = nullptr;
   std::map<QString, QWidget*> m_made;
   bool m_boardShown = false;
   uint64_t m_brought = 0;
+  int64_t m_turns = 0;  ///< of the wearer, to the right, that were asked for
   std::array<Pointer, 2> m_pointers;
   std::array<vr::PanelView, vr::kPanels> m_painted;
   std::array<std::unique_ptr<VrLabels>, 2> m_labels;
   std::array<vr::PanelView, 2> m_paintedLabels;
   bool m_labelsShown = true;
   QTimer m_labelsEnd;  ///< of the first two minutes
+  QTimer m_noteEnds;
   QElapsedTimer m_sincePaint;
   bool m_touched = true;      ///< something was pressed or pointed at since it was painted
   bool m_ticked = false;      ///< something is to be felt

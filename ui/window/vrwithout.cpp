@@ -25,9 +25,9 @@ constexpr double kTurn = 0.004;  // rad for each pixel
 constexpr double kReach = 0.03;  // m for each notch of the wheel
 constexpr double kNotch = 120;
 constexpr const char* kHints[] = {
-    "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach",
-    "Right-drag: look    W A S D E Q: walk    F: go there    Arrows: size, turn    N: material    P: board    U: undo  "
-    "  "
+    "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach    "
+    "Right-drag: look",
+    "W A S D E Q: walk    F: go there    Arrows: size, turn    N: material    P: board    M: palette    U: undo    "
     "Space: play    Esc: end"};
 
 }  // namespace
@@ -79,6 +79,7 @@ void VrWithout::paintGL() {
   if (!m_scene) return;
   const double before = m_time;
   m_time = static_cast<double>(m_clock.nsecsElapsed()) * 1e-9;
+  m_room.give(m_link->shown()->roles);
   useKeys(std::min(m_time - before, 0.1));
   const auto pixels = [&](int side) { return std::max(1, static_cast<int>(std::lround(side * devicePixelRatioF()))); };
   try {
@@ -107,11 +108,15 @@ void VrWithout::useKeys(double passed) {
     input.draw = used && m_pulls ? 1 : 0;
     input.hold = down(Qt::Key_G) || (used && down(Qt::Key_Shift)) ? 1 : 0;
   }
-  m_room.input(vr::kLeft).first = down(Qt::Key_Space);
-  m_room.input(vr::kLeft).steerY = double(down(Qt::Key_F));
-  vr::HandInput& main = m_room.input(vr::kRight);
+  const vr::HandRoles roles = m_room.roles();
+  vr::HandInput &other = m_room.input(roles.other()), &main = m_room.input(roles.main);
+  other.first = down(Qt::Key_Space);
+  other.second = other.steerPressed = false;
+  other.steerX = 0;
+  other.steerY = double(down(Qt::Key_F));
   main.first = down(Qt::Key_U);
   main.second = down(Qt::Key_P);
+  main.menu = down(Qt::Key_M);
   main.steerY = double(down(Qt::Key_Up)) - double(down(Qt::Key_Down));
   main.steerX = double(down(Qt::Key_Right)) - double(down(Qt::Key_Left));
   main.steerPressed = down(Qt::Key_N);
