@@ -79,7 +79,7 @@ class PanelsTest : public VrWindowTest {
   }
   QToolButton* button(size_t panel, const char* name) {
     for (auto* one : panels().widget(panel)->findChildren<QToolButton*>())
-      if (one->accessibleName() == QString::fromLatin1(name)) return one;
+      if (one->accessibleName() == QString::fromUtf8(name)) return one;
     return nullptr;
   }
   void click(size_t panel, QWidget& widget) {
@@ -92,7 +92,32 @@ class PanelsTest : public VrWindowTest {
     return nullptr;
   }
 
+  /// Where the board stands that was brought before the script's head.
+  const vr::Panels::Place& boardPlace() {
+    if (m_board) return *m_board;
+    vr::Panels geometry;
+    geometry.follow(frameOf({}, {}), painted());
+    m_board = geometry.place(vr::kBoard).value_or(vr::Panels::Place());
+    return *m_board;
+  }
+  /// A key of the script: the right hand at a place of a widget on the board, by its beam or by its tip, and whether it
+  /// presses there.
+  QString boardKey(int frame, const QWidget& widget, const QPointF& at, bool byTip, bool presses,
+                   const QString& inputs = {}) {
+    constexpr double kBefore = 0.025, kThrough = -0.004;  // m, of a tip from the board
+    const QWidget* board = panels().widget(vr::kBoard);
+    const QPointF there = at + widget.mapTo(board, QPoint(0, 0));
+    const vr::Panels::Place& place = boardPlace();
+    const Vector3 to = place.at(there.x() / board->width(), there.y() / board->height());
+    const Vector3 front = place.pose.orientation * Vector3::UnitZ();
+    if (!byTip) return key(frame, "right", pointing({0.3, 1.15, 0.1}, to), trigger(presses) + inputs);
+    return key(frame, "right", pointing(to + ((presses ? kThrough : kBefore) + vr::kTip) * front, to), inputs);
+  }
+
   double m_seconds = 0;
+
+ private:
+  std::optional<vr::Panels::Place> m_board;  ///< the same in all stays
 };
 
 }  // namespace ps

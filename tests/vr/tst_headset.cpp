@@ -5,12 +5,15 @@
 #include "ui/vr/detail.h"
 #include "ui/vr/moving.h"
 
+#include <QElapsedTimer>
 #include <QTest>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
+#include <utility>
 
 using ps::HeadlessContext;
 using ps::PaintedScene;
@@ -58,11 +61,14 @@ class HeadsetTest : public QObject {
   void contextThatIsTakenIsSaid();
   void sceneThatThrowsEndsTheStay();
   void fiftyStaysLeakNothing();
+  void aRuntimeThatHangsIsLeft_data();
+  void aRuntimeThatHangsIsLeft();
   void lateFramesCostSharpness();
   void lateHeadsetsShowSmallerPictures();
   void theOtherHandTakesItsWearerThere();
   void aBareHandPointsAndPinches();
   void gripsCarryUnlessAHandHasSomething();
+  void aLeftHandedWearerGoesWithTheRight();
 
  private:
   HeadlessContext m_context{nullptr};
@@ -133,7 +139,9 @@ void HeadsetTest::controllersAreUnderstood_data() {
     QTest::newRow(name) << QString("/interaction_profiles/") + profile << left << right << leftInput << rightInput;
   };
   row("simple", "khr/simple_controller", R"({"/input/select/click": true})", R"({"/input/menu/click": true})", "draw 1",
-      "second");
+      "menu");
+  row("simple, the left one", "khr/simple_controller", R"({"/input/menu/click": true})",
+      R"({"/input/select/click": true})", "menu", "draw 1");
   row("Vive", "htc/vive_controller", R"({"/input/trigger/value": 0.25, "/input/squeeze/click": true})",
       R"({"/input/trackpad/x": -0.5, "/input/trackpad/y": 0.75, "/input/trackpad/click": true, "/input/menu/click": true})",
       "draw 0.25 hold 1", "steer -0.5 0.75 pressed first");
@@ -148,6 +156,17 @@ void HeadsetTest::controllersAreUnderstood_data() {
       "steer -1 0.5 second");
   row("HP", "hp/mixed_reality_controller", R"({"/input/x/click": true, "/input/squeeze/value": 0.5})",
       R"({"/input/b/click": true, "/input/trigger/value": 0.75})", "hold 0.5 first", "draw 0.75 second");
+  row("Odyssey", "samsung/odyssey_controller", R"({"/input/trackpad/click": true, "/input/squeeze/click": true})",
+      R"({"/input/menu/click": true, "/input/thumbstick/x": -1})", "hold 1 first", "steer -1 0 second");
+  for (const auto& [name, profile] : {std::pair{"Touch Pro", "facebook/touch_controller_pro"},
+                                      {"Touch Plus", "meta/touch_controller_plus"},
+                                      {"Pico Neo 3", "bytedance/pico_neo3_controller"},
+                                      {"Pico 4", "bytedance/pico4_controller"}})
+    row(name, profile, R"({"/input/x/click": true, "/input/squeeze/value": 0.5})",
+        R"({"/input/b/click": true, "/input/thumbstick/x": 1, "/input/trigger/value": 0.75})", "hold 0.5 first",
+        "draw 0.75 steer 1 0 second");
+  row("Focus 3", "htc/vive_focus3_controller", R"({"/input/y/click": true, "/input/squeeze/click": true})",
+      R"({"/input/a/click": true, "/input/thumbstick/x": 1})", "hold 1 second", "steer 1 0 first");
   row("Cosmos", "htc/vive_cosmos_controller", R"({"/input/y/click": true, "/input/squeeze/click": true})",
       R"({"/input/a/click": true, "/input/thumbstick/x": 1})", "hold 1 second", "steer 1 0 first");
   row("hands, as Microsoft has them", "microsoft/hand_interaction", R"({"/input/select/value": 0.75})",
@@ -164,6 +183,7 @@ static QString inWords(const ps::vr::HandInput& input) {
   if (input.steerPressed) words << "pressed";
   if (input.first) words << "first";
   if (input.second) words << "second";
+  if (input.menu) words << "menu";
   return words.join(' ');
 }
 
@@ -307,6 +327,7 @@ void HeadsetTest::everyFaultEndsInASentence_data() {
   fails("inputs fail", "xrSyncActions", "XR_ERROR_SESSION_LOST", 9, "headset was lost");
   fails("eyes fail", "xrLocateViews", "XR_ERROR_RUNTIME_FAILURE", 9, "xrLocateViews");
   fails("no image", "xrAcquireSwapchainImage", "XR_ERROR_RUNTIME_FAILURE", 9, "xrAcquireSwapchainImage");
+  fails("no image back", "xrWaitSwapchainImage", "XR_TIMEOUT_EXPIRED", 9, "gave no picture back");
   fails("frame refused", "xrEndFrame", "XR_ERROR_RUNTIME_FAILURE", 9, "xrEndFrame: XR_ERROR_RUNTIME_FAILURE");
   fails("events fail", "xrPollEvent", "XR_ERROR_INSTANCE_LOST", 9, "has stopped");
   const auto event = [&](const char* name, const char* text, const char* sentence) {
@@ -405,6 +426,58 @@ void HeadsetTest::fiftyStaysLeakNothing() {
   QCOMPARE(run.lines("textures").size(), size_t{51});
 }
 
+void HeadsetTest::aRuntimeThatHangsIsLeft_data() {
+  QTest::addColumn<QString>("in");
+  QTest::addColumn<int>("frames");
+  // Frame 10 comes by the eleventh call of the first.
+  QTest::newRow("waiting") << "xrWaitFrame" << 11;
+  QTest::newRow("submitting") << "xrEndFrame" << 10;
+  QTest::newRow("listening") << "xrPollEvent" << 11;
+  QTest::newRow("drawing") << "xrAcquireSwapchainImage" << 10;
+}
+
+/// For longer than anybody waits: it is said, whoever leaves is not kept, and what it had goes when
+/// it comes back after all.
+void HeadsetTest::aRuntimeThatHangsIsLeft() {
+  QFETCH(QString, in);
+  QFETCH(int, frames);
+  const ScriptedRun run(QStringLiteral(R"({"view": {"width": 64, "height": 64}, "events": [)"
+                                       R"({"frame": 10, "hangs": "%1", "milliseconds": 12000}]})")
+                            .arg(in)
+                            .toStdString());
+  const auto context = std::make_shared<HeadlessContext>(nullptr);
+  context->release();
+  const size_t threads = ps::countThreads();
+  // What its thread may yet use after this test has gone on.
+  const auto record = std::make_shared<ps::SceneRecord>();
+  ps::vr::HeadsetSetup setup;
+  setup.makeCurrent = [context] { context->makeCurrent(); };
+  setup.release = [context] { context->release(); };
+  setup.makeScene = [record] {
+    return std::make_unique<PaintedScene>(*record,
+                                          [](size_t) { return std::array<std::optional<ps::vr::Vibration>, 2>{}; });
+  };
+  QElapsedTimer left;
+  {
+    ps::vr::Headset headset(setup);
+    QTRY_VERIFY_WITH_TIMEOUT(headset.frames() == uint64_t(frames) && !headset.answers(), 20000);
+    QVERIFY(!headset.ending());  // it may come back
+    left.start();
+    headset.leave();
+    QTRY_VERIFY_WITH_TIMEOUT(headset.ending(), 3000);
+    QVERIFY(headset.ending()->failed);
+    QVERIFY2(headset.ending()->sentence.find("did not answer") != std::string::npos,
+             headset.ending()->sentence.c_str());
+  }
+  QVERIFY2(left.elapsed() < 3500, qPrintable(QString::number(left.elapsed())));
+  QTRY_COMPARE_WITH_TIMEOUT(ps::countThreads(), threads, 20000);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  QCOMPARE(run.lines("textures").back()["textures"].get<int>(), 0);
+  const ScriptedRun again;
+  const Stay stay = stayInHeadset(m_context);
+  QVERIFY(stay.ending && !stay.ending->failed);
+}
+
 /// A few late ones do not count, most of a second does; it comes back where there is time for twice as much.
 void HeadsetTest::lateFramesCostSharpness() {
   constexpr double kPeriod = 1.0 / 90;
@@ -417,10 +490,15 @@ void HeadsetTest::lateFramesCostSharpness() {
   ps::vr::Detail late;
   for (int i = 0; i < 95; ++i) late.note(1.2 * kPeriod, kPeriod);
   QCOMPARE(late.scale(), 1.0);
+  QCOMPARE(late.coarser(), 0);
   late.note(1.2 * kPeriod, kPeriod);
+  QCOMPARE(late.coarser(), 1);
+  QCOMPARE(late.scale(), 1.0);  // what is soft goes first
+  for (int i = 0; i < 96; ++i) late.note(1.2 * kPeriod, kPeriod);
   QCOMPARE(late.scale(), 0.85);
   for (int i = 0; i < 1000; ++i) late.note(1.2 * kPeriod, kPeriod);
   QCOMPARE(late.scale(), 0.5);
+  QCOMPARE(late.coarser(), ps::kSoftSteps);
   for (int i = 0; i < 2000; ++i) late.note(0.8 * kPeriod, kPeriod);
   QCOMPARE(late.scale(), 0.5);  // in time, but with nothing to spare
   for (int i = 0; i < 450; ++i) late.note(0.4 * kPeriod, kPeriod);
@@ -431,7 +509,7 @@ void HeadsetTest::lateFramesCostSharpness() {
 void HeadsetTest::lateHeadsetsShowSmallerPictures() {
   const ScriptedRun run(R"({"real_time": true, "period": 0.01, "view": {"width": 100, "height": 80}})");
   ps::StayPlan plan;
-  plan.leaveAfter = 140;
+  plan.leaveAfter = 240;
   plan.before = [](size_t) -> std::array<std::optional<ps::vr::Vibration>, 2> {
     std::this_thread::sleep_for(std::chrono::milliseconds(15));
     return {};
@@ -525,7 +603,7 @@ void HeadsetTest::gripsCarryUnlessAHandHasSomething() {
       frame.hands[hand].grip = ps::vr::HandPose{{hand == kLeft ? -0.2 : 0.2, 1, 0}, ps::Quaternion::Identity()};
       frame.hands[hand].hold = hand == kLeft ? left : right;
     }
-    moving.follow(frame, false, keeps);
+    moving.follow(frame, {}, false, keeps);
   };
   ps::vr::HeadsetFrame frame;
   ps::vr::Moving moving;
@@ -550,6 +628,31 @@ void HeadsetTest::gripsCarryUnlessAHandHasSomething() {
   const std::array<Vector3, 2> apart{Vector3(-4, 1, 0), Vector3(4, 1, 0)}, near{Vector3(-0.1, 1, 0), hands[1]};
   QVERIFY(std::abs(ps::vr::carried(wide, hands, apart).scale - 0.2) < 1e-12);
   QCOMPARE(ps::vr::carried(wide, hands, near).scale, 0.01);
+}
+
+/// By the stick of the right hand, which is the other one then; the left one turns, as the palette's buttons do.
+void HeadsetTest::aLeftHandedWearerGoesWithTheRight() {
+  using ps::vr::kLeft, ps::vr::kRight;
+  const ps::vr::HandRoles roles{kLeft, false};
+  ps::vr::Moving moving;
+  ps::vr::HeadsetFrame frame;
+  frame.head.position = {0.2, 1.6, 0.1};
+  frame.hands[kRight].aim = ps::vr::HandPose{{0, 1, 0}, ps::Quaternion(Eigen::AngleAxisd(-M_PI / 4, Vector3::UnitX()))};
+  frame.hands[kRight].steerY = 1;
+  moving.follow(frame, roles);
+  QVERIFY(moving.goal() && near(*moving.goal(), {0, 0, -1}, 1e-12));
+  const Vector3 there = moving.stand().toScene(*moving.goal());
+  frame.hands[kRight].steerY = 0;
+  moving.follow(frame, roles);
+  QVERIFY(near(moving.stand().toRoom(there), {0.2, 0, 0.1}, 1e-12));
+  ps::vr::Moving asked = moving;
+  asked.turnBy(2, frame.head.position);
+  for (const double aside : {1.0, 0.0, 1.0, 0.0}) {
+    frame.hands[kLeft].steerX = aside;
+    moving.follow(frame, roles);
+  }
+  QVERIFY(std::abs(moving.stand().turn - M_PI / 3) < 1e-12 && moving.dims());
+  QVERIFY(near(asked.stand().toRoom(there), moving.stand().toRoom(there), 1e-12));
 }
 
 QTEST_GUILESS_MAIN(HeadsetTest)

@@ -6,6 +6,7 @@
 #include "ui/document/document.h"
 #include "ui/tools/toolbox.h"
 #include "ui/vr/barehand.h"
+#include "ui/vr/posedhand.h"
 #include "ui/window/vrpanels.h"
 
 #include <QColor>
@@ -65,8 +66,9 @@ class VrBareHandsTest : public PanelsTest {
   void aHandLostEndsItsStroke();
   void aFistDrawsNothing();
   void handsAreSeen();
-  void whoDoesNotSeeHandsHasWands_data();
-  void whoDoesNotSeeHandsHasWands();
+  void handsAreShownAsFarAsTheyAreKnown_data();
+  void handsAreShownAsFarAsTheyAreKnown();
+  void modelsAreHeldAsTheyAct();
 
  private:
   int steps() { return document().undoStack().index(); }
@@ -235,27 +237,31 @@ void VrBareHandsTest::handsAreSeen() {
   }
 }
 
-void VrBareHandsTest::whoDoesNotSeeHandsHasWands_data() {
+void VrBareHandsTest::handsAreShownAsFarAsTheyAreKnown_data() {
   QTest::addColumn<QString>("more");
-  QTest::addColumn<bool>("wands");
+  QTest::addColumn<QString>("shown");
   const QString hands =
       QStringLiteral(R"(, "events": [{"profile": "/interaction_profiles/ext/hand_interaction_ext"}%1])");
   const QString known = QStringLiteral(R"(, "extensions": ["XR_KHR_opengl_enable", "XR_EXT_hand_interaction"%1])");
-  QTest::newRow("without the extension") << hands.arg(QString()) + known.arg(QString()) << true;
-  QTest::newRow("a headset that cannot") << hands.arg(QString()) + QStringLiteral(R"(, "sees_hands": false)") << true;
+  const QString model = QStringLiteral("a model");
+  QTest::newRow("without the extension") << hands.arg(QString()) + known.arg(QString()) << model;
+  QTest::newRow("a headset that cannot") << hands.arg(QString()) + QStringLiteral(R"(, "sees_hands": false)") << model;
   QTest::newRow("refused") << hands.arg(QStringLiteral(
                                   R"(, {"fail": "xrCreateHandTrackerEXT", "result": "XR_ERROR_FEATURE_UNSUPPORTED"})"))
-                           << true;
-  QTest::newRow("controllers in hand") << QString() << true;
-  QTest::newRow("hands that the headset reads") << hands.arg(QString()) << false;
+                           << model;
+  QTest::newRow("controllers in hand") << QString() << QStringLiteral("a wand");
+  QTest::newRow("hands that the headset reads") << hands.arg(QString()) << QStringLiteral("joints");
 }
 
-void VrBareHandsTest::whoDoesNotSeeHandsHasWands() {
+void VrBareHandsTest::handsAreShownAsFarAsTheyAreKnown() {
   QFETCH(QString, more);
-  QFETCH(bool, wands);
+  QFETCH(QString, shown);
   const auto [without, with] = before(more, "relaxed");
   QVERIFY(!without.isNull());
-  // Its thumb reaches out beside a wand's brush, and a wand is longer than its palm.
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  if (!folder.isEmpty()) with.save(folder + QStringLiteral("/bare-%1.png").arg(QLatin1String(QTest::currentDataTag())));
+  // Its thumb reaches out beside a wand's brush, and a wand is longer than its palm. Of a grip that is level the
+  // fingers of a model hang down.
   const Vector3 palm = stand().toRoom({0.16, 0.4, 0.25}) - indexTip("pinch", vr::kRight);
   const auto differs = [&, &bare = without, &hands = with](const Vector3& room) {
     const auto at = project(scriptEye(true), bare.width(), bare.height(), room);
@@ -263,8 +269,45 @@ void VrBareHandsTest::whoDoesNotSeeHandsHasWands() {
     const QColor a = bare.pixelColor(int(at->x()), int(at->y())), b = hands.pixelColor(int(at->x()), int(at->y()));
     return std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) + std::abs(a.blue() - b.blue()) > 20;
   };
-  QCOMPARE(differs(palm + Vector3(-0.059, -0.022, -0.055)), !wands);
-  QCOMPARE(differs(palm + Vector3(0, 0, 0.1)), wands);
+  QCOMPARE(differs(palm + Vector3(0, 0, 0.1)), shown == QStringLiteral("a wand"));
+  QCOMPARE(differs(palm + Vector3(-0.059, -0.022, -0.055)), shown == QStringLiteral("joints"));
+  if (shown != QStringLiteral("a model")) return;
+  int seen = 0;
+  for (const vr::HandJoint& joint : vr::posedJoints(vr::kRight, {palm, Quaternion::Identity()}, vr::HandShape::Relaxed))
+    seen += differs(joint.position);
+  QVERIFY2(seen >= 23, qPrintable(QString::number(seen)));
+}
+
+/// Each is told apart by what tells real hands apart.
+void VrBareHandsTest::modelsAreHeldAsTheyAct() {
+  using enum vr::HandShape;
+  vr::HandInput input;
+  QVERIFY(vr::shapeOf(input, false) == Relaxed && vr::shapeOf(input, true) == Pointing);
+  input.draw = 1;
+  QVERIFY(vr::shapeOf(input, true) == Pinching);
+  input.hold = 1;
+  QVERIFY(vr::shapeOf(input, false) == Fist);
+  const vr::HandPose grip{{0.1, 1.2, -0.3}, Quaternion(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()))};
+  for (const size_t hand : {vr::kLeft, vr::kRight})
+    for (const vr::HandShape shape : {Relaxed, Pointing, Pinching, Fist}) {
+      const vr::SeenHand seen{vr::posedJoints(hand, grip, shape), vr::palmOf(hand, grip)};
+      QCOMPARE(vr::pinchOf(seen) > 0.9, shape == Pinching);
+      QCOMPARE(vr::fistOf(seen) > 0.9, shape == Fist);
+      QCOMPARE(vr::pointsWith(seen), shape == Pointing);
+      vr::HandInput back;
+      vr::useBareHand(back, hand, seen, false);
+      QVERIFY(back.grip->orientation.angularDistance(grip.orientation) < 1e-9);
+    }
+  // Within 0.3 m of a panel, also beside it.
+  vr::HeadsetView view;
+  view.panels[vr::kBoard] = {std::make_shared<PanelImage>(), 0.5, 0.4, 0, 0, 0};
+  vr::Panels geometry;
+  geometry.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *geometry.place(vr::kBoard);
+  const Vector3 front = board.pose.orientation * Vector3::UnitZ();
+  QVERIFY(geometry.isNear(board.at(0.1, 0.9) + 0.29 * front, 0.3));
+  QVERIFY(!geometry.isNear(board.at(0.1, 0.9) + 0.31 * front, 0.3));
+  QVERIFY(!geometry.isNear(board.at(1.7, 0.5), 0.3));
 }
 
 QTEST_MAIN(VrBareHandsTest)

@@ -56,8 +56,8 @@ void VrCupTest::aCupIsSketchedWhileTheOtherHandErases() {
   brush("disc", kCupRadius, 293.15, true);
   const double half = m_window->tools().spacing() / 2;
   const Vector3 lip(-kCupRadius, kCupHeight + 0.1 - 3 * half, 0), bottom(0, 0.1 - half, 0);
-  next(left(0, lip, kLetGo) + right(0, bottom, kLetGo) + left(20, lip, kPulledHeld) + right(20, bottom, kPulled) +
-       left(40, lip, kLetGoHeld) + right(40, bottom, kLetGo));
+  next(left(0, lip, kLetGo) + right(0, bottom, kLetGo) + left(20, lip, kPulled) + right(20, bottom, kPulled) +
+       left(40, lip, kLetGo) + right(40, bottom, kLetGo));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 3, kLong);
   QCOMPARE(document().project().bodies.size(), size_t{1});
   const std::vector<Vector3> places = placesOf(m_cup);

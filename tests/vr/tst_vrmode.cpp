@@ -1,20 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 // The editor's window in VR, against the scripted runtime: entering, what the eyes see, each ending.
+#include <epoxy/gl.h>
+
 #include "core/io/projectio.h"
+#include "core/simulation/enginethread.h"
+#include "tests/vr/stay.h"
 #include "tests/vr/vrwindow.h"
 #include "ui/session/messagelog.h"
+#include "ui/session/preferences.h"
+#include "ui/vr/livescene.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <thread>
+#include <vector>
 
 using namespace ps;
 
 namespace {
 
 size_t threads() { return static_cast<size_t>(QDir(QStringLiteral("/proc/self/task")).entryList(QDir::Dirs).size()); }
+
+/// What an eye of the script's head sees, as rows of RGBA8 from the top.
+using Seen = std::vector<uint8_t>;
+
+constexpr size_t kRow = size_t{4} * kSide;  // bytes
+
+/// Mean difference of a channel.
+double apart(const Seen& a, const Seen& b) {
+  double all = 0;
+  for (size_t i = 0; i < a.size(); ++i) all += std::abs(a[i] - b.at(i));
+  return all / static_cast<double>(a.size());
+}
+
+/// All of it has gone along x meanwhile, at 0.5 m/s.
+SnapshotPtr after(const Snapshot& start, double seconds) {
+  auto later = std::make_shared<Snapshot>(start);
+  later->stats.time += seconds;
+  for (api::Float4& p : later->position) p.x += static_cast<float>(0.5 * seconds);
+  return later;
+}
+
+/// By a headset's scene, in the context that is current.
+Seen seenBy(vr::HeadsetScene& scene) {
+  GLuint texture = 0, framebuffer = 0;
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, kSide, kSide);
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  scene.draw(vr::kLeft, scriptEye(false), {framebuffer, 0, 0, {kSide, kSide}});
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  Seen fromBelow(kRow * kSide), seen;
+  glReadPixels(0, 0, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE, fromBelow.data());
+  glDeleteFramebuffers(1, &framebuffer);
+  glDeleteTextures(1, &texture);
+  for (auto end = fromBelow.end(); end != fromBelow.begin(); end -= static_cast<ptrdiff_t>(kRow))
+    seen.insert(seen.end(), end - static_cast<ptrdiff_t>(kRow), end);
+  return seen;
+}
 
 }  // namespace
 
@@ -23,21 +75,30 @@ class VrModeTest : public VrWindowTest {
 
  private Q_SLOTS:
   void initTestCase() { open(); }
-  void cleanup() { leaveAtLast(); }
+  void cleanup() {
+    leaveAtLast();
+    preferences::setOneHanded(false);
+  }
   void cleanupTestCase() { m_window.reset(); }
 
   void commandIsWhereOneLooksForIt();
   void entersAndLeavesWhileTheSceneRuns();
   void eyesShowWhatTheViewShows();
   void matterMovesInTheHeadset();
+  void noFrameWaitsForTheSolver();
+  void matterIsSeenOnItsWay();
   void noRuntimeIsSaid();
   void everyEndingIsSaidAndVrComesBack_data();
   void everyEndingIsSaidAndVrComesBack();
   void headsetOnTheTableIsLeft();
   void aMenuOfTheHeadsetIsSaid();
+  void handsOutOfSightAreSaid_data();
+  void handsOutOfSightAreSaid();
+  void whatIsSavedIsSaid();
+  void aRuntimeThatHangsIsLeft();
   void leftAndEnteredAtOnceItComesBack();
   void anotherProjectComesBeforeTheWearer();
-  void staysLeaveNoThreads();
+  void staysLeaveNothing();
   void windowClosesInVr();
 };
 
@@ -104,6 +165,95 @@ void VrModeTest::matterMovesInTheHeadset() {
   QCOMPARE(early.size(), late.size());
   QVERIFY(early != late);
   session().pause();
+}
+
+/// That is kept from its next step for as long as the headset has shown a second of frames.
+void VrModeTest::noFrameWaitsForTheSolver() {
+  backToTheStart();
+  const ScriptedRun run(vrScript());
+  session().play();
+  enter();
+  struct Kept {
+    std::atomic<bool> begun = false, over = false;
+  };
+  const auto kept = std::make_shared<Kept>();
+  struct Ends {
+    ~Ends() { kept->over = true; }  // whatever fails
+    std::shared_ptr<Kept> kept;
+  } const ends{kept};
+  session().engine()->ask([kept](const Engine&) {
+    kept->begun = true;
+    while (!kept->over) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  QTRY_VERIFY_WITH_TIMEOUT(kept->begun.load(), kLong);
+  const auto time = [&] { return session().engine()->snapshot()->stats.time; };
+  const double then = time();
+  const uint64_t frames = vr().frames();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > frames + 50, kLong);
+  QCOMPARE(time(), then);
+  kept->over = true;
+  QTRY_VERIFY_WITH_TIMEOUT(time() > then, kLong);
+  leave();
+  session().pause();
+  QVERIFY(run.lines("violation").empty());
+}
+
+/// The block at 0.5 m/s, half way between two snapshots that lie 0.2 s apart: where it would be then.
+void VrModeTest::matterIsSeenOnItsWay() {
+  backToTheStart();
+  const SnapshotPtr start = view()->snapshot();
+  const RenderScene scene = view()->scene();
+  const Look look = view()->look();
+  const SnapshotPtr end = after(*start, 0.2), middle = after(*start, 0.1);
+  const vr::Stand stands = stand();
+  view()->doneCurrent();
+  HeadlessContext context;
+  Renderer renderer;
+  const auto picture = [&](const SnapshotPtr& matter) {
+    renderer.prepare(*matter, nullptr, 1, scene, look);
+    return renderImage(renderer, stands.toScene(scriptEye(false)), {kSide, kSide, false});
+  };
+  const Seen atStart = picture(start), atEnd = picture(end), halfWay = picture(middle);
+  const double least = std::min(apart(halfWay, atStart), apart(halfWay, atEnd));
+  QVERIFY(least > 0.1);
+
+  const auto link = std::make_shared<vr::HeadsetLink>();
+  vr::LiveScene live(link);
+  const auto shows = [&](const SnapshotPtr& matter, uint64_t number) {
+    auto shown = std::make_shared<vr::HeadsetView>();
+    shown->matter = matter;
+    shown->goesOn = true;
+    shown->scene = scene;
+    shown->look = look;
+    shown->picture = number;
+    shown->project = 1;
+    shown->box = boxOf(*start, scene.environment);
+    link->show(std::move(shown));
+  };
+  vr::HeadsetFrame frame;
+  frame.head = scriptHead();
+  frame.period = 0.01;
+  const auto comesTo = [&](double time) {
+    frame.time = time;
+    live.prepare(frame);
+    return seenBy(live);
+  };
+  // A thread prepares it; windows have no events meanwhile, which would take the context.
+  const auto shownAt = [&](double time, const Seen& wanted) {
+    QElapsedTimer clock;
+    clock.start();
+    while (apart(comesTo(time), wanted) > 0.2 * least) {
+      if (clock.hasExpired(kLong)) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+  };
+  shows(start, 1);
+  QVERIFY(shownAt(1, atStart));
+  shows(end, 2);
+  comesTo(1.2);
+  QVERIFY(shownAt(1.28, halfWay));  // what is prepared is for two frames later
+  QVERIFY(shownAt(1.5, atEnd));
 }
 
 void VrModeTest::noRuntimeIsSaid() {
@@ -188,6 +338,95 @@ void VrModeTest::aMenuOfTheHeadsetIsSaid() {
   QVERIFY(run.lines("violation").empty());
 }
 
+void VrModeTest::handsOutOfSightAreSaid_data() {
+  QTest::addColumn<bool>("oneHanded");
+  QTest::addColumn<bool>("left");
+  QTest::addColumn<bool>("right");
+  QTest::addColumn<QString>("said");
+  const QString none = QStringLiteral("no hand is seen");
+  QTest::newRow("both are seen") << false << true << true << QString();
+  QTest::newRow("the left one is not") << false << false << true << QStringLiteral("the left hand is not seen");
+  QTest::newRow("the right one is not") << false << true << false << QStringLiteral("the right hand is not seen");
+  QTest::newRow("neither is") << false << false << false << none;
+  QTest::newRow("the one that is used is seen") << true << false << true << QString();
+  QTest::newRow("the one that is used is not") << true << true << false << none;
+}
+
+void VrModeTest::handsOutOfSightAreSaid() {
+  QFETCH(bool, oneHanded);
+  QFETCH(bool, left);
+  QFETCH(bool, right);
+  QFETCH(QString, said);
+  preferences::setOneHanded(oneHanded);
+  const auto is = [](bool seen) { return seen ? QStringLiteral("true") : QStringLiteral("false"); };
+  const ScriptedRun run(vrScript(
+      {},
+      QStringLiteral(R"(, {"frame": 1, "left": {"active": %1}, "right": {"active": %2}})").arg(is(left), is(right))));
+  enter();
+  const auto hinders = [&] {
+    for (const QString& part : m_window->statusLine()->parts())
+      if (part.startsWith(QStringLiteral("In VR"))) return part.section(QStringLiteral("; "), 1);
+    return QStringLiteral("nobody is in VR");
+  };
+  QTRY_COMPARE_WITH_TIMEOUT(hinders(), said, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+}
+
+/// By a headset whose frames last a millisecond, so that all are late: first what is soft goes, then pixels.
+void VrModeTest::whatIsSavedIsSaid() {
+  const QString script = QString::fromStdString(vrScript())
+                             .replace(QStringLiteral("\"period\": 0.02"), QStringLiteral("\"period\": 0.001"))
+                             .replace(QStringLiteral("[50]"), QStringLiteral("[1000]"))
+                             .replace(QString::number(kSide), QStringLiteral("64"));
+  QVERIFY(script.contains(QStringLiteral("0.001")) && script.contains(QStringLiteral("[1000]")));
+  const ScriptedRun run(script.toStdString());
+  enter();
+  QStringList said;  // the first of them may stand for a tenth of a second alone
+  QTimer looks;
+  connect(&looks, &QTimer::timeout, this, [&] { said << status(); });
+  looks.start(5);
+  const auto when = [&](const char* saved) {
+    const auto holds = [&](const QString& text) { return text.contains(QString::fromLatin1(saved)); };
+    return std::find_if(said.begin(), said.end(), holds) - said.begin();
+  };
+  constexpr const char *kSoft = ", soft light and liquids coarser by 1 of 2, to be in time",
+                       *kPixels = ", soft light and liquids coarser by 1 of 2, pictures at 85 %, to be in time";
+  QTRY_VERIFY2_WITH_TIMEOUT(when(kPixels) < said.size(), qPrintable(status()), 2 * kLong);
+  QVERIFY2(when(kSoft) < when(kPixels), qPrintable(said.join(QLatin1Char('\n'))));
+  leave();
+  QVERIFY(run.lines("violation").empty());
+}
+
+/// The window goes on, says so, and is not kept when it leaves. VR can be entered again once the runtime is back.
+void VrModeTest::aRuntimeThatHangsIsLeft() {
+  const std::string before = writeProject(document().project());
+  const size_t alone = threads();
+  const ScriptedRun run(
+      vrScript(QStringLiteral(R"(, "events": [{"frame": 20, "hangs": "xrWaitFrame", "milliseconds": 30000}])")));
+  enter();
+  QTRY_VERIFY2_WITH_TIMEOUT(status().contains(QStringLiteral("the headset's software does not answer")),
+                            qPrintable(status()), kLong);
+  QVERIFY(vr().active());
+  QElapsedTimer clock;
+  clock.start();
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+  QVERIFY2(clock.elapsed() < 5000, qPrintable(QString::number(clock.elapsed())));
+  QVERIFY2(status().contains(QStringLiteral("it was left all the same")), qPrintable(status()));
+  QCOMPARE(writeProject(document().project()), before);
+  // As long as it keeps what the loader has one of, there is no other stay.
+  action()->trigger();
+  QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
+  QVERIFY2(status().contains(QStringLiteral("still keeps the last stay")), qPrintable(status()));
+  QTRY_COMPARE_WITH_TIMEOUT(threads(), alone, 3 * kLong);
+  QVERIFY(run.lines("violation").empty());
+  const ScriptedRun again(vrScript());
+  enter();
+  leave();
+  QVERIFY(again.lines("violation").empty());
+}
+
 /// The button, pressed again while the stay has yet to end, is not lost.
 void VrModeTest::leftAndEnteredAtOnceItComesBack() {
   const ScriptedRun run(vrScript());
@@ -217,16 +456,27 @@ void VrModeTest::anotherProjectComesBeforeTheWearer() {
   session().pause();
 }
 
-void VrModeTest::staysLeaveNoThreads() {
+/// Neither threads nor objects of OpenGL, of which each stay makes some dozens; the view may make one at any time.
+void VrModeTest::staysLeaveNothing() {
+  backToTheStart();
+  const auto objects = [&] {
+    view()->makeCurrent();
+    const size_t count = countGlObjects();
+    view()->doneCurrent();
+    return count;
+  };
   const ScriptedRun run(vrScript());
   enter();
   leave();
-  const size_t before = threads();
+  const size_t before = threads(), made = objects();
+  QVERIFY(made > 0);
   for (int i = 0; i < 50; ++i) {
     enter();
     leave();
   }
   QTRY_COMPARE(threads(), before);
+  QTRY_VERIFY2_WITH_TIMEOUT(objects() < made + 25,
+                            qPrintable(QStringLiteral("%1, after one stay %2").arg(objects()).arg(made)), kLong);
   QVERIFY(run.lines("violation").empty());
   for (const nlohmann::json& line : run.lines("textures")) QCOMPARE(line["textures"].get<int>(), 0);
 }

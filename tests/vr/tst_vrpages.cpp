@@ -3,12 +3,19 @@
 #include "tests/ui/curvewindow.h"
 #include "tests/ui/recordhands.h"
 #include "tests/vr/panelhands.h"
+#include "ui/curves/responselist.h"
 #include "ui/graphs/graphview.h"
+#include "ui/panels/outliner.h"
+#include "ui/session/selection.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/timeline.h"
+#include "ui/tools/toolbox.h"
 #include "ui/window/vrwithout.h"
 
 #include <QtGui/QWheelEvent>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QListWidget>
+#include <QtWidgets/QScrollArea>
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +44,11 @@ class VrPagesTest : public PanelsTest {
   void theTimelineIsScrubbed_data();
   void theTimelineIsScrubbed();
   void theTimelinesTargetsAreLargeEnough();
+  void aPointOfACurveIsMoved_data();
   void aPointOfACurveIsMoved();
   void aGraphIsZoomed_data();
   void aGraphIsZoomed();
+  void onePageLeadsToAnother();
 
  private:
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
@@ -107,7 +116,8 @@ void VrPagesTest::theTimelineIsScrubbed() {
   QCOMPARE(session().newest()->stats.frame, kFrames);
   QVERIFY(document().undoStack().index() == 0);  // nothing was drawn or edited
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) run.picture(150, 0).save(folder + "/vr-timeline.png");
+  if (!folder.isEmpty()) run.picture(150, 0).save(folder + "/vr-timeline-left.png");
+  if (!folder.isEmpty()) run.picture(150, 1).save(folder + "/vr-timeline-right.png");
   session().recorded().showNewest();
 }
 
@@ -156,12 +166,20 @@ void VrPagesTest::theTimelinesTargetsAreLargeEnough() {
   session().recorded().showNewest();
 }
 
-/// As one step of undo, to where the same way of the mouse moves it.
+void VrPagesTest::aPointOfACurveIsMoved_data() {
+  QTest::addColumn<bool>("byTip");
+  QTest::newRow("by a beam") << false;
+  QTest::newRow("by a fingertip") << true;
+}
+
+/// By the hand that the headset has, as one step of undo, to where the same way of the mouse moves it.
 void VrPagesTest::aPointOfACurveIsMoved() {
+  QFETCH(bool, byTip);
   CurveTarget& curves = m_window->curves();
   curves.choose(kViscosity);
   QVERIFY(curves.set(curveThrough({{280, 0.0015}, {310, 0.001}, {350, 0.0005}}), QStringLiteral("Points")));
-  enterWithout();
+  ScriptedRun run(vrScript());
+  enter();
   panels().showPage(QStringLiteral("Curve"));
   QTest::qWait(100);
   auto* page = panels().widget(vr::kBoard)->findChild<CurvePanel*>();
@@ -183,17 +201,27 @@ void VrPagesTest::aPointOfACurveIsMoved() {
   curves.choosePoint(1);
   QTest::qWait(50);
   QCOMPARE(placeOf(1), from);
-  at(vr::kBoard, view, from, false);
-  for (const int k : {0, 1, 2, 3}) at(vr::kBoard, view, from + k * way / 3, true);
-  at(vr::kBoard, view, from + way, false);
+  run.goOn(vrScript(QStringLiteral(R"(, "pictures": [50])"),
+                    boardKey(0, view, from, byTip, false) + boardKey(20, view, from, byTip, false) +
+                        boardKey(30, view, from, byTip, true) + boardKey(60, view, from + way, byTip, true) +
+                        boardKey(70, view, from + way, byTip, true) + boardKey(80, view, from + way, byTip, false)));
+  QTRY_COMPARE_WITH_TIMEOUT(document().undoStack().index(), steps + 1, 2 * kLong);
+  QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{2}, kLong);
+  const uint64_t after = vr().frames() + 20;
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > after, kLong);  // the gesture is over
   const CurvePoint moved = curves.response().points[1];
+  const QPointF is = view.at(moved.x, moved.y), meant = view.at(wanted.x, wanted.y);
+  leave();
   QCOMPARE(document().undoStack().index(), steps + 1);
   QVERIFY(moved.x > 310 && moved.y > 0.001);
   // Rows and columns of pixels are where both stop.
-  QVERIFY(std::abs(view.at(moved.x, moved.y).x() - view.at(wanted.x, wanted.y).x()) <= 1);
-  QVERIFY(std::abs(view.at(moved.x, moved.y).y() - view.at(wanted.x, wanted.y).y()) <= 1);
+  QVERIFY2(std::abs(is.x() - meant.x()) <= 1 && std::abs(is.y() - meant.y()) <= 1,
+           qPrintable(QStringLiteral("%1 %2").arg(is.x() - meant.x()).arg(is.y() - meant.y())));
+  QVERIFY(run.lines("violation").empty());
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) panels().widget(vr::kBoard)->grab().save(folder + "/vr-curve.png");
+  const auto names = run.texts("picture");
+  for (size_t eye = 0; !folder.isEmpty() && eye < names.size(); ++eye)
+    QImage(QString::fromStdString(names[eye])).save(folder + QStringLiteral("/vr-curve-%1.png").arg(eye));
 }
 
 void VrPagesTest::aGraphIsZoomed_data() {
@@ -202,12 +230,13 @@ void VrPagesTest::aGraphIsZoomed_data() {
   QTest::newRow("by a fingertip") << true;
 }
 
-/// Stick, drag and double press show what wheel, drag and double click of the mouse show.
+/// By the hand that the headset has: stick, drag and double press show what wheel, drag and double click show.
 void VrPagesTest::aGraphIsZoomed() {
   QFETCH(bool, byTip);
   for (uint64_t frame = 1; frame <= kFrames; ++frame) hands::stepKept(session());
   QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
-  enterWithout();
+  ScriptedRun run(vrScript());
+  enter();
   panels().showPage(QStringLiteral("Graphs"));
   QTest::qWait(100);
   auto* graph = panels().widget(vr::kBoard)->findChild<GraphView*>();
@@ -220,9 +249,6 @@ void VrPagesTest::aGraphIsZoomed() {
   const QRectF plot = graph->plotRect();
   const QPoint from(static_cast<int>(plot.left() + 0.7 * plot.width()), static_cast<int>(plot.center().y())),
       way(-30, 0);
-  const auto hand = [&](const QPointF& place, bool pressed, double steer) {
-    at(vr::kBoard, *graph, place, pressed, steer, byTip);
-  };
   const std::vector<double> whole = ends();
   QWheelEvent wheel(from, graph->mapToGlobal(from), {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,
                     false);
@@ -233,19 +259,76 @@ void VrPagesTest::aGraphIsZoomed() {
   QTest::mouseDClick(graph, Qt::LeftButton, {}, from);
   QVERIFY(graph->isFitted() && zoomed[1] - zoomed[0] < 0.9 * (whole[1] - whole[0]) && !areNear(panned, zoomed));
 
-  hand(from, false, 0);
-  hand(from, false, 1);
-  QVERIFY(areNear(ends(), zoomed));
-  hand(from, true, 0);
-  for (const int k : {1, 2, 3}) hand(from + k * QPointF(way) / 3, true, 0);
-  hand(from + way, false, 0);
+  const auto there = [&](int frame, const QPointF& place, bool presses, double stick = 0) {
+    return boardKey(frame, *graph, place, byTip, presses, QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(stick));
+  };
+  // A push of three frames is one notch.
+  run.goOn(vrScript({}, there(0, from, false) + there(20, from, false, 1) + there(23, from, false)));
+  QTRY_VERIFY_WITH_TIMEOUT(areNear(ends(), zoomed), kLong);
+  run.goOn(vrScript({}, there(0, from, false) + there(10, from, false) + there(20, from, true) +
+                            there(50, from + way, true) + there(60, from + way, true) + there(70, from + way, false)));
+  QTRY_VERIFY_WITH_TIMEOUT(areNear(ends(), panned), kLong);
+  const uint64_t after = vr().frames() + 80;
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > after, kLong);
   QVERIFY(areNear(ends(), panned));
-  hand(from + way, false, -1);
-  QVERIFY(ends()[1] - ends()[0] > 1.1 * (panned[1] - panned[0]));
+  run.goOn(vrScript({}, there(0, from + way, false) + there(20, from + way, false, -1) + there(23, from + way, false)));
+  QTRY_VERIFY_WITH_TIMEOUT(ends()[1] - ends()[0] > 1.1 * (panned[1] - panned[0]), kLong);
   const QPointF other = plot.center();
-  for (const bool pressed : {false, true, false, true, false}) hand(other, pressed, 0);
-  QVERIFY(graph->isFitted());
+  run.goOn(vrScript({}, there(0, other, false) + there(19, other, false) + there(21, other, true) +
+                            there(24, other, false) + there(27, other, true) + there(30, other, false)));
+  QTRY_VERIFY_WITH_TIMEOUT(graph->isFitted(), kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
   QCOMPARE(document().undoStack().index(), 0);  // as with the mouse, no step
+}
+
+/// A board has no other pages beside the one that it shows: what opens there comes before its wearer.
+void VrPagesTest::onePageLeadsToAnother() {
+  enterWithout();
+  CurveTarget& curves = m_window->curves();
+  curves.choose(kConductivity);
+  m_window->selection().setMaterial("water");
+  panels().showPage(QStringLiteral("Material"));
+  QTest::qWait(100);
+  const auto curve = [&] { return panels().widget(vr::kBoard)->findChild<CurvePanel*>(); };
+  QVERIFY(!curve());
+  ParameterRow* row = rowOf(QString::fromStdString(kViscosity.text()));
+  QVERIFY(row);
+  for (QWidget* up = row->parentWidget(); up; up = up->parentWidget())
+    if (auto* scroll = qobject_cast<QScrollArea*>(up)) scroll->ensureWidgetVisible(row);
+  QTest::qWait(50);
+  const QPointF mark(row->fieldRect().right() + 13, row->rect().center().y());
+  for (const bool pressed : {false, true, false}) at(vr::kBoard, *row, mark, pressed);
+  QVERIFY(curve() && curve()->isVisible());
+  QCOMPARE(curves.address().text(), kViscosity.text());
+  // Another one of the list.
+  panels().showPage(QStringLiteral("Responses"));
+  QTest::qWait(100);
+  auto* list = panels().widget(vr::kBoard)->findChild<ResponseList*>()->list();
+  QVERIFY(list->isVisible() && !curve()->isVisible() && list->count() > 2);
+  const int other = list->currentRow() == 0 ? 1 : 0;
+  list->scrollToItem(list->item(other));
+  const QPointF place = list->visualItemRect(list->item(other)).center();
+  for (const bool pressed : {false, true, false}) at(vr::kBoard, *list->viewport(), place, pressed);
+  QTRY_VERIFY(curve()->isVisible());
+  QVERIFY(curves.address().text() != kViscosity.text());
+  panels().showPage(QStringLiteral("Outliner"));
+  QTest::qWait(100);
+  QVERIFY(panels().widget(vr::kBoard)->findChild<Outliner*>()->isVisible());
+  // What is refused is said where its wearer looks, too.
+  const auto noted = [&] {
+    for (const auto* label : panels().widget(vr::kBoard)->findChildren<QLabel*>())
+      if (label->isVisible() && label->text() == QStringLiteral("Nothing was drawn. There is no room.")) return true;
+    return false;
+  };
+  m_window->tools().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("There is no room."));
+  QVERIFY(noted());
+  m_window->tools().refuse(QStringLiteral("Nothing was drawn."), {});
+  QVERIFY(!noted());
+  // It goes of itself as well.
+  m_window->tools().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("There is no room."));
+  QVERIFY(noted());
+  QTRY_VERIFY_WITH_TIMEOUT(!noted(), kLong);
 }
 
 QTEST_MAIN(VrPagesTest)

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface in the headset: palette and board, pointed at by beam and by tip, painted and seen.
+#include "tests/ui/curvewindow.h"
 #include "tests/ui/hands.h"
 #include "tests/vr/panelhands.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
+#include "ui/panels/outliner.h"
+#include "ui/panels/outlinerdelegate.h"
+#include "ui/rows/groupheading.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/theme/theme.h"
 #include "ui/vr/handlabels.h"
@@ -12,8 +16,14 @@
 #include "ui/window/vrwithout.h"
 
 #include <QtCore/QTimer>
+#include <QtGui/QFontInfo>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QAbstractItemView>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
+#include <QtWidgets/QTreeView>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +41,9 @@ class VrPanelsTest : public PanelsTest {
   void cleanupTestCase() { m_window.reset(); }
 
   void thePaletteShowsWithThePalm();
+  void thePaletteOfALeftHandedWearer();
+  void aLoneHandPinsThePalette();
+  void aMenuPinsThePalette();
   void theBoardStandsBeforeTheWearer();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
@@ -39,15 +52,18 @@ class VrPanelsTest : public PanelsTest {
   void letteringAndTargetsAreLargeEnough();
   void whatVanishesUnderAPressIsNotClicked();
   void aBeamPlaysTheRun();
+  void aSimpleControllerTurnsByThePalette();
   void aSliderOfTheBoardIsDragged();
   void pagesAreTheWindowsOwn();
   void menusComeAlong();
   void gravityIsTakenAndGivenBack();
   void labelsSayWhatControllersDo_data();
   void labelsSayWhatControllersDo();
+  void labelsFollowTheMainHand();
   void labelsHangBesideTheHand();
   void labelsGoAndComeBack();
   void aMousePressesThePalette();
+  void aKeyPinsThePalette();
 };
 
 namespace {
@@ -79,6 +95,93 @@ void VrPanelsTest::thePaletteShowsWithThePalm() {
   QVERIFY(!panels.place(vr::kPalette));
   panels.follow(frameOf({}, palm()), view);  // the left hand is asleep
   QVERIFY(!panels.place(vr::kPalette));
+}
+
+namespace {
+
+/// A right hand where the left one is, or the other way round, whose palm faces the same way.
+vr::HandPose mirrored(vr::HandPose hand) {
+  hand.orientation = hand.orientation * Quaternion(Eigen::AngleAxisd(std::numbers::pi, Vector3::UnitY()));
+  return hand;
+}
+
+}  // namespace
+
+void VrPanelsTest::thePaletteOfALeftHandedWearer() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  view.panels[vr::kBoard].image = nullptr;
+  view.roles.main = vr::kLeft;
+  panels.follow(frameOf(palm(), {}), view);
+  QVERIFY(!panels.place(vr::kPalette));  // the main hand's palm
+  panels.follow(frameOf({}, palm()), view);
+  QVERIFY(!panels.place(vr::kPalette));  // the back of the hand
+  panels.follow(frameOf({}, mirrored(palm())), view);
+  const auto place = panels.place(vr::kPalette);
+  QVERIFY(place && place->pose.position.y() > palm().position.y() + 0.12);
+  // The main hand points at it, its own does not.
+  const Vector3 front = place->pose.orientation * Vector3::UnitZ();
+  panels.follow(frameOf(pointing(place->pose.position + 0.3 * front, place->pose.position), mirrored(palm())), view);
+  QVERIFY(panels.pointed(vr::kLeft) && panels.pointed(vr::kLeft)->panel == vr::kPalette);
+  QVERIFY(!panels.pointed(vr::kRight));
+}
+
+/// It turns its palm to the wearer, and away again to point at what came there; the next time it puts it away.
+void VrPanelsTest::aLoneHandPinsThePalette() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  view.panels[vr::kBoard].image = nullptr;
+  view.roles.alone = true;
+  panels.follow(frameOf(palm(), {}), view);
+  QVERIFY(!panels.place(vr::kPalette));  // the other hand is not used
+  const vr::HandPose shows = mirrored(palm());
+  panels.follow(frameOf({}, shows), view);
+  const auto place = panels.place(vr::kPalette);
+  QVERIFY(place && std::abs(place->pose.position.y() - shows.position.y()) < 0.1);
+  QVERIFY(place->pose.position.z() < shows.position.z() - 0.1);  // beyond it
+  // From where the hand is it can be pointed at and pressed.
+  for (const double pulled : {0.0, 1.0, 0.0}) {
+    panels.follow(frameOf({}, pointing(shows.position, place->at(0.3, 0.7)), pulled), view);
+    const auto point = panels.pointed(vr::kRight);
+    QVERIFY(point && point->panel == vr::kPalette && point->pressed == (pulled > 0));
+    QVERIFY(std::abs(point->x - 0.3) < 1e-6 && std::abs(point->y - 0.7) < 1e-6);
+    QCOMPARE(panels.place(vr::kPalette)->pose.position, place->pose.position);
+  }
+  panels.follow(frameOf({}, shows), view);
+  QVERIFY(!panels.place(vr::kPalette));
+  panels.follow(frameOf({}, shows), view);
+  QVERIFY(!panels.place(vr::kPalette));  // still the same turn of the hand
+  panels.follow(frameOf({}, palm()), view);
+  panels.follow(frameOf({}, shows), view);
+  QVERIFY(panels.place(vr::kPalette));
+  view.roles.alone = false;  // both hands again
+  panels.follow(frameOf({}, shows), view);
+  QVERIFY(!panels.place(vr::kPalette));
+}
+
+/// Of either hand, and either may point at it then.
+void VrPanelsTest::aMenuPinsThePalette() {
+  const vr::HeadsetView view = emptyView();
+  const vr::HandPose level{{-0.1, 1.2, -0.3}, Quaternion::Identity()};
+  for (const size_t hand : {vr::kLeft, vr::kRight}) {
+    vr::Panels panels;
+    vr::HeadsetFrame frame = frameOf(level, level);
+    panels.follow(frame, view);
+    QVERIFY(!panels.place(vr::kPalette));
+    frame.hands[hand].menu = true;
+    panels.follow(frame, view);
+    panels.follow(frame, view);  // still pressed
+    const auto place = panels.place(vr::kPalette);
+    QVERIFY(place);
+    frame.hands[hand].menu = false;
+    frame.hands[vr::kLeft].aim = frame.hands[vr::kRight].aim = pointing(level.position, place->at(0.5, 0.5));
+    panels.follow(frame, view);
+    for (const size_t points : {vr::kLeft, vr::kRight})
+      QVERIFY(panels.pointed(points) && panels.pointed(points)->panel == vr::kPalette);
+    frame.hands[hand].menu = true;
+    panels.follow(frame, view);
+    QVERIFY(!panels.place(vr::kPalette));
+  }
 }
 
 void VrPanelsTest::theBoardStandsBeforeTheWearer() {
@@ -181,23 +284,82 @@ void VrPanelsTest::theNearerPanelIsMeant() {
   QVERIFY(order(vr::kPopup) > order(vr::kBoard));
 }
 
-/// Letters of 0.85 degrees and targets of 2.5 at the distances that panels have.
-void VrPanelsTest::letteringAndTargetsAreLargeEnough() {
-  enterWithout();
-  panels().showPage(QStringLiteral("Body"));
-  const vr::HeadsetView view = painted();
-  const auto degrees = [](double metres, double away) { return std::atan(metres / away) / kDegree; };
-  const int small = Theme::font(TextRole::Small).pixelSize();
-  for (const auto& [panel, away] : {std::pair{vr::kPalette, 0.5}, {vr::kBoard, 0.75}}) {
-    const QWidget* widget = panels().widget(panel);
-    const double pixel = view.panels[panel].width / widget->width();
-    QVERIFY2(degrees(small * pixel, away) > 0.85, qPrintable(QString::number(degrees(small * pixel, away))));
-    const auto large = [&](const QWidget& target) { return degrees(target.height() * pixel, away) > 2.5; };
-    for (const auto* one : widget->findChildren<ParameterRow*>()) QVERIFY(!one->isVisible() || large(*one));
-    if (panel != vr::kPalette) continue;
-    for (const auto* one : widget->findChildren<QToolButton*>())
-      QVERIFY2(large(*one) && degrees(one->width() * pixel, away) > 2.5, qPrintable(one->accessibleName()));
+namespace {
+
+/// What is too small to be read or met, of what is seen of a panel from so far away, m, where a logical pixel has so
+/// many metres: letters of 0.85 degrees and targets of 2.5 are meant. Rows, fields and buttons are; what lies within
+/// them, such as a field's own icons, is besides.
+QStringList tooSmall(const QWidget& panel, double pixel, double away) {
+  const auto degrees = [&](double pixels) { return std::atan(pixels * pixel / away) / kDegree; };
+  QStringList found;
+  const auto check = [&](const QWidget& one, const char* what, double pixels, double least) {
+    if (degrees(pixels) <= least)
+      found << QStringLiteral("%1 “%2”: %3 %4 px")
+                   .arg(QString::fromLatin1(one.metaObject()->className()), one.accessibleName(),
+                        QString::fromLatin1(what), QString::number(pixels));
+  };
+  for (const TextRole role : {TextRole::Normal, TextRole::Small, TextRole::Medium, TextRole::Time, TextRole::Heading,
+                              TextRole::Title, TextRole::Symbol})
+    check(panel, "painted letters of", Theme::font(role).pixelSize(), 0.85);
+  for (const auto* one : panel.findChildren<QWidget*>()) {
+    if (!one->isVisible() || qobject_cast<const QLineEdit*>(one->parentWidget())) continue;
+    check(*one, "letters of", QFontInfo(one->font()).pixelSize(), 0.85);
+    const auto* button = qobject_cast<const QAbstractButton*>(one);
+    const bool isRow = qobject_cast<const ParameterRow*>(one) || qobject_cast<const GroupHeading*>(one);
+    if (button) check(*one, "width", one->width(), 2.5);
+    if (button || isRow || qobject_cast<const QLineEdit*>(one) || qobject_cast<const QComboBox*>(one))
+      check(*one, "height", one->height(), 2.5);
+    const auto* list = qobject_cast<const QAbstractItemView*>(one);
+    if (list && list->model() && list->model()->rowCount() > 0)
+      check(*one, "rows of", list->visualRect(list->model()->index(0, 0)).height(), 2.5);
   }
+  return found;
+}
+
+}  // namespace
+
+/// On the palette, and on all pages of the board.
+void VrPanelsTest::letteringAndTargetsAreLargeEnough() {
+  document().addMaterial("iron");  // there is something to compare with
+  m_window->selection().setMaterial("water");
+  m_window->selection().selectBody(document().project().bodies.front().id);
+  m_window->curves().choose(kViscosity);
+  enterWithout();
+  QStringList small;
+  for (const char* page :
+       {"Brush", "Body", "Material", "Scene", "Outliner", "Graphs", "Responses", "Curve", "Transport"}) {
+    panels().showPage(QString::fromLatin1(page));
+    const vr::HeadsetView view = painted();
+    const QWidget* board = panels().widget(vr::kBoard);
+    QVERIFY(board);
+    for (const QString& one : tooSmall(*board, view.panels[vr::kBoard].width / board->width(), 0.75))
+      small << QString::fromLatin1(page) + QStringLiteral(": ") + one;
+  }
+  const vr::HeadsetView view = painted();
+  const QWidget* palette = panels().widget(vr::kPalette);
+  small << tooSmall(*palette, view.panels[vr::kPalette].width / palette->width(), 0.5);
+  QVERIFY2(small.isEmpty(), qPrintable(small.join(QStringLiteral("; "))));
+  // Menus come at the board's scale.
+  QWidget* board = panels().widget(vr::kBoard);
+  QMenu menu(board);
+  QAction* entry = menu.addAction(QStringLiteral("One"));
+  menu.ensurePolished();
+  const double pixel = view.panels[vr::kBoard].width / board->width();
+  QVERIFY(std::atan(menu.actionGeometry(entry).height() * pixel / 0.75) / kDegree > 2.5);
+  // Marks of the outliner's rows are met as far as the rows are high, though they look smaller.
+  panels().showPage(QStringLiteral("Outliner"));
+  QTest::qWait(100);
+  const std::string body = document().project().bodies.front().id;
+  auto* tree = board->findChild<Outliner*>()->findChild<QTreeView*>();
+  const QModelIndexList rows = tree->model()->match(
+      tree->model()->index(0, 0), outline::kId, QString::fromStdString(body), 1, Qt::MatchExactly | Qt::MatchRecursive);
+  QVERIFY(!rows.isEmpty());
+  tree->scrollTo(rows.front());
+  const QRect row = tree->visualRect(rows.front());
+  const QPointF corner(OutlinerDelegate::eyeRect(row).left() - 2, row.top() + 1);
+  QVERIFY(document().body(body)->visible);
+  for (const bool pressed : {false, true, false}) at(vr::kBoard, *tree->viewport(), corner, pressed);
+  QTRY_VERIFY_WITH_TIMEOUT(!document().body(body)->visible, kLong);
 }
 
 /// The palette goes while its button is pressed, and the beam meets what stood behind it.
@@ -249,12 +411,71 @@ void VrPanelsTest::aBeamPlaysTheRun() {
   QVERIFY(!run.lines("haptic").empty());  // the button was felt
   const QImage seen = run.picture(50, 0);
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) seen.save(folder + "/vr-palette.png");
+  if (!folder.isEmpty()) seen.save(folder + "/vr-palette-left.png");
+  if (!folder.isEmpty()) run.picture(50, 1).save(folder + "/vr-palette-right.png");
   const auto edge = project(scriptEye(false), kSide, kSide, palette->at(0.5, 0.985));
   QVERIFY(edge);
   const QColor there = seen.pixelColor(int(edge->x()), int(edge->y())), wanted = Theme::current()[Token::Panel];
   QVERIFY2(std::abs(there.red() - wanted.red()) < 40 && std::abs(there.blue() - wanted.blue()) < 40,
            qPrintable(there.name() + wanted.name()));
+}
+
+/// With the simple controller, which has a menu and a trigger: the left hand's menu brings the palette, the right one
+/// presses there what turns its wearer. Both eyes see the scene turned about them.
+void VrPanelsTest::aSimpleControllerTurnsByThePalette() {
+  enterWithout();
+  const vr::HeadsetView view = painted();
+  QWidget* turn = button(vr::kPalette, "Turn right by 30°");
+  QVERIFY(turn);
+  const QPointF middle = turn->mapTo(panels().widget(vr::kPalette), turn->rect().center());
+  const QSize size = panels().widget(vr::kPalette)->size();
+  leaveAtLast();
+  const vr::HandPose brings{{-0.05, 1.2, -0.2}, Quaternion::Identity()};
+  vr::HeadsetFrame frame = frameOf(brings, {});
+  frame.hands[vr::kLeft].menu = true;
+  vr::Panels geometry;
+  geometry.follow(frame, view);
+  const auto palette = geometry.place(vr::kPalette);
+  QVERIFY(palette);
+  const vr::HandPose hand =
+      pointing({0.25, 1.25, 0.1}, palette->at(middle.x() / size.width(), middle.y() / size.height()));
+  const auto click = [](const char* part, bool down) {
+    return QStringLiteral(R"(, "/input/%1/click": %2)").arg(QLatin1String(part), down ? "true" : "false");
+  };
+  const QString simple = QStringLiteral("/interaction_profiles/khr/simple_controller");
+  const auto script = [&](const QString& more, const QString& keys) {
+    return QString::fromStdString(vrScript(more, keys))
+        .replace(QStringLiteral("/interaction_profiles/oculus/touch_controller"), simple)
+        .toStdString();
+  };
+  ScriptedRun run(script({}, key(5, "left", brings) + key(5, "right", hand)));
+  enter();
+  QTest::qWait(1000);  // the palette is painted
+  run.goOn(script(QStringLiteral(R"(, "pictures": [60])"),
+                  key(0, "left", brings) + key(0, "right", hand) + key(5, "left", brings, click("menu", true)) +
+                      key(10, "left", brings, click("menu", false)) + key(80, "right", hand, click("select", true)) +
+                      key(95, "right", hand, click("select", false))));
+  vr::HeadsetView told;
+  QTRY_VERIFY_WITH_TIMEOUT((panels().describe(told), told.turns == 1), 2 * kLong);
+  QVERIFY(!session().playing());
+  QCOMPARE(document().undoStack().index(), 0);
+  const vr::Stand turned = vr::turned(stand(), scriptHead().position, std::numbers::pi / 6);
+  const size_t pictures = run.lines("picture").size();
+  run.goOn(script(QStringLiteral(R"(, "pictures": [40])"),
+                  key(0, "left", brings, click("menu", true)) + key(5, "left", brings, click("menu", false)) +
+                      QString(kHandsAway).replace(QStringLiteral("\"frame\": 1"), QStringLiteral("\"frame\": 10"))));
+  QTRY_VERIFY_WITH_TIMEOUT(run.lines("picture").size() == pictures + 2, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  const auto names = run.texts("picture");
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  for (size_t k = 0; k < names.size(); ++k) {
+    const QImage eye(QString::fromStdString(names[k]));
+    const bool right = QString::fromStdString(names[k]).endsWith(QStringLiteral("-right.png"));
+    if (!folder.isEmpty())
+      eye.save(folder + QStringLiteral("/vr-simple-%1-%2.png").arg(k).arg(right ? "right" : "left"));
+    if (k >= pictures) seesWhatTheViewDraws(eye, right, turned);
+  }
 }
 
 /// The board by its button, then a slider of the brush's page from its middle to its end.
@@ -290,7 +511,8 @@ void VrPanelsTest::aSliderOfTheBoardIsDragged() {
   leave();
   QVERIFY(run.lines("violation").empty());
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) run.picture(280, 0).save(folder + "/vr-board.png");
+  if (!folder.isEmpty()) run.picture(280, 0).save(folder + "/vr-board-left.png");
+  if (!folder.isEmpty()) run.picture(280, 1).save(folder + "/vr-board-right.png");
   QVERIFY2(now > 2 * before, qPrintable(QString::number(now)));
   BrushSettings brush = m_window->tools().brush();
   brush.radius = before;
@@ -404,9 +626,9 @@ void VrPanelsTest::labelsSayWhatControllersDo_data() {
                                 << "Pinch, Fist, Fist, Pinch";
   QTest::newRow("a mouse") << "mouse"
                            << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
-                              "U, P, Tab"
+                              "U, P, M, Tab"
                            << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
-                              "U, P, Tab";
+                              "U, P, M, Tab";
   QTest::newRow("none") << ""
                         << ""
                         << "";
@@ -426,6 +648,27 @@ void VrPanelsTest::labelsSayWhatControllersDo() {
   };
   QCOMPARE(parts(vr::kLeft), left);
   QCOMPARE(parts(vr::kRight), right);
+}
+
+/// And what they do changes with the main hand.
+void VrPanelsTest::labelsFollowTheMainHand() {
+  const auto does = [](const char* profile, size_t hand, const char* part, const vr::HandRoles& roles = {}) {
+    for (const vr::HandLabel& label : vr::labelsOf(profile, hand, roles))
+      if (label.part == part) return label.does;
+    return std::string();
+  };
+  constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
+  const vr::HandRoles leftHanded{vr::kLeft, false};
+  QCOMPARE(does(kTouch, vr::kRight, "Trigger"), std::string("draw, press"));
+  QCOMPARE(does(kTouch, vr::kLeft, "Trigger"), std::string("erase, press"));
+  QCOMPARE(does(kTouch, vr::kLeft, "Grip, Trigger"), std::string("draw"));
+  QCOMPARE(does(kTouch, vr::kLeft, "X"), std::string("play, pause"));
+  QCOMPARE(does(kTouch, vr::kLeft, "Trigger", leftHanded), std::string("draw, press"));
+  QCOMPARE(does(kTouch, vr::kRight, "Trigger", leftHanded), std::string("erase, press"));
+  QCOMPARE(does(kTouch, vr::kLeft, "X", leftHanded), std::string("undo"));
+  QCOMPARE(does(kTouch, vr::kRight, "Stick", leftHanded), std::string("forward: go there"));
+  for (const size_t hand : {vr::kLeft, vr::kRight})
+    QCOMPARE(does("/interaction_profiles/khr/simple_controller", hand, "Menu"), std::string("palette"));
 }
 
 /// Before the eyes, on its outer side, and nobody points at it.
@@ -513,6 +756,49 @@ void VrPanelsTest::aMousePressesThePalette() {
     return now.labels;
   };
   QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image && !described()[vr::kLeft].image, kLong);
+}
+
+/// Likewise: M pins it by the hand that the mouse leads, where its buttons are pressed then.
+void VrPanelsTest::aKeyPinsThePalette() {
+  enterWithout();
+  const vr::HeadsetView view = painted();
+  VrWithout& window = *vr().window();
+  const double aspect = double(window.width()) / window.height();
+  const auto frames = [&](uint64_t more) {
+    const uint64_t from = vr().frames();
+    QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > from + more, kLong);
+  };
+  hands::move(window, QPoint(window.width() / 2, window.height() * 3 / 5));
+  frames(3);
+  vr::Panels geometry;
+  vr::HeadsetFrame frame = window.room().frame(1, aspect);
+  geometry.follow(frame, view);
+  QVERIFY(geometry.place(vr::kPalette));
+  const Vector3 held = geometry.place(vr::kPalette)->pose.position;
+  frame.hands[vr::kRight].menu = true;
+  geometry.follow(frame, view);
+  const auto& pinned = geometry.place(vr::kPalette);
+  QVERIFY(pinned && (pinned->pose.position - held).norm() > 0.1);
+  QTest::keyPress(&window, Qt::Key_M);
+  frames(3);
+  QTest::keyRelease(&window, Qt::Key_M);
+  frames(3);
+  QToolButton* labels = button(vr::kPalette, "Labels");
+  QVERIFY(labels && !labels->isChecked());
+  const QWidget* palette = panels().widget(vr::kPalette);
+  const QPointF middle = labels->mapTo(palette, labels->rect().center());
+  const Vector3 there = pinned->at(middle.x() / palette->width(), middle.y() / palette->height());
+  const auto seen = project(window.room().eye(aspect), window.width(), window.height(), there);
+  QVERIFY(seen);
+  const QPoint at(int(seen->x()), int(seen->y()));
+  QVERIFY(window.rect().contains(at));
+  hands::move(window, at);
+  frames(3);
+  QTest::mousePress(&window, Qt::LeftButton, {}, at);
+  frames(3);
+  QTest::mouseRelease(&window, Qt::LeftButton, {}, at);
+  QTRY_VERIFY_WITH_TIMEOUT(panels().showsLabels() && labels->isChecked(), kLong);
+  QCOMPARE(document().undoStack().index(), 0);  // nothing was drawn
 }
 
 QTEST_MAIN(VrPanelsTest)

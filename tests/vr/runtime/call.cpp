@@ -3,6 +3,8 @@
 
 #include "tests/vr/runtime/names.h"
 
+#include <chrono>
+
 namespace ps::scripted {
 
 Runtime& runtime() {
@@ -27,6 +29,14 @@ std::optional<XrResult> answerInstead(Instance& instance, std::string_view funct
   const XrResult result = failure->second.result;
   if (--failure->second.times == 0) instance.failures.erase(failure);
   return note(result);
+}
+
+void hangWhereTold(Instance& instance, std::string_view function) {
+  if (!instance.hangs || instance.hangs->function != function) return;
+  const auto until = std::chrono::steady_clock::now() + instance.hangs->lasts;
+  instance.hangs.reset();
+  std::condition_variable_any never;
+  never.wait_until(runtime().mutex, until, [] { return false; });
 }
 
 void noteViolation(Instance& instance, std::string_view function, const Refusal& refusal) {

@@ -32,6 +32,8 @@ struct FunctionName {
 /// What the call is answered with before it is carried out: by the script, after the runtime's death, or after the loss
 /// of its session. Nothing where it goes on.
 std::optional<XrResult> answerInstead(Instance& instance, std::string_view function, bool ofSession);
+/// Lets go of the lock for as long as the script says, as a runtime does that hangs, and then comes back after all.
+void hangWhereTold(Instance& instance, std::string_view function);
 /// Notes a call that breaks the specification.
 void noteViolation(Instance& instance, std::string_view function, const Refusal& refusal);
 
@@ -52,6 +54,7 @@ struct Entry<name, implementation> {
     Instance& instance = *own.instance;
     constexpr bool kSession = kOfSession<Arguments...>;
     constexpr bool kDestroys = std::string_view(name.text).starts_with("xrDestroy");
+    hangWhereTold(instance, name.text);
     if (const auto answer = answerInstead(instance, name.text, kSession)) return *answer;
     try {
       const XrResult result = implementation(instance, arguments...);

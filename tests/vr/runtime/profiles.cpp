@@ -47,6 +47,40 @@ const std::vector<InteractionProfile>& interactionProfiles() {
        "/input/thumbstick/click /input/trackpad/x /input/trackpad/y /input/trackpad/click /input/trackpad/touch "
        "/input/grip/pose /input/aim/pose /output/haptic",
        "", ""},
+      {"/interaction_profiles/samsung/odyssey_controller", "XR_EXT_samsung_odyssey_controller",
+       "/input/menu/click /input/squeeze/click /input/trigger/value /input/thumbstick/x /input/thumbstick/y "
+       "/input/thumbstick/click /input/trackpad/x /input/trackpad/y /input/trackpad/click /input/trackpad/touch "
+       "/input/grip/pose /input/aim/pose /output/haptic",
+       "", ""},
+      {"/interaction_profiles/facebook/touch_controller_pro", "XR_FB_touch_controller_pro",
+       "/input/squeeze/value /input/trigger/value /input/trigger/touch /input/thumbstick/x /input/thumbstick/y "
+       "/input/thumbstick/click /input/thumbstick/touch /input/thumbrest/touch /input/thumbrest/force "
+       "/input/stylus_fb/force /input/grip/pose /input/aim/pose /output/haptic",
+       "/input/x/click /input/x/touch /input/y/click /input/y/touch /input/menu/click",
+       "/input/a/click /input/a/touch /input/b/click /input/b/touch /input/system/click"},
+      {"/interaction_profiles/meta/touch_controller_plus", "XR_META_touch_controller_plus",
+       "/input/squeeze/value /input/trigger/value /input/trigger/touch /input/trigger/force /input/thumbstick/x "
+       "/input/thumbstick/y /input/thumbstick/click /input/thumbstick/touch /input/thumbrest/touch /input/grip/pose "
+       "/input/aim/pose /output/haptic",
+       "/input/x/click /input/x/touch /input/y/click /input/y/touch /input/menu/click",
+       "/input/a/click /input/a/touch /input/b/click /input/b/touch /input/system/click"},
+      {"/interaction_profiles/bytedance/pico_neo3_controller", "XR_BD_controller_interaction",
+       "/input/menu/click /input/system/click /input/trigger/value /input/trigger/touch /input/squeeze/value "
+       "/input/thumbstick/x /input/thumbstick/y /input/thumbstick/click /input/thumbstick/touch /input/grip/pose "
+       "/input/aim/pose /output/haptic",
+       "/input/x/click /input/x/touch /input/y/click /input/y/touch",
+       "/input/a/click /input/a/touch /input/b/click /input/b/touch"},
+      {"/interaction_profiles/bytedance/pico4_controller", "XR_BD_controller_interaction",
+       "/input/system/click /input/trigger/value /input/trigger/touch /input/squeeze/value /input/thumbstick/x "
+       "/input/thumbstick/y /input/thumbstick/click /input/thumbstick/touch /input/grip/pose /input/aim/pose "
+       "/output/haptic",
+       "/input/x/click /input/x/touch /input/y/click /input/y/touch /input/menu/click",
+       "/input/a/click /input/a/touch /input/b/click /input/b/touch"},
+      {"/interaction_profiles/htc/vive_focus3_controller", "XR_HTC_vive_focus3_controller_interaction",
+       "/input/squeeze/click /input/squeeze/touch /input/trigger/click /input/trigger/touch /input/trigger/value "
+       "/input/thumbstick/x /input/thumbstick/y /input/thumbstick/click /input/thumbstick/touch "
+       "/input/thumbrest/touch /input/grip/pose /input/aim/pose /output/haptic",
+       "/input/x/click /input/y/click /input/menu/click", "/input/a/click /input/b/click /input/system/click"},
       {"/interaction_profiles/hp/mixed_reality_controller", "XR_EXT_hp_mixed_reality_controller",
        "/input/menu/click /input/squeeze/value /input/trigger/value /input/thumbstick/x /input/thumbstick/y "
        "/input/thumbstick/click /input/grip/pose /input/aim/pose /output/haptic",

@@ -18,6 +18,11 @@ const std::vector<std::string>& knownExtensions() {
                                                        "XR_EXT_local_floor",
                                                        "XR_EXT_hp_mixed_reality_controller",
                                                        "XR_HTC_vive_cosmos_controller_interaction",
+                                                       "XR_HTC_vive_focus3_controller_interaction",
+                                                       "XR_FB_touch_controller_pro",
+                                                       "XR_META_touch_controller_plus",
+                                                       "XR_BD_controller_interaction",
+                                                       "XR_EXT_samsung_odyssey_controller",
                                                        "XR_MSFT_hand_interaction",
                                                        "XR_EXT_hand_interaction",
                                                        "XR_EXT_hand_tracking"};

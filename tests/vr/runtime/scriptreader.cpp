@@ -224,7 +224,7 @@ void ScriptReader::readEvent(Script& script, const json& value, const std::strin
   if (value.contains("frame")) event.frame = number(value["frame"], pointer + "/frame", -1, kAnyFrame);
   std::string kind;
   for (const std::string_view known : {"state", "fail", "dies", "session_lost", "instance_loss", "profile", "recentre",
-                                       "refresh_rate", "events_lost", "hidden_corners"})
+                                       "refresh_rate", "events_lost", "hidden_corners", "hangs"})
     if (value.contains(known)) kind = known;
   if (kind.empty()) refuse(pointer, "says nothing that can happen");
   checkEvent(kind, value, pointer);
@@ -239,7 +239,9 @@ void ScriptReader::checkEvent(const std::string& kind, const json& value, const 
       refuse(pointer + "/" + key, "must be a result of OpenXR, such as XR_ERROR_RUNTIME_FAILURE");
   };
   for (const auto& [key, part] : value.items())
-    if (!holds(std::initializer_list<std::string_view>{"frame", kind, "result", "times", "after", "hand"}, key))
+    if (!holds(
+            std::initializer_list<std::string_view>{"frame", kind, "result", "times", "after", "hand", "milliseconds"},
+            key))
       refuse(pointer + "/" + key, "no such key");
   if (kind == "state" && !holds(kStates, text(value[kind], place))) refuse(place, "no such state");
   if (kind == "fail") {
@@ -256,6 +258,11 @@ void ScriptReader::checkEvent(const std::string& kind, const json& value, const 
     refuse(pointer + "/hand", "must be left or right");
   if (kind == "recentre") pose(value[kind], place);
   if (kind == "refresh_rate") number(value[kind], place, 1, 1000);
+  if (kind == "hangs") {
+    if (!text(value[kind], place).starts_with("xr")) refuse(place, "must be a function of OpenXR");
+    if (!value.contains("milliseconds")) refuse(pointer + "/milliseconds", "must say for how long");
+    number(value["milliseconds"], pointer + "/milliseconds", 0, 60000);
+  }
   if (kind == "hidden_corners") number(value[kind], place, 0, 1);
   if (kind == "events_lost") number(value[kind], place, 1, kAnyFrame);
 }

@@ -93,6 +93,12 @@ struct Failure {
   int64_t after = 0;  ///< calls that go well before
 };
 
+/// The function of the API whose next call hangs.
+struct Hang {
+  std::string function;
+  std::chrono::milliseconds lasts{0};
+};
+
 /// From the frame on, frames have this period, and the frame has this time.
 struct Clock {
   int64_t frame = 0;
@@ -118,6 +124,7 @@ struct Instance {
   std::chrono::steady_clock::time_point due;  ///< the next frame, where frames last as long as they say
   XrSessionState allowed = XR_SESSION_STATE_FOCUSED;
   std::map<std::string, Failure, std::less<>> failures;
+  std::optional<Hang> hangs;
   XrResult death = XR_SUCCESS;                         ///< what every call gives from now on
   std::array<std::string, 2> profile;                  ///< of the controllers that are there, "" for none
   XrPosef localOrigin = {{0, 0, 0, 1}, {0, 1.6f, 0}};  ///< in the stage

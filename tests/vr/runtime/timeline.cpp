@@ -66,6 +66,8 @@ void apply(Instance& instance, const json& what) {
                                        what.value("times", int64_t{-1}), what.value("after", int64_t{0})};
   } else if (kind == "dies") {
     instance.death = *resultNamed(what["dies"].get<std::string>());
+  } else if (kind == "hangs") {
+    instance.hangs = {what["hangs"], std::chrono::milliseconds(what["milliseconds"].get<int64_t>())};
   } else if (kind == "session_lost") {
     if (instance.session) instance.session->lost = true;
   } else if (kind == "instance_loss") {
