@@ -5,6 +5,7 @@
 #include "core/io/outputfile.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/desk.h"
+#include "ui/session/filewatch.h"
 #include "ui/session/savejob.h"
 #include "ui/session/versions.h"
 
@@ -15,11 +16,19 @@
 
 using namespace ps;
 
+namespace {
+
+constexpr int kLong = 30000;  // ms
+constexpr int kSigns = 1200;  // ms in which a sign of the file would have led to a look
+
+}  // namespace
+
 class TestFiles : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() {
     qRegisterMetaType<ps::SaveRefusal>();
+    qRegisterMetaType<ps::OutsideChange>();
     m_plugins = std::make_unique<PluginRegistry>();
   }
   void init() {
@@ -137,6 +146,106 @@ class TestFiles : public QObject {
     QCOMPARE(save(desk), SaveRefusal::None);
   }
 
+  /// Without a save, once for everything that is written, however it is written.
+  void anotherProgramsChangeIsNoticed_data() {
+    QTest::addColumn<bool>("inPlace");
+    QTest::newRow("another file in its place") << false;
+    QTest::newRow("the same file") << true;
+  }
+  void anotherProgramsChangeIsNoticed() {
+    QFETCH(bool, inPlace);
+    Desk desk(*m_plugins, copies(1));
+    const FileWatch watch(desk.document, desk.files);
+    QSignalSpy outside(&desk.files, &DocumentFiles::changedOutside);
+    open(desk);
+    const std::string before = readFile();
+    int told = 0;
+    for (const double kelvin : {320.0, 321.0}) {
+      writeOutside(writeProject(scenes::iceOnPlate(4, kelvin)), inPlace);
+      ++told;  // which the comparison would do again and again
+      QTRY_COMPARE_WITH_TIMEOUT(outside.count(), told, kLong);
+      QCOMPARE(outside.last().at(0).toString(), m_path);
+      QCOMPARE(outside.last().at(1).value<OutsideChange>(), OutsideChange::Written);
+    }
+    writeOutside(readFile(), inPlace);  // nothing new
+    QTest::qWait(kSigns);
+    QCOMPARE(outside.count(), told);
+    writeOutside(before, inPlace);
+    QTRY_COMPARE_WITH_TIMEOUT(outside.count(), told + 1, kLong);
+    QCOMPARE(outside.last().at(1).value<OutsideChange>(), OutsideChange::None);
+    QVERIFY(!desk.document.isDirty());
+  }
+
+  void aFileThatIsTakenAwayIsNoticed() {
+    Desk desk(*m_plugins, copies(1));
+    const FileWatch watch(desk.document, desk.files);
+    QSignalSpy outside(&desk.files, &DocumentFiles::changedOutside);
+    open(desk);
+    QVERIFY(QFile::remove(m_path));
+    QTRY_COMPARE_WITH_TIMEOUT(outside.count(), 1, kLong);
+    QCOMPARE(outside[0].at(1).value<OutsideChange>(), OutsideChange::Gone);
+    QVERIFY(desk.document.isDirty());  // no file holds it
+    QCOMPARE(save(desk), SaveRefusal::None);
+    QCOMPARE(floorOnDisk(), 300.0);
+    QVERIFY(!desk.document.isDirty());
+  }
+
+  /// Saves, copies of unsaved work and locks are ours, and a file that was only touched holds what it held.
+  void nothingIsNoticedWhereNothingIsWrong() {
+    Desk desk(*m_plugins, copies(1));
+    const FileWatch watch(desk.document, desk.files);
+    QSignalSpy outside(&desk.files, &DocumentFiles::changedOutside);
+    open(desk);
+    for (const double kelvin : {310.0, 311.0}) {
+      desk.edit(kelvin);
+      desk.autosave.saveNow();
+      QSignalSpy saved(&desk.files, &DocumentFiles::saved);
+      for (int k = 0; k < 2; ++k) {
+        desk.files.save(m_path);
+        desk.files.look();
+      }
+      QTRY_COMPARE_WITH_TIMEOUT(saved.count(), 2, kLong);
+      QTest::qWait(kSigns);
+    }
+    writeOutside(readFile(), false);
+    writeOutside("{}", false, m_directory->filePath(QStringLiteral("neighbour.json")));
+    QTest::qWait(kSigns);
+    const QString other = m_directory->filePath(QStringLiteral("other.json"));
+    desk.files.save(other);
+    QTRY_COMPARE(desk.document.path(), other);
+    writeOutside(writeProject(scenes::iceOnPlate(4, 320)), false);  // which is not ours any more
+    QTest::qWait(kSigns);
+    QCOMPARE(outside.count(), 0);
+  }
+
+  /// What was seen and given up is replaced without asking; what comes after it is not.
+  void whatIsKeptReplacesWhatWasSeen() {
+    Desk desk(*m_plugins, copies(1));
+    QSignalSpy outside(&desk.files, &DocumentFiles::changedOutside);
+    open(desk);
+    for (const double kelvin : {320.0, 321.0}) {
+      writeOutside(writeProject(scenes::iceOnPlate(4, kelvin)), false);
+      outside.clear();
+      desk.files.look();
+      QVERIFY(outside.wait());
+      desk.files.keepOurs();
+      QVERIFY(desk.document.isDirty());
+      QCOMPARE(save(desk), SaveRefusal::None);
+      QVERIFY(!desk.document.isDirty());
+      QCOMPARE(floorOnDisk(), 300.0);
+      QCOMPARE(floorOf(versions::of(m_path).at(0).file), kelvin);
+      QTest::qSleep(2);  // their names are times
+    }
+    writeOutside(writeProject(scenes::iceOnPlate(4, 322)), false);
+    outside.clear();
+    desk.files.look();
+    QVERIFY(outside.wait());
+    desk.files.keepOurs();
+    writeOutside(writeProject(scenes::iceOnPlate(4, 323)), false);
+    QCOMPARE(save(desk), SaveRefusal::Changed);
+    QCOMPARE(floorOnDisk(), 323.0);
+  }
+
   /// The second is asked for before the first has been heard of.
   void savesInARowAreNobodyElses() {
     Desk desk(*m_plugins, copies(1));
@@ -230,6 +339,16 @@ class TestFiles : public QObject {
     return std::get<double>(document.value(kFloor));
   }
   double floorOnDisk() { return floorOf(m_path); }
+  void writeOutside(const std::string& bytes, bool inPlace, const QString& path = {}) const {
+    const QString to = path.isEmpty() ? m_path : path;
+    if (!inPlace) {
+      writeFileAtomically(to.toStdString(), bytes);
+      return;
+    }
+    QFile file(to);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    QCOMPARE(file.write(QByteArray::fromStdString(bytes)), static_cast<qint64>(bytes.size()));
+  }
   static void saveUnder(const QString& from, const QString& to) { QVERIFY(QFile::copy(from, to)); }
   void open(Desk& desk) {
     QSignalSpy opened(&desk.files, &DocumentFiles::opened);

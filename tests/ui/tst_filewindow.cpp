@@ -49,6 +49,33 @@ class TestFileWindow : public QObject {
     QVERIFY(!m_window->notice()->isVisible());
   }
 
+  /// While it is open, without a save.
+  void anotherProgramsChangeIsToldWithTwoWays() {
+    open();
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QString(), kLong);  // a slow machine says what it makes
+    writeFileAtomically(m_path.toStdString(), writeProject(scenes::iceOnPlate(4, 320)));
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QStringLiteral("outside"), kLong);
+    const QString text = m_window->notice()->text();
+    QVERIFY2(text.contains(QStringLiteral("Another program has changed “mine.json”.")), qPrintable(text));
+    QCOMPARE(floor(), 300.0);
+    noticeButton(*m_window, QStringLiteral("Keep mine"))->click();
+    QVERIFY(!m_window->notice()->isVisible() && document().isDirty());
+    m_window->action(QStringLiteral("file.save"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!document().isDirty(), kLong);
+    QVERIFY(!m_window->notice()->isVisible());
+    writeFileAtomically(m_path.toStdString(), writeProject(scenes::iceOnPlate(4, 321)));
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QStringLiteral("outside"), kLong);
+    noticeButton(*m_window, QStringLiteral("Open what is on disk"))->click();
+    QTRY_COMPARE_WITH_TIMEOUT(floor(), 321.0, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_window->notice()->isVisible(), kLong);
+    QVERIFY(!document().isDirty());
+    QVERIFY(QFile::remove(m_path));
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->notice()->topic(), QStringLiteral("outside"), kLong);
+    noticeButton(*m_window, QStringLiteral("Save it again"))->click();
+    QTRY_VERIFY_WITH_TIMEOUT(!document().isDirty(), kLong);
+    QVERIFY(QFile::exists(m_path) && !m_window->notice()->isVisible());
+  }
+
   void aProjectThatIsOpenElsewhereSaysSo() {
     const FileLock other(lockPath(m_path).toStdString(), "Ada on elsewhere");
     open();

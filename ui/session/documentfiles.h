@@ -2,6 +2,7 @@
 #pragma once
 #include "core/io/filestamp.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtCore/QObject>
 #include <QtCore/QString>
 #include <QtCore/QStringList>
@@ -20,6 +21,9 @@ class Worker;
 enum class SaveRefusal;
 struct AutosavedSession;
 struct ReplacedWork;
+
+/// What another program did to the document's file since it was read or written here.
+enum class OutsideChange { None, Written, Gone };
 
 /// Opens and saves a document's project on a worker thread: the interface goes on meanwhile, and a project that cannot
 /// be read leaves the present one as it is; one of which no scene can be made opens, to be mended. Results come as
@@ -55,6 +59,11 @@ class DocumentFiles : public QObject {
   void openVersion(const QString& version);
   /// Refused where another window has the file open, or another program has written it; `anyway`: not for the latter.
   void save(const QString& path, bool anyway = false);
+  /// Looks, beside the interface, whether the document's file is what was read or written here: changedOutside() says
+  /// what is new.
+  void look();
+  /// What another program wrote is given up: the next save replaces it, and until then the work counts as unsaved.
+  void keepOurs();
   /// Another window has the file open that this one shows: its saves are refused from now on, ours are not.
   void takeOver();
 
@@ -67,6 +76,8 @@ class DocumentFiles : public QObject {
   /// After opened(): another window has it open, of `who` where that is somebody else.
   void openElsewhere(const QString& path, const QString& who);
   void tookOver(const QString& path, bool done);
+  /// Once for everything that another program writes there; None: the file is again what was read or written here.
+  void changedOutside(const QString& path, ps::OutsideChange change);
   void openFailed(const QString& path, const QString& problem);
   /// `present`: what was saved is still the open project.
   void saved(const QString& path, bool present);
@@ -91,15 +102,24 @@ class DocumentFiles : public QObject {
   void adopt(const Source& source, Read& read);
   bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && !isSample(path); }
   void lockLater();
+  void hear(bool same, const FileStamp& now);
+  void forgetOutside();
 
   Document& m_document;
   Worker& m_worker;
   const Autosave* m_autosave = nullptr;
   QString m_samples;
-  std::optional<Source> m_failed;    ///< what could not be opened last
-  std::shared_ptr<FileLock> m_lock;  ///< of the document's file
-  std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs
-  int m_request = 0;                 ///< of the newest open(): an older one that arrives late is dropped
+  std::optional<Source> m_failed;                 ///< what could not be opened last
+  std::shared_ptr<FileLock> m_lock;               ///< of the document's file
+  std::shared_ptr<OwnFiles> m_own;                ///< for the worker's jobs
+  OutsideChange m_outside = OutsideChange::None;  ///< told last
+  FileStamp m_outsideFile;                        ///< of what was written
+  std::optional<FileStamp> m_givenUp;             ///< that of it which may be replaced
+  std::optional<uint64_t> m_cleanAt;              ///< count of changes that the file held before it was gone
+  QElapsedTimer m_missing;                        ///< since when it is not there
+  struct Seen;
+  std::shared_ptr<Seen> m_seen;  ///< by the worker's looks
+  int m_request = 0;             ///< of the newest open(): an older one that arrives late is dropped
 };
 
 }  // namespace ps

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/savejob.h"
 
+#include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
+#include "core/io/textfile.h"
 #include "core/simulation/projectstate.h"
 #include "ui/session/versions.h"
 
@@ -36,6 +38,16 @@ std::shared_ptr<FileLock> OwnFiles::lockOf(const QString& project, const std::sh
   return made;
 }
 
+FileStamp stampOfBytes(const std::string& path) {
+  FileStamp stamp = stampAt(path);
+  try {
+    if (stamp.known) stamp.hash = hashOf(readFile(path, kMaximumProjectBytes));
+  } catch (const InputError&) {
+    stamp.hash = 0;
+  }
+  return stamp;
+}
+
 QString holderText(const FileLock& lock) {
   const QString note = QString::fromStdString(lock.holder());
   return note == lockNote() ? QString() : note;
@@ -55,8 +67,10 @@ SaveJob::Result SaveJob::operator()() const {
     }
     const std::string file = path.toStdString();
     const bool mine = own->path == path && holdsStamped(file, own->file);
-    if (known && !mine && stampAt(file).known && !holdsStamped(file, *known)) {
+    const bool seen = mine || (givenUp && holdsStamped(file, *givenUp));
+    if (known && !seen && stampAt(file).known && !holdsStamped(file, *known)) {
       result.refusal = SaveRefusal::Changed;
+      result.file = stampOfBytes(file);
       result.problem = QStringLiteral("another program has written it since it was opened or saved here");
       return result;
     }

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace ps {
 
@@ -26,6 +27,8 @@ struct OwnFiles {
   /// Locks lockPath(); `mine`: a lock that may be the one.
   std::shared_ptr<FileLock> lockOf(const QString& project, const std::shared_ptr<FileLock>& mine);
 };
+/// With its hash; of what cannot be read that is 0. Not for the user interface's thread.
+FileStamp stampOfBytes(const std::string& path);
 /// "Ada on lab-3", "" when it is the same user here: of whoever holds a lock.
 QString holderText(const FileLock& lock);
 
@@ -46,14 +49,15 @@ struct SaveJob {
   bool locks = true;               ///< needs the file's lock where there can be one
   std::shared_ptr<FileLock> lock;  ///< the one that is held, perhaps of another file
   std::shared_ptr<OwnFiles> own;
-  Autosave::AroundSave around;  ///< empty: nothing is kept, nor what stands there
+  Autosave::AroundSave around;         ///< empty: nothing is kept, nor what stands there
+  std::optional<FileStamp> givenUp{};  ///< what the file may be as well: somebody has seen it and does not want it
 
   struct Result {
     SaveRefusal refusal = SaveRefusal::None;
     QString problem;       ///< "" when it was saved, or why not
     QString stateLeftOut;  ///< why the project's state was, or ""
     QString noVersion;     ///< why what stood there was not kept, or ""
-    FileStamp file;
+    FileStamp file;        ///< as it was written, or what stands there where that was Changed
     std::shared_ptr<FileLock> lock;
   };
   Result operator()() const;

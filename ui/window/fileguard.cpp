@@ -3,6 +3,7 @@
 
 #include "ui/document/document.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/filewatch.h"
 #include "ui/session/savejob.h"
 #include "ui/session/session.h"
 #include "ui/session/versions.h"
@@ -23,28 +24,40 @@
 namespace ps {
 namespace {
 
-const QString kLock = QStringLiteral("lock"), kSave = QStringLiteral("save");  // topics
+const QString kLock = QStringLiteral("lock"), kSave = QStringLiteral("save"),
+              kOutside = QStringLiteral("outside");  // topics
 
 }  // namespace
 
 FileGuard::FileGuard(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore, QObject* parent)
-    : QObject(parent), m_session(session), m_actions(actions), m_notices(notices), m_restore(restore) {
+    : QObject(parent),
+      m_session(session),
+      m_actions(actions),
+      m_notices(notices),
+      m_restore(restore),
+      m_watch(std::make_unique<FileWatch>(session.document(), session.files())) {
   DocumentFiles& files = session.files();
   connect(&files, &DocumentFiles::saveRefused, this, &FileGuard::onRefused);
   connect(&files, &DocumentFiles::openElsewhere, this, &FileGuard::onElsewhere);
+  connect(&files, &DocumentFiles::changedOutside, this, &FileGuard::onOutside);
   connect(&files, &DocumentFiles::tookOver, this, &FileGuard::onTookOver);
   connect(&files, &DocumentFiles::opened, this, [this] {
     m_saveTo.clear();
     m_notices.bar().close(kLock);
+    m_notices.bar().close(kOutside);
   });
   connect(&files, &DocumentFiles::saved, this, [this](const QString&, bool present) {
-    if (present) m_notices.bar().close(kLock);
+    if (!present) return;
+    m_notices.bar().close(kLock);
+    m_notices.bar().close(kOutside);
   });
   connect(&files, &DocumentFiles::versionNotKept, this, [this](const QString& path, const QString& problem) {
     m_session.log().add(MessageLevel::Warning, nameOf(path),
                         QStringLiteral("What the file held before was not kept: %1").arg(sentence(problem)));
   });
 }
+
+FileGuard::~FileGuard() = default;
 
 void FileGuard::addVersionsMenu(QMenu* menu) {
   m_versions = menu->addMenu(QStringLiteral("Earlier versions"));
@@ -72,6 +85,7 @@ void FileGuard::onRefused(const QString& path, SaveRefusal refusal, const QStrin
   std::vector<NoticeBar::Button> buttons{
       {QStringLiteral("Save elsewhere…"), [this] { m_actions.find(QStringLiteral("file.saveAs"))->trigger(); }}};
   if (refusal == SaveRefusal::Changed) {
+    m_notices.bar().close(kOutside);  // the same, less to the point
     buttons.insert(buttons.begin(),
                    {QStringLiteral("Save anyway"), [this, path] { m_session.files().save(path, true); }});
     buttons.push_back({QStringLiteral("Open what is on disk"), [this, path] { m_session.files().open(path); }});
@@ -82,6 +96,35 @@ void FileGuard::onRefused(const QString& path, SaveRefusal refusal, const QStrin
       kSave, MessageLevel::Error, QStringLiteral("“%1” was not saved.").arg(nameOf(path)),
       sentence(problem).replace(0, 1, problem.left(1).toUpper()) + QStringLiteral(" Your work is kept in memory."),
       std::move(buttons));
+}
+
+void FileGuard::onOutside(const QString& path, OutsideChange change) {
+  if (change == OutsideChange::None) {
+    m_notices.bar().close(kOutside);
+    return;
+  }
+  const bool gone = change == OutsideChange::Gone;
+  const QString title =
+      (gone ? QStringLiteral("“%1” is not there any more.") : QStringLiteral("Another program has changed “%1”."))
+          .arg(nameOf(path));
+  m_session.log().add(MessageLevel::Warning, nameOf(path), title);
+  if (gone) {
+    m_notices.bar().show(
+        kOutside, MessageLevel::Warning, title,
+        QStringLiteral("Another program has removed, renamed or moved it. Your work is kept in memory."),
+        {{QStringLiteral("Save it again"), [this, path] { m_session.files().save(path); }},
+         {QStringLiteral("Save elsewhere…"), [this] { m_actions.find(QStringLiteral("file.saveAs"))->trigger(); }}});
+    return;
+  }
+  m_notices.bar().show(
+      kOutside, MessageLevel::Warning, title,
+      QStringLiteral("Here the scene is as it was before. If you keep it, the next save replaces the file, and what it "
+                     "holds now stays an earlier version."),
+      {{QStringLiteral("Open what is on disk"), [this, path] { m_session.files().open(path); }},
+       {QStringLiteral("Keep mine"), [this] {
+          m_session.files().keepOurs();
+          m_notices.bar().close(kOutside);
+        }}});
 }
 
 void FileGuard::onElsewhere(const QString& path, const QString& who) {

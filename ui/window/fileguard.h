@@ -3,14 +3,18 @@
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
+#include <memory>
+
 class QMenu;
 
 namespace ps {
 
 class Actions;
+class FileWatch;
 class Notices;
 class RestoreOffer;
 class Session;
+enum class OutsideChange;
 enum class SaveRefusal;
 
 /// What is said where a file is not this window's alone (another window has it open, another program has written it),
@@ -20,11 +24,13 @@ class FileGuard : public QObject {
  public:
   FileGuard(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore,
             QObject* parent = nullptr);
+  ~FileGuard() override;
   void addVersionsMenu(QMenu* menu);
   void fillVersions();
 
  private:
   void onRefused(const QString& path, SaveRefusal refusal, const QString& problem, bool present);
+  void onOutside(const QString& path, OutsideChange change);
   void onElsewhere(const QString& path, const QString& who);
   void takeOver(const QString& path, bool save);
   void onTookOver(const QString& path, bool done);
@@ -33,6 +39,7 @@ class FileGuard : public QObject {
   const Actions& m_actions;
   Notices& m_notices;
   RestoreOffer& m_restore;
+  std::unique_ptr<FileWatch> m_watch;
   QMenu* m_versions = nullptr;
   QString m_saveTo;  ///< file to save to when it is taken over; "": none
 };
