@@ -72,6 +72,7 @@ const FieldTable<VoxelShape::Stroke>& strokeFields() {
                      PluginId{PluginKind::Brush, "the stroke's cells are there, but it cannot be drawn again"}, "")
                    .required(),
                field("erase", &Stroke::erase, Toggle{}, "takes matter away"),
+               field("hidden", &Stroke::hidden, Toggle{}, "left out of the sketch until it is shown again"),
                field("radius", &Stroke::radius, Number{1e-6, kFarthest, "m"}, "size of the brush").required(),
                field("palette", &Stroke::palette, Integer{0, 65535}, "index into the palette").required(),
                pluginParameters(&Stroke::parameters, "brush", &Stroke::brush, PluginKind::Brush,

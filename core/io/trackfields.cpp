@@ -68,7 +68,8 @@ const FieldTable<SceneGroup>& groupFields() {
       .rows = {field("id", &SceneGroup::id, Id{}, "").required(),
                field("name", &SceneGroup::name, Text{200}, "shown to people"),
                field("members", &SceneGroup::members, List{Text{400}},
-                     "\"body/ID\", \"emitter/ID\", \"sink/ID\", \"wall/ID\"; what the scene has not is left out")
+                     "\"body/ID\", \"emitter/ID\", \"sink/ID\", \"wall/ID\", \"probe/ID\"; what the scene has not is "
+                     "left out")
                    .required()},
       .unknown = &SceneGroup::unknown};
   return table;

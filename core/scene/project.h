@@ -101,6 +101,7 @@ struct VoxelShape {
     Vector3 up{0, 1, 0};  ///< away from what it was drawn on; any length but zero
     std::optional<Symmetry> symmetry;
     std::optional<Stamp> stamp{};  ///< that was stamped; none of brushes that stamp no shape
+    bool hidden = false;           ///< the sketch is as if it had not been drawn
     /// x, y, z in m, pressure, time in s, and the turn of a pen or a hand (api::StrokeSample::turn) in rad
     std::vector<std::array<double, 8>> samples;
     Unknown unknown{};
@@ -145,6 +146,7 @@ struct BodyConstraint {
   std::string plugin;  ///< its id
   ParameterSet parameters;
   Unknown unknown;
+  bool operator==(const BodyConstraint&) const = default;
 };
 
 /// A box in space, its faces included.
@@ -183,6 +185,7 @@ struct Body {
   std::vector<BodyConstraint> constraints;
   bool visible = true, locked = false;
   Unknown unknown;
+  bool operator==(const Body&) const = default;
 };
 
 /// A round nozzle that adds matter while the scene runs.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The brush bar beside the view, and the list of strokes on the page Brush.
+#include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
 #include "tests/ui/gizmohands.h"
@@ -237,6 +238,46 @@ class TestBrushBar : public SampleWindowTest {
     const std::vector<VoxelShape::Run> runs = shapeOf(cup).runs;
     QVERIFY(std::any_of(runs.begin(), runs.end(), [](const VoxelShape::Run& run) { return run.palette == 1; }));
     QCOMPARE(cellCount(shapeOf(cup)), cellCount(before));
+  }
+
+  /// By its eye and by the menu: the sketch is as without it, and it stays in the list, in the file too.
+  void aStrokeIsHiddenAndShown() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    showList();
+    const VoxelShape before = shapeOf(cup);
+    auto* rows = list()->findChild<QScrollArea*>()->widget();
+    const auto eye = [&](int line) { return StrokesList::eyeOf(line, rows->width()).center().toPoint(); };
+    QTest::mouseClick(rows, Qt::LeftButton, {}, eye(1));  // of the one that erases
+    QTRY_VERIFY(list()->lines()[1].hidden);
+    QCOMPARE(list()->lines().size(), size_t{3});
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("hiding a stroke of cup"));
+    QVERIFY(cellCount(shapeOf(cup)) > cellCount(before));
+    QTRY_COMPARE_WITH_TIMEOUT(countOf(cup), cellCount(shapeOf(cup)), kLong);
+    QVERIFY(rows->accessibleDescription().endsWith(QStringLiteral(", hidden")));
+    picture(QStringLiteral("a hidden stroke.png"));
+    const Project file = readProject(writeProject(document().project()), "cup.json", *session().plugins()).project;
+    const auto& saved = std::get<VoxelShape>(file.bodies.back().shape).strokes;
+    QVERIFY(saved[1].hidden && !saved[0].hidden && !saved[2].hidden);
+    document().undoStack().undo();
+    QCOMPARE(shapeOf(cup), before);
+    document().undoStack().redo();
+    const std::unique_ptr<QMenu> menu(list()->menuOf(1));
+    const QList<QAction*> entries = menu->actions();
+    const auto show = std::find_if(entries.begin(), entries.end(), [](QAction* a) { return a->text() == "Show"; });
+    QVERIFY(show != entries.end());
+    (*show)->trigger();
+    QTRY_COMPARE(shapeOf(cup), before);
+    // Something of it has to be left.
+    QSignalSpy told(&list()->edits(), &StrokeListEdits::told);
+    for (const size_t line : {1u, 2u}) {
+      list()->edits().setHidden(cup, line, true);
+      QTRY_VERIFY(list()->lines()[line].hidden);
+    }
+    list()->edits().setHidden(cup, 0, true);
+    QCOMPARE(told.count(), 1);
+    QVERIFY2(told[0][1].toString().contains(QStringLiteral("outliner")), qPrintable(told[0][1].toString()));
+    QVERIFY(!list()->lines()[0].hidden);
   }
 
   /// By the handle of the tool Move, while the list has it.

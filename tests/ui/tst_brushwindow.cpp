@@ -71,6 +71,31 @@ class TestBrushWindow : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), 0);  // nothing was drawn
   }
 
+  /// On the ice that the mouse is on, or across the view; strokes lie on it from then on.
+  void aKeyLaysAPlaneToDrawOn() {
+    QApplication::setActiveWindow(m_window.get());
+    view()->setFocus();
+    const QPoint middle = view()->rect().center();
+    QTest::mouseMove(view(), middle);
+    QCursor::setPos(view()->mapToGlobal(middle));
+    QTest::keyClick(view(), Qt::Key_I);
+    QCOMPARE(m_window->tools().brush().drawOn, DrawOn::Plane);
+    const FreePlane onIce = m_window->tools().brush().plane;
+    QVERIFY(onIce.point.y() > 0);
+    QTest::keyClick(view(), Qt::Key_I, Qt::ShiftModifier);
+    const FreePlane plane = m_window->tools().brush().plane;
+    const Vector3 forward = frameOf(view()->navigator().camera()).forward;
+    QVERIFY(!(plane == onIce) && (plane.normal() + forward).norm() < 1e-9);
+    picture(QStringLiteral("plane across the view.png"));
+    stroke(middle - QPoint(60, 0), {120, 0}, true);
+    const auto& drawn = std::get<VoxelShape>(document().project().bodies.back().shape);
+    for (const auto& s : drawn.strokes.back().samples)
+      QVERIFY(std::abs((Vector3(s[0], s[1], s[2]) - plane.point).dot(forward)) < 1e-9);
+    BrushSettings brush = m_window->tools().brush();
+    brush.drawOn = DrawOn::Surface;
+    m_window->tools().setBrush(brush);
+  }
+
   /// A brush is kept as it is, for all windows, and taken again with all that it was; undo knows nothing of it.
   void favouritesComeBack() {
     preferences::setFavouriteBrushes({});
@@ -109,7 +134,7 @@ class TestBrushWindow : public SampleWindowTest {
     QVERIFY(inHand.radius == 0.031 && inHand.temperature == 400 && inHand.material == "iron");
     QCOMPARE(inHand.symmetry.mirror, std::string("x"));
     QCOMPARE(std::get<double>(inHand.shapeParameters().values.at("pressure_size")), 0.25);
-    QCOMPARE(document().undoStack().count(), 0);
+    QCOMPARE(document().undoStack().index(), 0);
     // What is damaged, of another version, or beyond its range, is left out by itself.
     const QByteArray text = textOf({kept});
     const PluginRegistry& plugins = *session().plugins();

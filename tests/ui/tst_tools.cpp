@@ -5,6 +5,7 @@
 #include "core/sketch/stroke.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
+#include "ui/document/redrawing.h"
 #include "ui/tools/aim.h"
 #include "ui/tools/gizmo.h"
 #include "ui/tools/guides.h"
@@ -274,6 +275,45 @@ class TestTools : public ToolTest {
     const auto* drawn = std::get_if<VoxelShape>(&m_document->project().bodies.back().shape);
     QVERIFY(drawn);
     QVERIFY(VoxelCanvas(drawn->runs).cells().cells().size() >= static_cast<size_t>(std::lround(0.15 / kSpacing)));
+    cleanup();  // the plugins go before the document does
+  }
+
+  /// It draws beside the ice and not beyond, and so it does when the sketch is drawn again from its strokes.
+  void aBrushSeesTheMatterWithinItsReach() {
+    const QTemporaryDir folder;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        folder.filePath(QStringLiteral("seeing_brush.so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {folder.path().toStdString()};
+    PluginRegistry plugins(options);
+    m_document->setPlugins(&plugins);
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    brush.drawOn = DrawOn::Level;
+    brush.planeAt = 0.03;
+    brush.temperature = 263;  // as cold as what it goes by, and yet its own stroke is none of that
+    m_tools->setBrush(brush);
+    m_tools->activate("brush");
+    QTRY_VERIFY(m_engine->snapshot());
+    const double side = 2.5 * kSpacing;  // of the ice
+    const Vector3 begin(0.003, brush.planeAt, side + kSpacing);
+    m_tools->tool().press(aimed(begin, m_engine->snapshot()));
+    for (int k = 1; k <= 20; ++k) {
+      Pointer pointer = aimed(begin + Vector3(0.02 * k, 0, 0), m_engine->snapshot());
+      pointer.seconds = 0.02 * k;
+      m_tools->tool().drag(pointer);
+    }
+    m_tools->tool().release(aimed(begin, m_engine->snapshot()));
+    QCOMPARE(m_document->undoStack().count(), 1);
+    const Body& body = m_document->project().bodies.back();
+    const auto& drawn = std::get<VoxelShape>(body.shape);
+    const CellSet cells = VoxelCanvas(drawn.runs).cells();
+    double farthest = 0;
+    for (const api::Cell& cell : cells.cells()) farthest = std::max(farthest, gridOf(drawn).centreOf(cell).x());
+    // The last particle of the ice stands half a spacing within its side; a cell's middle is half a spacing off.
+    QVERIFY2(farthest > side && farthest < side + 2 * kSpacing, qPrintable(QString::number(farthest)));
+    const VoxelShape again = redrawnIn(m_document->project(), body.id, drawn, kSpacing, plugins);
+    QVERIFY(VoxelCanvas(again.runs).cells() == cells);
     cleanup();  // the plugins go before the document does
   }
 

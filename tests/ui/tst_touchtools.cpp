@@ -353,10 +353,58 @@ class TestTouchTools : public ToolTest {
     m_tools->setBrush(brush);
     const int steps = m_document->undoStack().count();
     paintAt(Vector3(0, 0.9, 0));
-    QCOMPARE(refused.count(), 1);
+    QTRY_COMPARE(refused.count(), 1);
     QVERIFY2(refused[0][1].toString().contains(QStringLiteral("run full")), qPrintable(refused[0][1].toString()));
     QCOMPARE(m_document->undoStack().count(), steps);
     QCOMPARE(count(), without + 25 * 3);
+  }
+
+  /// A large one, from its bottom upwards: the pointer that has let go does not wait, is told how far it has come, and
+  /// Esc gives it up at once.
+  void aLargeHollowFillsBesideTheWindow() {
+    close();
+    Project project = scenes::iceOnPlate(5, 300, kScale);
+    project.environment = scenes::tray(0.6, 1.2);
+    // What asks each cell whether it lies before all of them takes its time.
+    for (int k = 0; k < 1000; ++k) {
+      project.environment.walls.push_back(project.environment.walls[0]);
+      project.environment.walls.back().id = "floor " + std::to_string(k);
+    }
+    open(project);
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() != nullptr; }));
+    take("fill", kSpacing);
+    const Environment& environment = m_document->project().environment;
+    const double low = environment.boundsMinimum.y(), deep = 15 * kSpacing;
+    BrushSettings brush = m_tools->brush();
+    brush.drawOn = DrawOn::AcrossZ;
+    m_tools->setBrush(brush);
+    QSignalSpy working(m_tools.get(), &Toolbox::working), refused(m_tools.get(), &Toolbox::refused);
+    const size_t before = count();
+    Tool& tool = m_tools->tool();
+    const auto fill = [&] {
+      const auto place = [&](int k) { return at({0.2, low + kSpacing + deep * k / 200, 0}); };
+      tool.press(place(0));
+      for (int k = 1; k <= 200; ++k) tool.drag(place(k));
+      tool.release(place(200));
+    };
+    QElapsedTimer clock;
+    fill();
+    QVERIFY2(working.count() > 0, "it was done at once: make it larger");
+    QCOMPARE(working[0][0].toString(), QStringLiteral("filling, of the most that may run full"));
+    QTRY_VERIFY(working.last()[1].toInt() > 0);
+    tool.press(at({0.2, low + kSpacing, 0}));
+    QCOMPARE(refused.count(), 1);
+    clock.start();
+    QVERIFY(tool.cancel());
+    QVERIFY2(clock.elapsed() < 200, qPrintable(QString::number(clock.elapsed())));
+    QCOMPARE(working.last()[1].toInt(), -1);
+    QCOMPARE(m_document->undoStack().count(), 0);
+    QCOMPARE(count(), before);
+    fill();
+    QTRY_COMPARE_WITH_TIMEOUT(m_document->undoStack().count(), 1, 60000);
+    QCOMPARE(working.last()[1].toInt(), -1);
+    QVERIFY2(count() > before + 5000, qPrintable(QString::number(count())));
+    QCOMPARE(refused.count(), 1);
   }
 
   /// A reset names the matter of each stroke by cells, which have been turned with their body by then: undone after it,

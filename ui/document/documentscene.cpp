@@ -69,12 +69,18 @@ QString Document::removeBody(const std::string& id) {
 
 void Document::setStructure(const std::string& id, const std::string& plugin) {
   const Body* old = body(id);
-  if (!old || structureOf(*old, m_plugins) == plugin) return;
+  const std::string present = old ? structureOf(*old, m_plugins) : std::string();
+  if (!old || present == plugin) return;
+  // Of what is not installed nobody knows whether it holds a body: what the row did not show stays.
+  const auto gives = [&](const BodyConstraint& c) {
+    const bool installed = m_plugins && m_plugins->constraint(c.plugin);
+    return c.plugin == present || c.plugin == plugin ||
+           ((installed || plugin == kNoStructure) && holdsTogether(c.plugin, m_plugins));
+  };
   editBody(id, QStringLiteral("structure of %1").arg(nameOf(*old)), [&](Body& b) {
-    const auto holds = [&](const BodyConstraint& c) { return holdsTogether(c.plugin, m_plugins); };
-    const auto first = std::find_if(b.constraints.begin(), b.constraints.end(), holds);
+    const auto first = std::find_if(b.constraints.begin(), b.constraints.end(), gives);
     const auto place = first - b.constraints.begin();
-    b.constraints.erase(std::remove_if(first, b.constraints.end(), holds), b.constraints.end());
+    b.constraints.erase(std::remove_if(first, b.constraints.end(), gives), b.constraints.end());
     if (plugin != kNoStructure) b.constraints.insert(b.constraints.begin() + place, BodyConstraint{plugin, {}, {}});
   });
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::map<std::string, std::string>;  ///< ids here, by those that things come with
 struct AllNames {
-  Names materials, owners, sinks, walls;  ///< owners: bodies and emitters
+  Names materials, owners, sinks, walls, probes;  ///< owners: bodies and emitters
   const Names* of(Owner owner) const {
     switch (owner) {
       case Owner::Material:
@@ -31,6 +31,8 @@ struct AllNames {
         return &sinks;
       case Owner::Wall:
         return &walls;
+      case Owner::Probe:
+        return &probes;
       default:
         return nullptr;
     }
@@ -125,7 +127,7 @@ std::vector<TrackEdit> arrivingTracks(const std::vector<Track>& here, const std:
 
 /// A member of a group as it is called here; "" where it has not come.
 std::string memberHere(const std::string& member, const AllNames& names) {
-  for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall}) {
+  for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall, Owner::Probe}) {
     const std::string prefix = memberOf(owner, "");
     const Names& ids = *names.of(owner);
     const auto id = member.starts_with(prefix) ? ids.find(member.substr(prefix.size())) : ids.end();
@@ -220,7 +222,9 @@ Placement Document::insertThings(Project things, const QString& title) {
     follow(names.owners, probe.body);
     follow(names.walls, probe.wall);
     follow(names.materials, probe.material);
-    come.probes.push_back(*this->probe(addProbe(std::move(probe))));
+    const std::string old = probe.id;
+    names.probes[old] = addProbe(std::move(probe));
+    come.probes.push_back(*this->probe(names.probes[old]));
   }
   if (std::vector<TrackEdit> tracks = arrivingTracks(m_project.tracks, things.tracks, names); !tracks.empty())
     m_undo.push(new TrackCommand(*this, std::move(tracks), ++m_gesture, title));

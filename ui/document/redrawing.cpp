@@ -7,9 +7,56 @@
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 namespace ps {
+namespace {
+
+/// Matter of one body at the start, its cells' middles, within a radius (m) of a place.
+void addSeen(const Project& project, const VoxelShape& voxels, uint32_t body, const Vector3& centre, double radius,
+             SeenMatter& seen) {
+  const SketchGrid grid = gridOf(voxels);
+  const auto rest = static_cast<float>(voxels.spacing * std::cbrt(3 / (4 * std::numbers::pi)));
+  for (const VoxelShape::Run& run : voxels.runs) {
+    const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(run.palette));
+    const auto material = std::find_if(project.materials.begin(), project.materials.end(),
+                                       [&](const SceneMaterial& one) { return one.id == paint.material; });
+    for (int k = 0; k < run.length; ++k) {
+      const Vector3 place = grid.centreOf({run.x + k, run.y, run.z});
+      if (!((place - centre).squaredNorm() <= radius * radius)) continue;
+      seen.position.push_back(float4Of(place, rest));
+      seen.temperature.push_back(static_cast<float>(paint.temperature));
+      seen.speed.push_back(0);
+      seen.phase.push_back(api::Phase::Solid);
+      seen.motion.push_back(api::Motion::Solid);
+      seen.body.push_back(body);
+      seen.material.push_back(static_cast<uint32_t>(material - project.materials.begin()));
+    }
+  }
+}
+
+/// What brushes see while the sketch of a body is drawn again: the other bodies are made into cells when first asked.
+MatterBeside matterBeside(const Project& project, const std::string& body, double spacing) {
+  auto others = std::make_shared<std::vector<std::optional<VoxelShape>>>();
+  return [&project, body, spacing, others](const VoxelShape& soFar, const Vector3& centre, double radius) {
+    const std::vector<Body>& bodies = project.bodies;
+    SeenMatter seen;
+    others->resize(bodies.size());
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      std::optional<VoxelShape>& voxels = (*others)[b];
+      if (bodies[b].id != body && !voxels) voxels = std::get<VoxelShape>(asVoxels(bodies[b], spacing).shape);
+      addSeen(project, voxels ? *voxels : soFar, static_cast<uint32_t>(b), centre, radius, seen);
+    }
+    return seen;
+  };
+}
+
+}  // namespace
 
 VoxelShape redrawnIn(const Project& project, const std::string& body, const VoxelShape& sketch, double spacing,
                      const PluginRegistry& plugins) {
@@ -26,7 +73,7 @@ VoxelShape redrawnIn(const Project& project, const std::string& body, const Voxe
     return CellSet(free);
   };
   const auto brushOf = [&](const std::string& id) { return plugins.brush(id); };
-  return redrawn(sketch, spacing, freeOf, brushOf, project.environment.gravity);
+  return redrawn(sketch, spacing, freeOf, brushOf, project.environment.gravity, matterBeside(project, body, spacing));
 }
 
 size_t cellCount(const VoxelShape& sketch) {

@@ -35,8 +35,15 @@ QStringList labelsOf(const QString& key) {
     return labels;
   }
   if (key == QLatin1String("draw_on"))
-    return {QStringLiteral("Surfaces"), QStringLiteral("A level plane"), QStringLiteral("An upright plane across x"),
-            QStringLiteral("An upright plane across z"), QStringLiteral("A plane that faces the view")};
+    return {QStringLiteral("Surfaces"),
+            QStringLiteral("A level plane"),
+            QStringLiteral("An upright plane across x"),
+            QStringLiteral("An upright plane across z"),
+            QStringLiteral("A plane that faces the view"),
+            QStringLiteral("A plane at any pose")};
+  if (key == QLatin1String("snap_to"))
+    return {QStringLiteral("Nothing"), QStringLiteral("The grid"), QStringLiteral("Strokes"),
+            QStringLiteral("Ends of strokes")};
   if (key == QLatin1String("mirror"))
     return {QStringLiteral("None"), QStringLiteral("Across x"), QStringLiteral("Across y"), QStringLiteral("Across z")};
   return {};
@@ -140,7 +147,8 @@ void BrushPanel::refresh() {
   if (m_tools.scaleParameter())
     setDisabledReason(QStringLiteral("radius"), QStringLiteral("The scale says how large the copies are"));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
-    for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "steady"})
+    for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "plane_x", "plane_y", "plane_z",
+                            "plane_tilt", "plane_heading", "grid", "snap_to", "snap_within", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }
   showColour();

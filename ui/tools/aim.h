@@ -19,8 +19,13 @@ struct Aim {
   double x = 0, y = 0;
 };
 std::optional<Aim> aimTo(const Pointer& pointer, const Vector3& place);
+/// Where a place lies in the picture of who looks along the pointer's `forward`, right and up of its middle, by the
+/// tangents of the angles: what is straight across the picture is so in these. Nothing behind the viewer.
+std::optional<Aim> inPicture(const Pointer& pointer, const Vector3& place);
 /// How far from the aim a straight line between two places is seen, in the same units; infinite where it is behind.
 double aimDistance(const Pointer& pointer, const Vector3& from, const Vector3& to);
+/// The place of the line that is seen nearest to the aim, m. Nothing where an end of it is behind.
+std::optional<Vector3> nearestPlace(const Pointer& pointer, const Vector3& from, const Vector3& to);
 
 /// Upright, facing the viewer.
 DrawingPlane uprightThrough(const Vector3& point, const Vector3& forward);

@@ -14,11 +14,24 @@
 namespace ps {
 namespace {
 constexpr double kFarthest = 100;  // m from the pointer at which a stroke goes on
+
+/// The mark of a place that the pointer has snapped to: two lines in the plane, beyond the brush.
+Wire crossAt(const Vector3& place, const Vector3& normal, double radius) {
+  const Matrix3 axes = strokeAxes(normal);
+  Wire wire;
+  wire.selected = true;
+  for (const int a : {0, 2}) {
+    const Vector3 arm = 1.5 * radius * Vector3(axes.col(a));
+    wire.lines.emplace_back(place - arm, place + arm);
+  }
+  return wire;
 }
+}  // namespace
 
 DrawTool::DrawTool(Toolbox& box, bool erases)
     : Tool(box), m_erases(erases), m_stroke(box), m_touch(box, [this](const QString& why) { refuse(why); }) {
   m_stroke.onTrouble([this] { endStroke(); });
+  m_stroke.onEnd([this] { endStroke(); });
 }
 
 /// A pen that is rolled about itself turns what it draws about the normal of what it draws on, and then it leans.
@@ -32,8 +45,9 @@ bool DrawTool::touches() const { return box().touchesMatter(); }
 bool DrawTool::meetsMatter() const { return touches() || box().reworks(); }
 
 void DrawTool::hover(const Pointer& pointer) {
-  if (m_stroke.active() || m_touch.active()) return;
+  if ((m_stroke.active() && !m_stroke.ending()) || m_touch.active()) return;
   m_cursor.reset();
+  m_snapped.clear();
   m_lift = {0, 0, 0};
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
@@ -56,12 +70,36 @@ void DrawTool::hover(const Pointer& pointer) {
     cursor.centre += m_lift;
     m_plane.point = cursor.centre;
   }
+  if (!cursor.erase && !meetsMatter()) {
+    if (const auto place = snapped(pointer, cursor.centre)) m_plane.point = cursor.centre = *place;
+    if (!m_snapped.isEmpty() && box().brush().snapTo != SnapTo::Grid) m_lift = {0, 0, 0};
+  }
   cursor.floor = heightBelow(pointer, cursor.centre, environment);
   m_cursor = cursor;
 }
 
+/// A stroke is met where it runs, whatever the plane; the crossing of a grid stands on it.
+std::optional<Vector3> DrawTool::snapped(const Pointer& pointer, const Vector3& place) {
+  const BrushSettings& brush = box().brush();
+  const Project& project = box().document().project();
+  m_snapped.clear();
+  if (brush.snapTo == SnapTo::Nothing || pointer.shift) return std::nullopt;
+  if (brush.snapTo == SnapTo::Grid) {
+    m_snapped = QStringLiteral("on the grid");
+    return onGrid(brush, project.environment, m_plane, place);
+  }
+  const auto snap = strokeSnap(brush, project, pointer.ray);
+  if (!snap) return std::nullopt;
+  m_snapped = snap->end ? QStringLiteral("at the end of a stroke") : QStringLiteral("on a stroke");
+  return snap->place;
+}
+
 bool DrawTool::press(const Pointer& pointer) {
   if (pointer.alt) return false;  // see click()
+  if (m_stroke.ending()) {
+    box().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("It is still being filled. Esc stops that."));
+    return true;
+  }
   hover(pointer);
   if (!m_cursor) return true;  // nothing to draw on, and nothing to turn
   m_began = pointer.seconds;
@@ -171,7 +209,7 @@ bool DrawTool::isJoined(const Vector3& point, const Pointer& pointer) const {
 
 void DrawTool::drag(const Pointer& pointer) {
   if (m_touch.active() && m_cursor) return dragTouch(pointer);
-  if (!m_stroke.active() || !m_cursor) return;
+  if (!m_stroke.active() || m_stroke.ending() || !m_cursor) return;
   if (m_cursor->erase || box().reworks()) {
     if (const auto matter = matterUnder(pointer)) {
       if (!isJoined(*matter, pointer)) m_stroke.lift();
@@ -185,6 +223,13 @@ void DrawTool::drag(const Pointer& pointer) {
   }
   const auto point = placeOf(pointer);
   if (!point) return;
+  const bool snaps = !m_cursor->erase && !meetsMatter();
+  if (const auto place = snaps ? snapped(pointer, *point) : std::nullopt) {
+    m_straight.stop();
+    m_trail.start(*place);
+    draw(*place, pointer);
+    return;
+  }
   if (pointer.shift != m_straight.active()) {
     pointer.shift ? m_straight.start(m_cursor->centre) : m_straight.stop();
     m_trail.start(m_cursor->centre);
@@ -208,7 +253,7 @@ void DrawTool::endStroke() {
 void DrawTool::release(const Pointer&) {
   m_before.reset();
   if (const QString problem = m_touch.finish(); !problem.isEmpty()) refuse(problem);
-  endStroke();
+  if (!m_stroke.ending() && m_stroke.end()) endStroke();
 }
 
 /// With Alt the matter that is there says what is drawn from now on, and its body what is stamped.
@@ -250,6 +295,7 @@ ToolPicture DrawTool::picture() const {
   if (!picture.cursor) return picture;
   std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp(m_plane.normal);
   picture.cursor->form = box().form(m_plane.normal);
+  if (!m_snapped.isEmpty()) picture.wires.push_back(crossAt(m_cursor->centre, m_plane.normal, box().brush().radius));
   return picture;
 }
 
@@ -264,6 +310,7 @@ QString DrawTool::words() const {
   }
   if (box().stampsShape() && !box().shapeName().empty())
     parts << QStringLiteral("copies of ") + QString::fromStdString(box().shapeName());
+  if (m_cursor && !m_snapped.isEmpty()) parts << m_snapped;
   if (m_cursor) parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
   return parts.join(QStringLiteral(", "));
 }

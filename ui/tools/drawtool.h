@@ -21,6 +21,7 @@ class DrawTool : public Tool {
   void release(const Pointer& pointer) override;
   void click(const Pointer& pointer) override;
   bool cancel() override;
+  bool goesOn() const override { return m_stroke.ending(); }
   void see(const Snapshot* now) override;
   void leave() override { m_cursor.reset(); }
   ToolPicture picture() const override;
@@ -35,6 +36,7 @@ class DrawTool : public Tool {
  private:
   std::optional<Vector3> placeOf(const Pointer& pointer) const;
   std::optional<Vector3> matterUnder(const Pointer& pointer) const;
+  std::optional<Vector3> snapped(const Pointer& pointer, const Vector3& place);
   bool isJoined(const Vector3& point, const Pointer& pointer) const;
   void draw(const Vector3& point, const Pointer& pointer);
   void beginTouch(const Pointer& pointer);
@@ -60,6 +62,7 @@ class DrawTool : public Tool {
   double m_began = 0;  ///< s, on the pointer's clock
   std::optional<BrushCursor> m_cursor;
   Pointer m_hand;        ///< as it was last while it touches matter
+  QString m_snapped;     ///< "" or what the place under the pointer has snapped to
   bool m_faces = false;  ///< the plane lies across the view, for what the hand holds
 };
 

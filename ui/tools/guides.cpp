@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/guides.h"
 
+#include "core/scene/pose.h"
+#include "core/sketch/stroke.h"
+#include "core/sketch/symmetry.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace ps {
 namespace {
 
-constexpr double kGridLines = 24;  // along the longer side of a plane, about
+constexpr double kGridLines = 24;   // along the longest side of the scene, about
+constexpr double kMostLines = 200;  // likewise, however near they are wanted
 constexpr double kFaint = 0.18, kClear = 0.6;
 
 /// A part of a plane across an axis, as far as the scene goes.
@@ -47,10 +53,7 @@ double roundStep(double wanted) {
   return 10 * power;
 }
 
-void addGrid(const Pane& pane, std::vector<GuideLine>& lines) {
-  const Vector3 size = pane.high - pane.low;
-  const double step = roundStep(std::max(size[pane.u], size[pane.v]) / kGridLines);
-  if (!(step > 0)) return;
+void addGrid(const Pane& pane, double step, std::vector<GuideLine>& lines) {
   const auto each = [&](int axis, const auto& add) {
     for (double k = std::ceil(pane.low[axis] / step); k * step <= pane.high[axis]; ++k)
       add(k * step, std::remainder(k, 5) == 0 ? 2 * kFaint : kFaint);
@@ -74,16 +77,135 @@ int acrossOf(DrawOn on) {
       return 2;
     case DrawOn::Surface:
     case DrawOn::View:
+    case DrawOn::Plane:
       break;
   }
   return -1;
 }
 
+/// The part of a line within the scene's bounds (Liang and Barsky 1984); nothing where it misses them.
+std::optional<GuideLine> clipped(GuideLine line, const Environment& environment) {
+  const Vector3 way = line.to - line.from;
+  double first = 0, last = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double low = environment.boundsMinimum[a] - line.from[a], high = environment.boundsMaximum[a] - line.from[a];
+    if (way[a] == 0) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    first = std::max(first, std::min(low / way[a], high / way[a]));
+    last = std::min(last, std::max(low / way[a], high / way[a]));
+  }
+  if (!(first < last)) return std::nullopt;
+  const Vector3 from = line.from;
+  line.from = from + first * way;
+  line.to = from + last * way;
+  return line;
+}
+
+/// Of a plane at any pose, from its middle as far as the scene goes.
+void addGrid(const FreePlane& plane, double step, const Environment& environment, std::vector<GuideLine>& lines) {
+  const Matrix3 axes = strokeAxes(plane.normal());
+  const double reach = (environment.boundsMaximum - environment.boundsMinimum).norm();
+  const double count = std::min(std::ceil(reach / step), 2 * kMostLines);  // its middle may lie at the scene's edge
+  for (const auto& [along, across] : {std::pair(0, 2), std::pair(2, 0)}) {
+    const Vector3 way = reach * Vector3(axes.col(along));
+    for (double k = -count; k <= count; ++k) {
+      const Vector3 middle = plane.point + k * step * Vector3(axes.col(across));
+      const GuideLine line{middle - way, middle + way, std::remainder(k, 5) == 0 ? 2 * kFaint : kFaint};
+      if (const auto part = clipped(line, environment)) lines.push_back(*part);
+    }
+  }
+}
+
+/// A place of the way that leads from `a` to `b` (m) which is nearest to a ray, and how far it is from that.
+std::pair<Vector3, double> nearestOn(const Vector3& a, const Vector3& b, const Ray& ray) {
+  const Vector3 way = b - a, off = ray.origin - a;
+  const double along = ray.direction.dot(way), length2 = way.squaredNorm();
+  const double flat = length2 - along * along;  // 0: they are parallel
+  const double wanted = way.dot(off) - along * ray.direction.dot(off);
+  const double share = flat > 1e-12 * length2 ? std::clamp(wanted / flat, 0.0, 1.0) : 0;
+  const Vector3 place = a + share * way;
+  const double ahead = std::max(0.0, ray.direction.dot(place - ray.origin));
+  return {place, (ray.origin + ahead * ray.direction - place).norm()};
+}
+
+/// The ways of a stroke, and of its copies, where the document has them.
+std::vector<std::vector<Vector3>> waysOf(const VoxelShape& sketch, const VoxelShape::Stroke& stroke) {
+  const RigidMove pose = poseOf(sketch);
+  std::vector<std::vector<Vector3>> ways;
+  for (const SketchImage& image : imagesOf(stroke.symmetry.value_or(VoxelShape::Symmetry{}))) {
+    std::vector<Vector3>& way = ways.emplace_back();
+    for (const auto& sample : stroke.samples)
+      way.push_back(pose.of(Vector3(image.of({sample[0], sample[1], sample[2]}))));
+  }
+  return ways;
+}
+
+/// Keeps what is nearest within a reach.
+class Nearest {
+ public:
+  explicit Nearest(double reach) : m_away(reach) {}
+  void see(const std::pair<Vector3, double>& place, bool end) {
+    if (place.second > m_away) return;
+    m_away = place.second;
+    m_snap = StrokeSnap{place.first, end};
+  }
+  const std::optional<StrokeSnap>& snap() const { return m_snap; }
+
+ private:
+  double m_away;  ///< m
+  std::optional<StrokeSnap> m_snap;
+};
+
 }  // namespace
+
+double gridStep(const BrushSettings& brush, const Environment& environment) {
+  Vector3 size = environment.boundsMaximum - environment.boundsMinimum;
+  if (const int across = acrossOf(brush.drawOn); across >= 0) size[across] = 0;
+  const double least = size.maxCoeff() / kMostLines;
+  return brush.grid > 0 ? std::max(brush.grid, least) : roundStep(size.maxCoeff() / kGridLines);
+}
+
+Vector3 onGrid(const BrushSettings& brush, const Environment& environment, const DrawingPlane& plane,
+               const Vector3& place) {
+  const double step = gridStep(brush, environment);
+  if (!(step > 0)) return place;
+  const Vector3 middle = brush.drawOn == DrawOn::Plane ? brush.plane.point : Vector3(0, 0, 0);
+  const Matrix3 axes = strokeAxes(plane.normal);
+  Vector3 snapped = place;
+  for (const int a : {0, 2}) {
+    const Vector3 axis = axes.col(a);
+    const double at = (place - middle).dot(axis);
+    snapped += (step * std::round(at / step) - at) * axis;
+  }
+  return snapped;
+}
+
+std::optional<StrokeSnap> strokeSnap(const BrushSettings& brush, const Project& project, const Ray& ray) {
+  Nearest ends(brush.snapWithin), anywhere(brush.snapWithin);
+  for (const Body& body : project.bodies) {
+    const auto* sketch = std::get_if<VoxelShape>(&body.shape);
+    if (!sketch || !body.visible) continue;
+    for (const VoxelShape::Stroke& stroke : sketch->strokes) {
+      if (stroke.erase || stroke.hidden || stroke.samples.empty()) continue;
+      for (const std::vector<Vector3>& way : waysOf(*sketch, stroke)) {
+        for (const Vector3& end : {way.front(), way.back()}) ends.see(nearestOn(end, end, ray), true);
+        for (size_t k = 1; k < way.size() && brush.snapTo == SnapTo::Strokes; ++k)
+          anywhere.see(nearestOn(way[k - 1], way[k], ray), false);
+      }
+    }
+  }
+  return ends.snap() ? ends.snap() : anywhere.snap();
+}
 
 std::optional<DrawingPlane> planeFor(const BrushSettings& brush, const Pointer& pointer) {
   if (brush.drawOn == DrawOn::Surface) return std::nullopt;
   if (brush.drawOn == DrawOn::View) return DrawingPlane{pointer.target, -pointer.forward};
+  if (brush.drawOn == DrawOn::Plane) {
+    const Vector3 normal = brush.plane.normal();
+    return DrawingPlane{brush.plane.point, pointer.ray.direction.dot(normal) > 0 ? Vector3(-normal) : normal};
+  }
   const int axis = acrossOf(brush.drawOn);
   DrawingPlane plane{{0, 0, 0}, {0, 0, 0}};
   plane.point[axis] = brush.planeAt;
@@ -93,7 +215,10 @@ std::optional<DrawingPlane> planeFor(const BrushSettings& brush, const Pointer& 
 
 std::vector<GuideLine> guideLines(const BrushSettings& brush, const Environment& environment) {
   std::vector<GuideLine> lines;
-  if (const int axis = acrossOf(brush.drawOn); axis >= 0) addGrid(paneOf(axis, brush.planeAt, environment), lines);
+  const double step = gridStep(brush, environment);
+  if (const int axis = acrossOf(brush.drawOn); axis >= 0 && step > 0)
+    addGrid(paneOf(axis, brush.planeAt, environment), step, lines);
+  if (brush.drawOn == DrawOn::Plane && step > 0) addGrid(brush.plane, step, environment, lines);
   const VoxelShape::Symmetry& symmetry = brush.symmetry;
   if (const size_t axis = std::string("xyz").find(symmetry.mirror); axis < 3) {
     const int across = static_cast<int>(axis);

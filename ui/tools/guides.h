@@ -14,6 +14,22 @@ namespace ps {
 /// The plane that the settings ask for, its normal towards the viewer; nothing where strokes are drawn on surfaces.
 std::optional<DrawingPlane> planeFor(const BrushSettings& brush, const Pointer& pointer);
 
+/// m, from line to line of the grid on drawing planes.
+double gridStep(const BrushSettings& brush, const Environment& environment);
+/// The crossing of a plane's grid that is nearest to a place, moved along the plane alone.
+Vector3 onGrid(const BrushSettings& brush, const Environment& environment, const DrawingPlane& plane,
+               const Vector3& place);
+
+/// Where a stroke snaps to that is drawn already.
+struct StrokeSnap {
+  Vector3 place{0, 0, 0};  ///< m
+  bool end = false;        ///< it is one of the stroke's ends
+};
+/// What is nearest to the pointer's ray of the ways of a project's strokes, where the document has them, their copies
+/// included: ends within the reach of the settings first, then, unless only these are asked for, all of the way. Not of
+/// strokes that erase or are hidden, nor of hidden bodies.
+std::optional<StrokeSnap> strokeSnap(const BrushSettings& brush, const Project& project, const Ray& ray);
+
 /// Grid of the plane, outline of the mirror and the axis of copies, within the scene's bounds.
 std::vector<GuideLine> guideLines(const BrushSettings& brush, const Environment& environment);
 

@@ -32,6 +32,7 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   m_began = hand.seconds;
   m_last = hand;
   m_up = hand.up;
+  if (m_stroke.ending()) return say(QStringLiteral("It is still being filled."));
   const QString problem = !m_always.empty() || m_box.touchesMatter()
                               ? m_touch.begin(brush(), opposite, *hand.place, hand.up, hand.forward, heldBy(hand))
                               : m_stroke.begin(opposite, scene ? *scene : kNothing, *hand.place, hand.up, heldBy(hand));
@@ -64,6 +65,7 @@ Held HandBrush::heldBy(const HandInScene& hand) const {
 /// A hand that touches matter is where it is, and as fast; a stroke keeps its way, which grows by what it is told.
 void HandBrush::move(const HandInScene& hand) {
   const double seconds = hand.seconds - m_began;
+  if (m_stroke.ending()) return;
   if (m_touch.active()) {
     say(m_touch.move(*hand.place, seconds, heldBy(hand)));
   } else if (m_stroke.active() && (*hand.place - *m_last.place).norm() >= kWay * m_box.spacing()) {
@@ -74,11 +76,18 @@ void HandBrush::move(const HandInScene& hand) {
 
 void HandBrush::end() {
   say(m_touch.finish());
+  if (!m_stroke.ending() && m_stroke.end()) endStroke();
+}
+
+void HandBrush::finish() {
+  say(m_touch.finish());
   endStroke();
 }
 
 void HandBrush::endStroke() {
+  m_finishes = true;
   const QString problem = m_stroke.finish();
+  m_finishes = false;
   say(problem, m_stroke.kept());
 }
 

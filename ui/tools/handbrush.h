@@ -26,13 +26,14 @@ class HandBrush {
  public:
   /// `always`: it has that brush for matter, whatever is chosen, with the size of the chosen one.
   explicit HandBrush(Toolbox& box, std::string always = {})
-      : m_box(box),
-        m_always(std::move(always)),
-        m_stroke(box),
-        m_touch(box, [this](const QString& why) { say(why); }) {}
+      : m_box(box), m_always(std::move(always)), m_stroke(box), m_touch(box, [this](const QString& why) { say(why); }) {
+    m_stroke.onEnd([this] { endStroke(); });
+  }
   /// `scene`: as it is shown; nullptr: nothing yet.
   void follow(const HandInScene& hand, const SnapshotPtr& scene);
-  void end();     ///< as far as it came
+  void end();                                   ///< as far as it came; what fills goes on beside it
+  void finish();                                ///< at once, with what fills
+  bool finishes() const { return m_finishes; }  ///< what changes in the document is the end of its stroke
   void cancel();  ///< gives up what it does; it begins again when its trigger is pressed anew
   bool active() const { return m_stroke.active() || m_touch.active(); }
   bool heats() const { return m_touch.heats(); }  ///< or cools, now
@@ -50,7 +51,7 @@ class HandBrush {
   std::string m_always;
   LiveStroke m_stroke;
   LiveTouch m_touch;
-  bool m_pressed = false;
+  bool m_pressed = false, m_finishes = false;
   HandInScene m_last;     ///< that the stroke got
   Vector3 m_up{0, 1, 0};  ///< of the hand as it began
   double m_began = 0;     ///< s

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of LiveStroke that lets hollows run full.
 #include "core/simulation/lattice.h"
+#include "core/sketch/flooding.h"
 #include "ui/session/scenelink.h"
 #include "ui/tools/livestroke.h"
+#include "ui/tools/strokethread.h"
 #include "ui/tools/toolbox.h"
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
+#include <utility>
 
 namespace ps {
 
@@ -23,6 +28,24 @@ std::function<bool(const Vector3&)> LiveStroke::freePlaces() const {
     }
     return (*occupied)->isFree(double3Of(place));
   };
+}
+
+bool LiveStroke::end() {
+  constexpr std::chrono::milliseconds kPatience{250};  // for which nothing needs to be shown
+  if (!m_record || m_kind != api::EditKind::Fill) return true;
+  m_thread->lift();
+  m_ends = !m_thread->isIdle(kPatience);
+  if (m_ends) tellOfEnd();
+  return !m_ends;
+}
+
+void LiveStroke::tellOfEnd() {
+  const size_t percent = 100 * m_thread->filled() / kMostFlooded;
+  m_box.work(QStringLiteral("filling, of the most that may run full"), static_cast<int>(std::min<size_t>(99, percent)));
+}
+
+void LiveStroke::stopEnding() {
+  if (std::exchange(m_ends, false)) m_box.work({}, -1);
 }
 
 }  // namespace ps

@@ -228,6 +228,9 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
 void LiveStroke::start() {
   StrokeScene scene{m_box.document().project().environment, {}};
   if (m_kind == api::EditKind::Fill) scene.isFree = freePlaces();
+  // One look for all of it: what it draws itself is none of what it goes by, and it is drawn again from the same.
+  if (m_box.link()) m_sight.show(m_box.link()->scene());
+  m_setup.matterWithin = m_sight.matterWithin();
   const api::BrushPlugin& plugin = *m_box.document().plugins()->brush(m_brush.shape);
   // Called from the stroke's thread, which may have been left by the time that this one looks.
   const auto thread = std::make_shared<std::weak_ptr<StrokeThread>>();
@@ -314,6 +317,8 @@ void LiveStroke::take() {
 /// A brush that has been at it for too many looks is given up.
 void LiveStroke::watch() {
   if (!m_thread) return m_looks.stop();
+  if (m_ends && m_thread->isIdle()) return m_onEnd();
+  if (m_ends) tellOfEnd();
   m_idleLooks = m_thread->asksBrush() && m_waits == m_thread->places() ? m_idleLooks + 1 : 0;
   m_waits = m_thread->places();
   if (m_idleLooks < kBrushLooks) return;
@@ -355,6 +360,7 @@ void LiveStroke::lift() {
 
 QString LiveStroke::finish() {
   m_kept = false;
+  stopEnding();
   if (!m_record) return std::exchange(m_problem, {});
   m_thread->lift();
   const QString problem = guarded([this] {
@@ -367,6 +373,7 @@ QString LiveStroke::finish() {
     m_problem = QStringLiteral("It lies outside of the scene, or in its walls.");
   if (m_record && !m_problem.isEmpty()) forgetBeyond(m_thread->places());
   m_thread.reset();
+  m_sight.show(nullptr);
   m_kept = m_record && !m_cells.empty();
   if (m_record) keep();  // what came so far stays, unless the brush failed
   return std::exchange(m_problem, {});
@@ -419,8 +426,10 @@ std::string LiveStroke::groupOfSelection() const {
 }
 
 void LiveStroke::cancel() {
+  stopEnding();
   const bool isBack = !m_thread || m_thread->drop();
   m_thread.reset();
+  m_sight.show(nullptr);
   if (!isBack) m_box.refuse(QStringLiteral("Nothing was drawn."), putAside(kNotBack));
   if (!m_record) return;
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);

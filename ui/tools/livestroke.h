@@ -6,6 +6,7 @@
 #include "ui/document/strokerecord.h"
 #include "ui/tools/brushsettings.h"
 #include "ui/tools/held.h"
+#include "ui/tools/sight.h"
 
 #include <QtCore/QString>
 #include <QtCore/QTimer>
@@ -42,6 +43,11 @@ class LiveStroke {
   void move(const Vector3& point, double seconds, const Held& held);
   /// The next place is not joined to the last one.
   void lift();
+  /// Nothing more is drawn. True: finish() has little to wait for. False: hollows are still running full, which takes
+  /// long; onEnd() is called when it is over, or cancel() gives the stroke up.
+  bool end();
+  bool ending() const { return m_ends; }  ///< end() was called, and it is not over
+  void onEnd(std::function<void()> call) { m_onEnd = std::move(call); }
   /// Waits for what the brush still gives. "" or what went wrong: the stroke then ends as far as it came, or is given
   /// up where the brush failed.
   QString finish();
@@ -68,6 +74,8 @@ class LiveStroke {
   void start();
   void take();
   void watch();
+  void tellOfEnd();
+  void stopEnding();
   QString guarded(const std::function<void()>& work);  ///< "" or what went wrong; a brush that failed is put aside
   void note(const QString& problem);
   void forgetBeyond(size_t places);
@@ -88,9 +96,11 @@ class LiveStroke {
   int m_idleLooks = 0;
   size_t m_waits = 0;  ///< places that had been drawn by then
   QString m_problem;
-  std::function<void()> m_onTrouble;
+  std::function<void()> m_onTrouble, m_onEnd;
+  bool m_ends = false;
   bool m_kept = false;
   StrokeSetup m_setup;
+  Sight m_sight;
   Vector3 m_up{0, 1, 0};  ///< in the scene, away from what is drawn on
   CellSet m_cells;
   VoxelCanvas m_canvas;                                   ///< that a smoothing stroke rounds, as it was before

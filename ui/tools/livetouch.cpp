@@ -11,7 +11,6 @@
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace ps {
@@ -20,7 +19,6 @@ namespace {
 /// What a brush says within this is waited for: the hand feels it in the same picture.
 constexpr std::chrono::milliseconds kAtOnce{4};
 constexpr std::chrono::milliseconds kLook{20};
-constexpr double kSmoothed = 0.05;  // s, over which the speed of a hand is a mean
 
 bool any(const std::vector<api::Touch>& touches, api::TouchKind kind) {
   return std::any_of(touches.begin(), touches.end(), [&](const api::Touch& touch) { return touch.kind == kind; });
@@ -55,37 +53,22 @@ QString LiveTouch::begin(const BrushSettings& brush, bool opposite, const Vector
   m_kind = opposite ? api::EditKind::Remove : api::EditKind::Add;
   m_setup = strokeSetup(brush, plugins, m_box.spacing(), up);
   m_setup.look = look;
+  m_setup.matterWithin = m_sight.matterWithin();
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
   m_record = std::make_shared<StrokeRecord>();
   m_record->deed = pluginLabel(&plugins, m_brush).toStdString() + " matter";
   if (opposite) m_record->deed += ", the opposite";
   m_heats = m_holds = m_keeps = m_waits = false;
   m_way.clear();
-  m_place.reset();
-  m_velocity = {0, 0, 0};
   return move(point, 0, held);
-}
-
-/// m/s, smoothed; a hand that has just begun rests.
-Vector3 LiveTouch::speedTo(const Vector3& point, double seconds) {
-  const double passed = seconds - m_seconds;
-  if (m_place && passed > 0) {
-    const double share = 1 - std::exp(-passed / kSmoothed);
-    m_velocity += share * ((point - *m_place) / passed - m_velocity);
-  }
-  m_place = point;
-  m_seconds = seconds;
-  return m_velocity;
 }
 
 QString LiveTouch::move(const Vector3& point, double seconds, const Held& held) {
   if (!m_record) return {};
   api::StrokeSample here{double3Of(point), held.pressure, seconds, {}};
   here.turn = double3Of(held.turn);
-  here.velocity = double3Of(speedTo(point, seconds));
-  std::vector<api::StrokeSample> way = m_resampler->add(here);
-  here.velocity = {0, 0, 0};
-  return send(std::move(way), here);
+  if (m_box.link()) m_sight.show(m_box.link()->scene());
+  return send(m_resampler->add(here), here);
 }
 
 QString LiveTouch::send(const std::vector<api::StrokeSample>& way, const std::optional<api::StrokeSample>& stays) {
@@ -169,8 +152,6 @@ void LiveTouch::watch() {
 void LiveTouch::lift() {
   if (!m_record) return;
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);
-  m_place.reset();
-  m_velocity = {0, 0, 0};
 }
 
 QString LiveTouch::finish() {

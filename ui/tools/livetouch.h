@@ -4,6 +4,7 @@
 #include "ui/document/strokerecord.h"
 #include "ui/tools/brushsettings.h"
 #include "ui/tools/held.h"
+#include "ui/tools/sight.h"
 
 #include <QtCore/QString>
 #include <QtCore/QTimer>
@@ -54,7 +55,6 @@ class LiveTouch {
   QString goOn(std::chrono::milliseconds patience);
   QString fail(const char* why);
   void watch();
-  Vector3 speedTo(const Vector3& point, double seconds);
 
   Toolbox& m_box;
   std::function<void(const QString&)> m_onTrouble;
@@ -71,10 +71,8 @@ class LiveTouch {
   StrokeSetup m_setup;
   std::unique_ptr<StrokeResampler> m_resampler;
   bool m_heats = false, m_holds = false;
-  bool m_keeps = false;            ///< it does something that undo takes back
-  std::optional<Vector3> m_place;  ///< m, the last one
-  double m_seconds = 0;            ///< when it was there
-  Vector3 m_velocity{0, 0, 0};     ///< m/s, of the hand
+  bool m_keeps = false;  ///< it does something that undo takes back
+  Sight m_sight;
 };
 
 }  // namespace ps

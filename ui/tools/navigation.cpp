@@ -59,8 +59,8 @@ std::vector<Gesture> viewGestures(const Tool& tool) {
   if (free) add(QStringLiteral("Drag"), "Select what lies in the frame");
   add(QStringLiteral("Right button"), "The view's menu");
   add(QStringLiteral("Drag an end of the legend"), "Set the range of colours; a double click fits it again");
-  add(QStringLiteral("Esc"),
-      tool.turnsView() ? "Take back what is being dragged" : "Give up the drag or stroke, then back to selecting");
+  add(QStringLiteral("Esc"), tool.turnsView() ? "Take back the drag, then back to selecting, then select nothing"
+                                              : "Give up the drag or stroke, then back to selecting");
   add(QStringLiteral("Tab"), "To sketching and back; Shift+Tab leaves the view");
   return list;
 }

@@ -16,7 +16,8 @@
 namespace ps {
 namespace {
 
-constexpr double kReach = 7;  // units of fineness around a line that take hold of it
+// Units of fineness around a line that take hold of it. Walls are thin and pale, and stand around all the rest.
+constexpr double kReach = 7, kWallReach = 4;
 
 bool has(const std::vector<SelectedItem>& items, const SelectedItem& item) {
   return std::find(items.begin(), items.end(), item) != items.end();
@@ -55,21 +56,61 @@ Lines edgesOf(const render::Face& face) {
   return lines;
 }
 
-std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointer) {
-  std::optional<Pick> onLine, onFace;
-  double line = kReach, depth = std::numeric_limits<double>::infinity();
+/// Those by which one sees a wall, and that a section leaves.
+Lines drawnLines(const Environment& environment, size_t wall, const std::optional<Section>& section) {
+  const bool side = !faceOf(environment.walls[wall]).isCurved() && !isPlate(environment.walls[wall]);
+  return side ? render::paneLines(environment, wall, section) : seenLines(environment, wall, section);
+}
+
+/// Whether matter stands between the viewer and a place.
+bool isHidden(const Pointer& pointer, const Vector3& place) {
+  Pointer there = pointer;
+  const Vector3 way = place - pointer.ray.origin;
+  there.ray.direction = way.normalized();
+  const auto matter = matterOn(there);
+  return matter && (*matter - pointer.ray.origin).norm() < way.norm();
+}
+
+/// The wall whose edge is seen nearest to the aim.
+std::optional<Pick> edgeAt(const Environment& environment, const Pointer& pointer) {
+  struct Candidate {
+    double distance;
+    size_t wall;
+    Vector3 place;
+  };
+  std::vector<Candidate> near;
+  for (size_t k = 0; k < environment.walls.size(); ++k) {
+    if (!canPick(environment.walls[k])) continue;
+    for (const auto& [from, to] : drawnLines(environment, k, pointer.section)) {
+      const double distance = aimDistance(pointer, from, to);
+      if (distance < kWallReach) near.push_back({distance, k, *nearestPlace(pointer, from, to)});
+    }
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  const auto seen =
+      std::find_if_not(near.begin(), near.end(), [&](const Candidate& one) { return isHidden(pointer, one.place); });
+  if (seen == near.end()) return std::nullopt;
+  return Pick{{OutlineKind::Wall, environment.walls[seen->wall].id}, true};
+}
+
+/// The floor or lid whose face is nearest.
+std::optional<Pick> plateAt(const Environment& environment, const Pointer& pointer) {
+  std::optional<Pick> nearest;
+  double depth = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < environment.walls.size(); ++k) {
     const SceneWall& wall = environment.walls[k];
-    if (!canPick(wall)) continue;
-    const render::Face face = render::leftOf(environment, k, pointer.section);
-    const double near = distanceOf(pointer, seenLines(environment, k, pointer.section));
-    const double far = isPlate(wall) ? depthOf(pointer, wall, face) : std::numeric_limits<double>::infinity();
-    if (near < line) line = near, onLine = Pick{{OutlineKind::Wall, wall.id}, true};
-    if (far < depth) depth = far, onFace = Pick{{OutlineKind::Wall, wall.id}, false};
+    if (!canPick(wall) || !isPlate(wall)) continue;
+    const double there = depthOf(pointer, wall, render::leftOf(environment, k, pointer.section));
+    if (there < depth) depth = there, nearest = Pick{{OutlineKind::Wall, wall.id}, false};
   }
-  if (!onLine && !onFace) return std::nullopt;
-  if (matterOn(pointer)) return std::nullopt;
-  return onLine ? onLine : onFace;
+  return nearest;
+}
+
+std::optional<Pick> wallAt(const Environment& environment, const Pointer& pointer) {
+  std::optional<Pick> pick = edgeAt(environment, pointer);
+  if (!pick) pick = plateAt(environment, pointer);
+  return pick && matterOn(pointer) ? std::nullopt : pick;  // of all particles, and a pointer that hovers asks often
 }
 
 }  // namespace

@@ -99,12 +99,14 @@ bool SelectTool::cancel() {
 }
 
 std::vector<SelectedItem> SelectTool::framed(const Pointer& to) const {
-  const auto across = aimTo(*m_corner, to.ray.origin + to.ray.direction);
-  if (!across) return {};
+  // As it is drawn: along the edges of the picture, which a corner's own ray does not go straight into.
+  const auto a = inPicture(to, m_corner->ray.origin + m_corner->ray.direction);
+  const auto b = inPicture(to, to.ray.origin + to.ray.direction);
+  if (!a || !b) return {};
+  const Aim low{std::min(a->x, b->x), std::min(a->y, b->y)}, high{std::max(a->x, b->x), std::max(a->y, b->y)};
   const Within within = [&](const Vector3& place) {
-    const auto at = aimTo(*m_corner, place);
-    return at && at->x >= std::min(0.0, across->x) && at->x <= std::max(0.0, across->x) &&
-           at->y >= std::min(0.0, across->y) && at->y <= std::max(0.0, across->y) &&
+    const auto at = inPicture(to, place);
+    return at && at->x >= low.x && at->x <= high.x && at->y >= low.y && at->y <= high.y &&
            (!to.section || to.section->shows(place));
   };
   const Project& project = box().document().project();

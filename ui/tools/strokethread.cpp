@@ -15,7 +15,7 @@
 namespace ps {
 
 struct StrokeThread::Shared {
-  std::unique_ptr<StrokeMaker> maker;  // of the thread alone, but for asksBrush()
+  std::unique_ptr<StrokeMaker> maker;  // of the thread alone, but for what may be called from any
   bool alone = false;                  // no thread was to be had: all is done where it is asked for
   std::mutex mutex;
   std::condition_variable asked, came;
@@ -89,6 +89,7 @@ bool StrokeThread::drop() {
     m_shared->ends = true;
     m_shared->waiting.clear();
   }
+  m_shared->maker->cancel();
   m_shared->asked.notify_all();
   return m_left || wait();
 }
@@ -112,6 +113,11 @@ std::vector<api::Cell> StrokeThread::take() {
   return std::exchange(m_shared->cells, {});
 }
 
+bool StrokeThread::isIdle(std::chrono::milliseconds patience) {
+  std::unique_lock lock(m_shared->mutex);
+  return m_shared->came.wait_for(lock, patience, [this] { return m_shared->idle(); });
+}
+
 bool StrokeThread::wait() {
   std::unique_lock lock(m_shared->mutex);
   for (int look = 0; look < kBrushLooks; ++look) {
@@ -123,6 +129,8 @@ bool StrokeThread::wait() {
 }
 
 bool StrokeThread::asksBrush() const { return m_shared->maker->asksBrush(); }
+
+size_t StrokeThread::filled() const { return m_shared->maker->filled(); }
 
 bool StrokeThread::leavesScene() const { return m_shared->maker->leavesScene(); }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/sketch/strokemaker.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@ class StrokeThread {
   /// Cells that have come since, none of them twice. Throws what the maker has thrown, once all before it has been
   /// taken; from then on nothing comes.
   std::vector<api::Cell> take();
+  /// All that was asked for has come, now or before so many milliseconds have passed.
+  bool isIdle(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
   /// Until all that was asked for has come. False: the brush does not come back, and is left.
   bool wait();
   /// Nothing more is drawn. Waits for the brush, unless it was left: what it gives then is dropped. False: it does not
@@ -33,6 +36,7 @@ class StrokeThread {
   bool asksBrush() const;    ///< it is the brush that works now
   bool leavesScene() const;  ///< see StrokeMaker
   size_t places() const;     ///< of those that were added: how many have been drawn
+  size_t filled() const;     ///< see StrokeMaker
 
  private:
   struct Shared;

@@ -13,6 +13,9 @@ struct Surface {
 /// What the pointer's ray meets first: matter, else the floor within the bounds, else the air at the depth one looks
 /// at. Nothing where the ray runs away from all of them.
 std::optional<Surface> surfaceUnder(const Pointer& pointer, const Environment& environment);
+/// Unit vector away from the matter that is shown around a point of its surface, from farther around than a Surface
+/// tells it and along no axis but where it is one within 3 degrees.
+Vector3 facingAt(const Pointer& pointer, const Vector3& point);
 /// Where the pointer's ray meets matter first that is shown.
 std::optional<Vector3> matterOn(const Pointer& pointer);
 /// m, of the highest level wall, or of the bounds.

@@ -131,7 +131,8 @@ class Tool {
   virtual bool takesText(const QString&) const { return false; }  ///< whether type() would take it
   /// Gives up what is being dragged. False: there was nothing.
   virtual bool cancel() { return false; }
-  virtual void leave() {}  ///< points nowhere any more, or another tool takes over
+  virtual bool goesOn() const { return false; }  ///< with what was let go already
+  virtual void leave() {}                        ///< points nowhere any more, or another tool takes over
 
   virtual ToolPicture picture() const { return {}; }
   /// What a screen reader says of it: "Brush, sphere, radius 50 mm".

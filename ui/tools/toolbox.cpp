@@ -13,6 +13,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
 #include "ui/tools/livestroke.h"
+#include "ui/tools/surface.h"
 #include "ui/tools/tooltable.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ Toolbox::Toolbox(Document& document, Selection& selection, QObject* parent)
   });
   // A stroke in the making builds on the document as it was when it began.
   connect(&document.undoStack(), &History::indexChanged, this, [this] {
-    if (tool().usesBrush()) tool().cancel();
+    if (tool().usesBrush()) giveUp();
   });
 }
 
@@ -174,6 +175,14 @@ void Toolbox::putAside(const std::string& brush, const std::string& problem) {
   takeInstalled(m_document.plugins()->standard(PluginKind::Brush));
 }
 
+/// What its user does not see any more is told: Esc alone gives it up by itself.
+void Toolbox::giveUp() {
+  if (tool().goesOn())
+    refuse(QStringLiteral("Nothing was drawn."),
+           QStringLiteral("The hollow was still running full when something else was done."));
+  tool().cancel();
+}
+
 void Toolbox::activate(const std::string& id) {
   if (!toolRow(id)) return;
   const bool stamp = id == kBrushTool && stampsShape();  // an eraser may well take copies away
@@ -183,7 +192,7 @@ void Toolbox::activate(const std::string& id) {
     setBrush(brush);
   }
   if (id == m_active) return;
-  tool().cancel();
+  giveUp();
   tool().leave();
   m_active = id;
   Q_EMIT toolChanged();
@@ -191,7 +200,7 @@ void Toolbox::activate(const std::string& id) {
 
 void Toolbox::choose(std::optional<ChosenStroke> stroke) {
   if (stroke == m_stroke) return;
-  tool().cancel();
+  giveUp();
   m_stroke = std::move(stroke);
   Q_EMIT strokeChosen();
 }
@@ -224,7 +233,7 @@ std::optional<Wire> Toolbox::strokeWire() const {
 
 void Toolbox::setMouse(MousePreset preset) {
   if (preset == m_mouse) return;
-  tool().cancel();
+  giveUp();
   m_mouse = preset;
   Q_EMIT mouseChanged();
 }
@@ -309,6 +318,24 @@ const std::string* further(const std::vector<std::string>& ring, const std::stri
   if (found == ring.end()) return &ring.front();
   const auto count = static_cast<std::ptrdiff_t>(ring.size());
   return &ring[static_cast<size_t>((found - ring.begin() + by + count) % count)];
+}
+
+void Toolbox::layPlane(const Pointer& pointer, bool acrossView) {
+  BrushSettings brush = m_brush;
+  if (acrossView) {
+    brush.plane = FreePlane::across(pointer.target, -pointer.forward);
+  } else {
+    const auto surface = surfaceUnder(pointer, m_document.project().environment);
+    if (!surface || surface->normal.isZero())
+      return refuse(QStringLiteral("No plane was laid."),
+                    QStringLiteral("The pointer is on no matter, nor on a floor."));
+    const Vector3 normal = matterOn(pointer) ? facingAt(pointer, surface->point) : surface->normal;
+    const Vector3 half = stamp(normal).first.cwiseProduct(normal);
+    brush.plane = FreePlane::across(surface->point + half.norm() * normal, normal);
+  }
+  brush.drawOn = DrawOn::Plane;
+  setBrush(brush);
+  if (!tool().usesBrush()) activate(kBrushTool);
 }
 
 void Toolbox::stepShape(int by) {

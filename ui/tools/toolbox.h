@@ -73,6 +73,9 @@ class Toolbox : public QObject {
   QString brushSizeText() const;   ///< "50 mm", "80 %"
   /// Its own parameter that stands for its size; nullptr where that is the radius.
   const api::ParameterDeclaration* scaleParameter() const;
+  /// Strokes are drawn from now on on a plane that stands still: on the surface that is pointed at, so far above it
+  /// that the brush stands on it, or across the view through what that looks at. Refused where nothing is pointed at.
+  void layPlane(const Pointer& pointer, bool acrossView);
   void stepShape(int by);     ///< so many brushes on, or back, in the order of their names
   void stepMaterial(int by);  ///< likewise of what is drawn with, among the scene's materials
   /// Takes a brush in hand; one that does not draw puts the eraser aside.
@@ -115,6 +118,7 @@ class Toolbox : public QObject {
   SceneLink* link() const { return m_link; }
   double spacing() const;  ///< m, of particles, as the document has it
   void refuse(const QString& title, const QString& why) { Q_EMIT refused(title, why); }
+  void work(const QString& stage, int percent) { Q_EMIT working(stage, percent); }
   /// A brush has failed: it is out of service, and another one in hand where there is one.
   void putAside(const std::string& brush, const std::string& problem);
 
@@ -125,11 +129,13 @@ class Toolbox : public QObject {
   void handlesChanged();
   void strokeChosen();
   void strokeMoved(const ps::ChosenStroke& stroke, const ps::Vector3& way);  ///< m, by a hand that wants it there
-  void refused(const QString& title, const QString& why);                    ///< "Nothing was drawn.", why not
+  void working(const QString& stage, int percent);         ///< on what takes long and can be given up; -1: no more
+  void refused(const QString& title, const QString& why);  ///< "Nothing was drawn.", why not
 
   void brushFailed(const QString& brush, const QString& problem);  ///< whoever has the plugins takes it out of them
 
  private:
+  void giveUp();
   /// What a brush said of its stamp, and of which settings.
   struct Stamp {
     std::string brush;

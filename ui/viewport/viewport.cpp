@@ -111,7 +111,10 @@ void Viewport::onChanged(const ChangeEvent& event) {
     const Owner owner = parameter->address.owner;
     if (owner == Owner::Wall) bodiesChanged();
     if (owner == Owner::Emitter || owner == Owner::Sink) update();
-  } else if (std::holds_alternative<PortChanged>(event) || std::holds_alternative<ProbesChanged>(event)) {
+  } else if (const auto* port = std::get_if<PortChanged>(&event)) {
+    if (!port->moved) bodiesChanged();  // a tap that is hidden takes what it has poured with it
+    update();
+  } else if (std::holds_alternative<ProbesChanged>(event)) {
     update();
   } else if (std::holds_alternative<ViewChanged>(event)) {
     m_colour = m_document.project().view.colour;

@@ -46,6 +46,8 @@ class Viewport : public QOpenGLWidget {
   void show(StandardView view);
   void frameSelection();
   void frameAll();
+  /// Where the mouse points, or the middle of the view where it is elsewhere.
+  Pointer pointerNow() const;
   /// What the pointer would take hold of there, in the widget's pixels.
   std::optional<PortHandle> portHandleAt(const QPointF& position) const;
   const OverlayChoice& overlays() const { return m_overlays; }

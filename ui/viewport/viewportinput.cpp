@@ -44,6 +44,11 @@ Qt::CursorShape cursorFor(PointerShape shape) {
 
 }  // namespace
 
+Pointer Viewport::pointerNow() const {
+  const QPoint mouse = mapFromGlobal(QCursor::pos());
+  return pointerAt(rect().contains(mouse) ? mouse : rect().center(), {});
+}
+
 Pointer Viewport::pointerAt(const QPointF& position, Qt::KeyboardModifiers modifiers) const {
   const Camera& camera = m_navigator.camera();
   Pointer pointer;
