@@ -14,6 +14,7 @@ std::vector<SceneGroup> livingGroups(const Project& project) {
   for (const Emitter& emitter : project.emitters) there.insert(memberOf(Owner::Emitter, emitter.id));
   for (const Sink& sink : project.sinks) there.insert(memberOf(Owner::Sink, sink.id));
   for (const SceneWall& wall : project.environment.walls) there.insert(memberOf(Owner::Wall, wall.id));
+  for (const Probe& probe : project.probes) there.insert(memberOf(Owner::Probe, probe.id));
   std::vector<SceneGroup> groups;
   for (SceneGroup group : project.groups) {
     std::erase_if(group.members, [&](const std::string& member) { return there.erase(member) == 0; });

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, 3> kTurns{"rotation_x", "rotation_y", "rotation_z"};
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kUpright = 1 - 1e-12;  ///< sine of the turn about y from which those about x and z are one
-constexpr double kStraight = 1e-12;     ///< of a cosine from 0 or 1: what is turned so has edges along the scene's axes
+constexpr double kStraight = 1e-12;  ///< of a cosine from 0 or 1: a turn by right angles, which keeps no other digits
 
 Vector3 rotationOf(const Sink& sink) {
   Vector3 rotation;
@@ -21,9 +21,9 @@ Vector3 rotationOf(const Sink& sink) {
   return rotation;
 }
 
-bool isStraight(const Matrix3& axes) {
-  const auto off = [](double c) { return std::min(std::abs(c), std::abs(1 - std::abs(c))); };
-  return (axes.unaryExpr(off).array() < kStraight).all();
+Matrix3 straightened(const Matrix3& axes) {
+  const Matrix3 straight = (axes.array().round() + 0.0).matrix();  // none of them -0
+  return (axes - straight).cwiseAbs().maxCoeff() < kStraight ? straight : axes;
 }
 
 double tidy(double degrees) { return std::round(degrees * 1e9) / 1e9 + 0.0; }
@@ -46,7 +46,7 @@ Quaternion turnOf(const Vector3& degrees) {
 
 TurnedBox::TurnedBox(const Vector3& minimum, const Vector3& maximum, const Vector3& rotation)
     : m_minimum(minimum), m_maximum(maximum), m_rotation(rotation) {
-  if (isTurned()) m_axes = turnOf(rotation).toRotationMatrix();
+  if (isTurned()) m_axes = straightened(turnOf(rotation).toRotationMatrix());
 }
 
 TurnedBox::TurnedBox(const Sink& sink) : TurnedBox(sink.minimum, sink.maximum, rotationOf(sink)) {}
@@ -74,14 +74,10 @@ void TurnedBox::go(const RigidMove& move) {
     return;
   }
   const Vector3 there = move.of(middle());
-  m_axes = move.turn.toRotationMatrix() * m_axes;
-  Vector3 along = size();
-  if (isStraight(m_axes)) {  // its edges lie along the scene's axes again: it is a box that is not turned
-    along = m_axes.cwiseAbs().array().round().matrix() * along;
-    m_axes.setIdentity();
-  }
+  // By right angles too it is turned: one that is not, of the same place, would not know which way it came there.
+  m_axes = straightened(move.turn.toRotationMatrix() * m_axes);
   m_rotation = anglesOf(m_axes);
-  resize(along, there);
+  resize(size(), there);
 }
 
 void TurnedBox::resize(const Vector3& size, const Vector3& middle) {

@@ -97,6 +97,31 @@ class TestFieldsWindow : public SampleWindowTest {
     QVERIFY(view()->overlayHits().legendBar.isEmpty());
   }
 
+  /// Every colouring that can be chosen has one with a title, and names or numbers with their unit beside its colours.
+  void everyColouringHasALegend() {
+    QComboBox* combo = colours();
+    QVERIFY(combo->count() > 8);
+    for (int row = 1; row < combo->count(); ++row) {
+      const QByteArray name = combo->itemText(row).toUtf8();
+      combo->setCurrentIndex(row);
+      Q_EMIT combo->activated(row);
+      QTRY_VERIFY2_WITH_TIMEOUT(legendNow().first == combo->itemText(row), name.constData(), kLong);
+      const FieldPtr field = session().fields().find(combo->itemData(row).toString().toStdString());
+      QVERIFY2(field, name.constData());
+      const OverlayHits& hits = view()->overlayHits();
+      QVERIFY2(!hits.legend.isEmpty() && QRectF(view()->rect()).contains(hits.legend), name.constData());
+      if (hits.legendClasses > 0) {
+        QVERIFY2(hits.legendBar.isEmpty(), name.constData());
+        continue;
+      }
+      QVERIFY2(hits.legend.contains(hits.legendBar) && !hits.legendBar.isEmpty(), name.constData());
+      QVERIFY2(field->unit == "1" || !hits.legendUnit.isEmpty(), name.constData());
+      const auto [low, high] = view()->legendRange();
+      QVERIFY2(high > low || !hits.legendWithout.isEmpty(), name.constData());
+    }
+    document().setColour("temperature");
+  }
+
   /// What the scene does not keep has a legend that says so, and matter keeps its own colours.
   void whatIsNotThereIsSaid() {
     Document& scene = document();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where keys go when what had them is gone, and the way through the window without a mouse.
 #include "tests/ui/samplewindow.h"
+#include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
+#include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/window/dock.h"
 #include "ui/window/windowlayout.h"
 
@@ -77,6 +80,57 @@ class TestFocus : public SampleWindowTest {
     QTest::qWait(50);
     QVERIFY2(tree->hasFocus(),
              QApplication::focusWidget() ? QApplication::focusWidget()->metaObject()->className() : "none");
+  }
+
+  /// What is typed into a row is given up by one Esc, and the next one is the view's: it selects nothing.
+  void escInARowLeavesTheKeysInTheView() {
+    const Address address{Owner::Body, document().project().bodies.front().id, "temperature"};
+    m_window->selection().select(OutlineKind::Body, address.id);
+    m_window->revealParameter(address);
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QString::fromStdString(address.text()));
+    QVERIFY(row && row->isVisible());
+    const double before = row->number();
+    row->setFocus();
+    row->startTyping();
+    auto* field = row->findChild<QLineEdit*>(QStringLiteral("psRowEdit"));
+    QVERIFY(field && field->hasFocus());
+    QTest::keyClicks(field, QStringLiteral("7"));
+    QTest::keyClick(field, Qt::Key_Escape);
+    QTRY_VERIFY(view()->hasFocus());
+    QVERIFY(!row->has(RowState::Editing));
+    QCOMPARE(row->number(), before);
+    QVERIFY(!m_window->selection().empty());
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY(m_window->selection().empty());
+  }
+
+  /// From elsewhere it leads to the view first, whose tool it ends before it selects nothing.
+  void escGoesBackStepByStep() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Outliner"));
+    m_window->selection().select(OutlineKind::Body, document().project().bodies.front().id);
+    m_window->tools().activate("move");
+    auto* tree = m_window->outliner()->findChild<QTreeView*>();
+    tree->setFocus();
+    QTest::keyClick(tree, Qt::Key_Escape);
+    QCOMPARE(m_window->tools().active(), std::string("select"));
+    QTest::keyClick(tree, Qt::Key_Escape);
+    QVERIFY(view()->hasFocus() && !m_window->selection().empty());
+    QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY(m_window->selection().empty());
+  }
+
+  /// Of a field that is no row's, such as a point's of a curve: what takes its text when it is left gets the old one.
+  void escInAFieldGivesUpWhatWasTyped() {
+    auto* field = new QLineEdit(QStringLiteral("20"), m_window.get());
+    field->show();
+    field->setFocus();
+    QTest::keyClicks(field, QStringLiteral("97"));
+    QVERIFY(field->isModified());
+    QTest::keyClick(field, Qt::Key_Escape);
+    QVERIFY(view()->hasFocus());
+    QCOMPARE(field->text(), QStringLiteral("20"));
+    QVERIFY(!field->isModified());
+    delete field;
   }
 
   /// The brush that a click takes is for the view, and so are the keys that follow.

@@ -170,9 +170,11 @@ class TestHelp : public SampleWindowTest {
     m_window->action(QStringLiteral("help.tour"))->trigger();
     Tour& tour = m_window->tour();
     QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    const QPoint place = card->pos();
     for (int step = 0; step < 5; ++step) {
       QCOMPARE(tour.step(), step);
       QVERIFY(card->isVisible() && m_window->rect().contains(card->geometry()));
+      QCOMPARE(card->pos(), place);  // an eye that reads on need not look for it
       picture(qPrintable(QStringLiteral("tour_%1").arg(step + 1)));
       // The scene is still at hand.
       QCOMPARE(m_window->childAt(view()->mapTo(m_window.get(), view()->rect().center())), view());
@@ -204,6 +206,26 @@ class TestHelp : public SampleWindowTest {
     skip->setFocus();
     QTest::keyClick(skip, Qt::Key_Return);
     QVERIFY(!m_window->tour().running());
+  }
+
+  /// The border of a button that has the keys says so: nothing is drawn around its words as well.
+  void aButtonWithTheKeysHasOneFrame() {
+    m_window->startTour();
+    QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    for (const char* text : {"Next", "Skip the tour"}) {
+      QPushButton* one = button(*card, QString::fromLatin1(text));
+      one->setFocus();
+      QTRY_VERIFY(one->hasFocus());
+      const QImage image = one->grab().toImage();
+      // Between the border, which is two pixels wide, and the words below.
+      const double scale = image.devicePixelRatio();
+      const int y = static_cast<int>(3 * scale), begin = static_cast<int>(8 * scale), end = image.width() - begin;
+      QVERIFY(begin < end);
+      for (int x = begin; x < end; ++x)
+        QVERIFY2(image.pixel(x, y) == image.pixel(begin, y),
+                 qPrintable(QStringLiteral("%1, %2").arg(one->text()).arg(x)));
+    }
+    m_window->tour().end();
   }
 
   /// The card stands beside what it speaks of, and stays there when the window grows.

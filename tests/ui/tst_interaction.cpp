@@ -3,6 +3,7 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphexport.h"
+#include "ui/library/librarypage.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
@@ -16,10 +17,14 @@
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/dock.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/paneltable.h"
 #include "ui/window/shortcutswindow.h"
+#include "ui/window/welcome.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QPointer>
 #include <QtCore/QScopeGuard>
 #include <QtCore/QTimer>
 #include <QtGui/QAccessible>
@@ -35,9 +40,12 @@
 #include <QtWidgets/QTreeView>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
+#include <utility>
+#include <vector>
 
 using namespace ps;
 
@@ -60,7 +68,16 @@ int differing(const QImage& a, const QImage& b) {
 class TestInteraction : public SampleWindowTest {
   Q_OBJECT
  private Q_SLOTS:
-  void initTestCase() { open(); }
+  void initTestCase() {
+    Theme::apply(*qApp, true);
+    MainWindow::Options options;
+    options.project = options.sample = kSample;
+    options.samples = QStringLiteral(PS_SOURCE_DIR "/projects");  // the first page has their cards
+    options.restore = false;
+    options.session.autosave = false;
+    m_window = shownWindow(options, {1280, 800});
+    QVERIFY(m_window);
+  }
   void init() { backToTheStart(); }
   void cleanupTestCase() { m_window.reset(); }
 
@@ -220,8 +237,8 @@ class TestInteraction : public SampleWindowTest {
 
   void everyStopHasARing_data() {
     QTest::addColumn<QString>("page");
-    for (const char* page : {"Outliner", "Materials", "Body", "Material", "Scene", "Solver", "Brush", "Graphs",
-                             "Messages", "Transport", "Plugins"})
+    for (const PanelRow& row : panelTable()) QTest::newRow(row.title) << QString::fromLatin1(row.title);
+    for (const char* page : {"Plugins", "Library", "Welcome", "Preferences"})
       QTest::newRow(page) << QString::fromLatin1(page);
   }
   /// Tab goes on from each stop of a page and of its dock's header, Shift+Tab back; what has the focus is seen to.
@@ -232,17 +249,29 @@ class TestInteraction : public SampleWindowTest {
     m_window->selection().selectBody("ice");
     session().log().add(MessageLevel::Info, QStringLiteral("Test"), QStringLiteral("Something to read"));
     const auto after = qScopeGuard([this] {
+      for (QDialog* dialog : m_window->findChildren<QDialog*>()) dialog->close();
       Q_EMIT m_window->pluginPage()->closeRequested();
+      Q_EMIT m_window->library().page()->closeRequested();
+      m_window->welcome().leave();
+      m_window->showWorkspace(MainWindow::kSceneTab);
+      QApplication::setActiveWindow(m_window.get());
       view()->setFocus();
     });
     const QWidget* area = areaOf(page);
-    QVERIFY(area && area->isVisible());
-    const std::vector<QWidget*> stops = stopsIn(*area);
+    QVERIFY(area);
+    QTRY_VERIFY_WITH_TIMEOUT(area->isVisible(), kLong);
+    QTest::qWait(500);  // what is read beside the window makes rows anew
+    QApplication::setActiveWindow(area->window());
+    std::vector<QPointer<QWidget>> stops;
+    for (QWidget* stop : stopsIn(*area)) stops.emplace_back(stop);
     QVERIFY(!stops.empty());
-    for (QWidget* stop : stops) {
+    for (const QPointer<QWidget>& stop : stops) {
+      if (!stop || !stop->isVisible() || !stop->isEnabled()) continue;
       const QByteArray name = stop->metaObject()->className() + QByteArray(" ") + stop->accessibleName().toUtf8();
       stop->setFocus(Qt::TabFocusReason);
       QTRY_VERIFY2(stop->hasFocus(), name.constData());
+      // Of buttons of which one is chosen Tab stops at that one, and arrows go to the others.
+      const bool byTab = stop->focusPolicy() & Qt::TabFocus;
       QImage focused = stop->grab().toImage();
       QTest::keyClick(stop, Qt::Key_Tab);
       if (qobject_cast<QLabel*>(stop) && stop->hasFocus()) {  // it stops at its links first
@@ -252,7 +281,7 @@ class TestInteraction : public SampleWindowTest {
       QWidget* next = QApplication::focusWidget();
       QVERIFY2(next && next != stop, name.constData());
       QVERIFY2(differing(focused, stop->grab().toImage()) >= kRing, name.constData());
-      if (!area->isAncestorOf(next)) continue;
+      if (!byTab || !area->isAncestorOf(next)) continue;
       QTest::keyClick(next, Qt::Key_Backtab, Qt::ShiftModifier);
       QVERIFY2(stop->hasFocus(), name.constData());
     }
@@ -623,23 +652,45 @@ class TestInteraction : public SampleWindowTest {
   }
 
  private:
-  /// The dock with that page in front, or the page of plugins.
+  /// The dock with that page in front, the page in the middle, or the dialog; nullptr where it did not come.
   const QWidget* areaOf(const QString& page) {
+    const auto trigger = [this](const char* action) { m_window->action(QLatin1String(action))->trigger(); };
     if (page == QLatin1String("Plugins")) {
-      m_window->action(QStringLiteral("help.plugins"))->trigger();
+      trigger("help.plugins");
       return m_window->pluginPage();
+    }
+    if (page == QLatin1String("Library")) {
+      trigger("add.library");
+      return m_window->library().page();
+    }
+    if (page == QLatin1String("Welcome")) {
+      trigger("help.welcome");
+      return m_window->findChild<QWidget*>(QStringLiteral("psWelcome"));
+    }
+    if (page == QLatin1String("Preferences")) {
+      trigger("edit.preferences");
+      return m_window->findChild<QDialog*>(QStringLiteral("psPreferences"));
+    }
+    Dock* dock = m_window->layoutOfDocks().dockOf(page);
+    for (const DockRow& row : dockTable()) {
+      if (!dock || dock->objectName() != QLatin1String(row.name)) continue;
+      constexpr std::array kTabs{
+          std::pair(Workspace::Scene, MainWindow::kSceneTab), std::pair(Workspace::Tune, MainWindow::kTuneTab),
+          std::pair(Workspace::Sketch, MainWindow::kSketchTab), std::pair(Workspace::Film, MainWindow::kFilmTab)};
+      for (const auto& [workspace, tab] : kTabs) {
+        if (workspace == row.workspaces.front()) m_window->showWorkspace(tab);
+      }
     }
     if (page == QLatin1String("Brush")) m_window->tools().activate("brush");
     m_window->layoutOfDocks().showPage(page);
-    for (const Dock* dock : m_window->findChildren<Dock*>()) {
-      if (dock->currentPage() == page) return dock;
-    }
-    return nullptr;
+    dock = m_window->layoutOfDocks().dockOf(page);  // materials may be in another one now
+    return dock && dock->currentPage() == page ? dock : nullptr;
   }
   /// What Tab stops at in an area, in its order.
-  std::vector<QWidget*> stopsIn(const QWidget& area) {
+  static std::vector<QWidget*> stopsIn(const QWidget& area) {
     std::vector<QWidget*> stops;
-    for (QWidget* at = m_window->nextInFocusChain(); at != m_window.get(); at = at->nextInFocusChain()) {
+    const QWidget* window = area.window();
+    for (QWidget* at = window->nextInFocusChain(); at != window; at = at->nextInFocusChain()) {
       if (area.isAncestorOf(at) && (at->focusPolicy() & Qt::TabFocus) && at->isVisible() && at->isEnabled() &&
           !at->focusProxy())
         stops.push_back(at);

@@ -51,6 +51,18 @@ class TestLayout : public QObject {
     QVERIFY(dock("dock.materials")->y() > dock("dock.outliner")->geometry().bottom());
   }
 
+  /// Inspector, view and outliner are 300, 480 and 180 wide at the least, with 3 between them.
+  void theWindowCanBeSmall() {
+    open({1280, 800});
+    const QSize least = m_window->minimumSizeHint();
+    QVERIFY2(least.width() <= 300 + 480 + 180 + 2 * 3 && least.height() <= 600,
+             qPrintable(QStringLiteral("%1 × %2").arg(least.width()).arg(least.height())));
+    resize({966, 600});
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->width() >= 480 && m_window->viewport()->height() >= 300, kLong);
+    for (const Dock* each : m_window->layoutOfDocks().docks())
+      QVERIFY2(!each->isVisible() || m_window->rect().contains(each->geometry()), qPrintable(each->objectName()));
+  }
+
   void aLayoutOfNobodyFollowsTheWindow() {
     open({1600, 1000});
     resize({1280, 800});

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every page of every dock, pages in the middle, dialogs, menus and the window of each workspace: dark and light, at
-// 100 and 200 %, and small windows at 125 and 300 %. What is painted is read back as text, so that nothing is cut
-// without a word; pictures are kept beside the test's home.
+// Every page of every dock, pages in the middle, dialogs, menus and the window of each workspace with what is painted
+// over its scene: dark and light, at 100 and 200 %, and small windows at 125 and 300 %. What is painted is read back as
+// text, so that nothing is cut without a word; pictures are kept beside the test's home.
+#include "core/simulation/particlefield.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/session/session.h"
+#include "ui/session/transitions.h"
 #include "ui/theme/plaintext.h"
+#include "ui/viewport/overlays.h"
 #include "ui/window/actions.h"
 #include "ui/window/dock.h"
 #include "ui/window/paneltable.h"
+#include "ui/window/screenshot.h"
 #include "ui/window/windowlayout.h"
 
 #include <QtCore/QDir>
@@ -20,6 +25,7 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
 #include <QtWidgets/QToolTip>
 
 #include <algorithm>
@@ -33,7 +39,8 @@ constexpr int kSentence = 32;  // letters, of what may be cut in it all the same
 
 struct PaintedText {
   QString text;
-  QPointF at;  ///< where it begins, in the widget
+  QPointF at;    ///< where it begins, in the widget
+  QRectF place;  ///< of all of it
 };
 
 /// Takes the texts that are painted, and nothing else.
@@ -47,7 +54,8 @@ class TextReader : public QPaintEngine {
   void drawPath(const QPainterPath&) override {}
   void drawPolygon(const QPointF*, int, PolygonDrawMode) override {}
   void drawTextItem(const QPointF& at, const QTextItem& item) override {
-    m_texts << PaintedText{item.text(), m_transform.map(at)};
+    const QRectF place(at.x(), at.y() - item.ascent(), item.width(), item.ascent() + item.descent());
+    m_texts << PaintedText{item.text(), m_transform.map(at), m_transform.mapRect(place)};
   }
   Type type() const override { return User; }
 
@@ -106,6 +114,63 @@ QString tipAt(QWidget& widget, const QPoint& at) {
   QHelpEvent help(QEvent::ToolTip, at, widget.mapToGlobal(at));
   QApplication::sendEvent(&widget, &help);
   return QTextDocumentFragment::fromHtml(QToolTip::text()).toPlainText();
+}
+
+/// Tabs that their bar shows in part, or not at all: it scrolls where there is no room.
+QStringList hiddenTabs(const QWidget& widget) {
+  QStringList hidden;
+  for (const QTabBar* bar : widget.findChildren<QTabBar*>()) {
+    if (!bar->isVisibleTo(&widget) || bar->visibleRegion().isEmpty()) continue;
+    QRect room = bar->visibleRegion().boundingRect();
+    for (const QToolButton* arrow : bar->findChildren<QToolButton*>()) {
+      if (arrow->isVisibleTo(bar)) room.setRight(std::min(room.right(), arrow->x() - 1));
+    }
+    for (int tab = 0; tab < bar->count(); ++tab) {
+      if (bar->isTabVisible(tab) && !room.contains(bar->tabRect(tab)))
+        hidden << QStringLiteral("the tab “%1” is cut").arg(fromButtonText(bar->tabText(tab)));
+    }
+  }
+  return hidden;
+}
+
+/// What is painted over the scene, as the view has it now.
+OverlayState overlaysOf(MainWindow& window) {
+  const Viewport& view = *window.viewport();
+  OverlayState state;
+  state.size = view.size();
+  state.camera = view.navigator().camera();
+  state.viewName = view.navigator().viewName();
+  state.field = window.session().fields().find(view.colour());
+  state.range = view.legendRange();
+  state.boilingPoint = window.session().transitions().boils();
+  state.shown = view.overlays();
+  if (state.shown.hints) state.hints = view.hints();
+  state.invitation = view.invitation();
+  return state;
+}
+
+/// Texts of it that are cut, reach out of the view or lie on each other. Letters of the axes may: they turn.
+QStringList faultsOver(const OverlayState& state) {
+  TextDevice device(state.size.toSize());
+  {
+    QPainter painter(&device);
+    paintOverlays(painter, state);
+  }
+  const auto inner = [](const PaintedText& painted) { return painted.place.adjusted(1, 3, -1, -3); };
+  QStringList faults;
+  device.texts.removeIf([](const PaintedText& painted) { return painted.text.size() < 2; });
+  if (device.texts.size() < 2) faults << QStringLiteral("hardly a text over the scene");
+  for (qsizetype k = 0; k < device.texts.size(); ++k) {
+    const PaintedText& painted = device.texts[k];
+    if (painted.text.contains(kCut)) faults << QStringLiteral("“%1” is cut").arg(painted.text);
+    if (!QRectF({}, state.size).contains(painted.place.adjusted(1, 1, -1, -1)))
+      faults << QStringLiteral("“%1” reaches out of the view").arg(painted.text);
+    for (qsizetype other = 0; other < k; ++other) {
+      if (inner(painted).intersects(inner(device.texts[other])))
+        faults << QStringLiteral("“%1” lies on “%2”").arg(painted.text, device.texts[other].text);
+    }
+  }
+  return faults;
 }
 
 /// Colours in a picture, as far as they tell that there is something in it.
@@ -213,22 +278,34 @@ class TestPanelPictures : public SampleWindowTest {
       lookAtMenu(*each->menu(), QStringLiteral("menu ") + fromButtonText(each->text()));
   }
 
-  void workspaces_data() { dialogs_data(); }
+  void workspaces_data() {
+    everyPage_data();
+    QTest::newRow("small-light") << false << QSize(1280, 800);
+  }
   void workspaces() {
     QFETCH(bool, dark);
+    QFETCH(QSize, size);
     m_window->setDark(dark);
+    m_window->resize(size);
+    document().setColour("temperature");  // which has the largest legend
     const QTabBar* tabs = m_window->findChild<QTabBar*>(QStringLiteral("psWorkspaces"));
     for (int tab = tabs->count() - 1; tab >= 0; --tab) {
       m_window->showWorkspace(static_cast<MainWindow::WorkspaceTab>(tab));
       QTest::qWait(200);
       look(*m_window, QStringLiteral("window ") + tabs->tabText(tab));
+      const QStringList faults = faultsOver(overlaysOf(*m_window));
+      QVERIFY2(faults.isEmpty(),
+               qPrintable(tabs->tabText(tab) + QStringLiteral(": ") + faults.join(QStringLiteral("; "))));
     }
+    const OverlayHits& hits = view()->overlayHits();  // in Scene
+    QTRY_VERIFY_WITH_TIMEOUT(!hits.legend.isEmpty() && !hits.hintClose.isEmpty() && !hits.axes.empty(), kLong);
   }
 
   void theSameAtOtherScales_data() {
     QTest::addColumn<QString>("scale");
     QTest::addColumn<QStringList>("what");
-    QTest::newRow("125 %") << "1.25" << QStringList{"everyPage:small"};
+    const QStringList small{"everyPage:small", "pagesInTheMiddle:small", "dialogs:dark"};
+    QTest::newRow("125 %") << "1.25" << small;
     QTest::newRow("200 %") << "2"
                            << QStringList{"everyPage:dark",
                                           "everyPage:light",
@@ -237,8 +314,9 @@ class TestPanelPictures : public SampleWindowTest {
                                           "dialogs",
                                           "theFieldThatFindsEverything",
                                           "menus",
-                                          "workspaces"};
-    QTest::newRow("300 %") << "3" << QStringList{"everyPage:small"};
+                                          "workspaces:small",
+                                          "workspaces:small-light"};
+    QTest::newRow("300 %") << "3" << small;
   }
   void theSameAtOtherScales() {
     QFETCH(QString, scale);
@@ -277,7 +355,7 @@ class TestPanelPictures : public SampleWindowTest {
   void look(QWidget& widget, const QString& title) {
     QCoreApplication::processEvents();
     const qreal scale = widget.devicePixelRatioF();
-    const QImage picture = widget.grab().toImage();
+    const QImage picture = widget.isWindow() ? windowImage(widget) : widget.grab().toImage();
     QCOMPARE(picture.size(), QSize(widget.size() * scale));
     const QString name =
         QStringLiteral("%1 %2 %3 %4.png")
@@ -288,6 +366,7 @@ class TestPanelPictures : public SampleWindowTest {
     QVERIFY(picture.save(QStringLiteral("pictures/") + name));
     QVERIFY2(coloursIn(picture) > 5, qPrintable(name));
     QStringList problems;
+    for (const QString& tab : hiddenTabs(widget)) problems << QStringLiteral("%1: %2").arg(name, tab);
     for (QWidget* part : widget.findChildren<QWidget*>()) {
       if (!part->isVisibleTo(&widget) || part->visibleRegion().isEmpty()) continue;
       for (const PaintedText& painted : paintedBy(*part)) {

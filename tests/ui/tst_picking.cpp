@@ -7,6 +7,8 @@
 #include "ui/document/pinaddress.h"
 #include "ui/document/wallside.h"
 #include "ui/session/selection.h"
+#include "ui/tools/aim.h"
+#include "ui/tools/arrange.h"
 #include "ui/tools/picking.h"
 #include "ui/tools/placing.h"
 #include "ui/tools/porthandles.h"
@@ -20,6 +22,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 using namespace ps;
 
@@ -95,6 +98,41 @@ class TestPicking : public QObject {
     QVERIFY(highest > 0 && picked(project, {}, inside) != kSide);
     const auto edge = pickAt(project, {}, at({-0.5, highest / 2, 0.5}));
     QVERIFY(edge && edge->item == kSide && edge->byLine);
+  }
+
+  /// A side is picked at what is drawn of its edges: not along the floor, nor where they fade, nor beside them, nor
+  /// where matter hides them.
+  void sidesArePickedAtWhatIsSeenOfTheirEdges() {
+    Project project = scene();
+    double highest = 0;
+    for (const auto& [from, to] : wallLines(project.environment, 1)) highest = std::max({highest, from.y(), to.y()});
+    const auto upright = [](double height) { return Vector3(-0.5, height, 0.5); };
+    QVERIFY(picked(project, {}, upright(0.3 * highest)) == kSide);
+    QVERIFY(picked(project, {}, upright(0.9 * highest)) != kSide);  // faded
+    QVERIFY(picked(project, {}, {-0.5, highest, 0}) != kSide);
+    Project alone = project;
+    alone.environment.walls = {project.environment.walls[1]};
+    QVERIFY(!picked(alone, {}, {-0.5, 0, 0}));
+    QVERIFY(picked(alone, {}, upright(0.3 * highest)) == kSide);
+    const Vector3 place = upright(0.3 * highest), eye = at(place).ray.origin, way = place - eye;
+    const Vector3 right = way.cross(Vector3(0, 1, 0)).normalized();
+    const auto beside = [&](double units, const SnapshotPtr& scene) {
+      Pointer pointer = at(place + units * at(place).fineness * way.norm() * right);
+      pointer.scene = scene;
+      const auto pick = pickAt(alone, {}, pointer);
+      return pick && pick->item == kSide && pick->byLine;
+    };
+    QVERIFY(beside(3, nullptr) && beside(-3, nullptr));
+    QVERIFY(!beside(6, nullptr) && !beside(-6, nullptr));
+    // A ball over the edge, which the ray itself just misses.
+    for (const double share : {0.5, 1.5}) {
+      auto ball = std::make_shared<Snapshot>();
+      ball->spacing = 0.02;
+      const Vector3 centre = eye + share * way - 0.0095 * right;
+      ball->position = {
+          {static_cast<float>(centre.x()), static_cast<float>(centre.y()), static_cast<float>(centre.z()), 0.01f}};
+      QCOMPARE(beside(3, ball), share > 1);  // behind it hides nothing
+    }
   }
 
   /// Curved walls by their rings and lines; planes do not end at them, and no plate is looked for.
@@ -215,11 +253,34 @@ class TestPicking : public QObject {
     QVERIFY(edges.along && (edges.axes.col(0) - along).norm() < 1e-9);
     m_document->place(stretched(placementOf(*m_document, edges), {2, 1, 1}), QStringLiteral("scaling"));
     QVERIFY((box().size() - Vector3(0.8, 0.1, 0.2)).norm() < 1e-9);
-    turn(60);  // what lies along the axes again is not turned
-    QVERIFY(!box().isTurned() && (box().size() - Vector3(0.1, 0.8, 0.2)).norm() < 1e-9);
-    QVERIFY(!m_document->sink("drain")->parameters.values.contains("rotation_z"));
+    turn(60);  // it lies along the axes again, to the last digit, and has gone a quarter round all the same
+    QVERIFY((box().bounds().size() - Vector3(0.1, 0.8, 0.2)).norm() < 1e-9);
+    QVERIFY(m_document->sink("drain")->parameters.values.at("rotation_z") == Value(90.0));
+    QVERIFY(box().axes() == (Matrix3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished());
+    turn(270);  // once round
+    QVERIFY(!box().isTurned() && !m_document->sink("drain")->parameters.values.contains("rotation_z"));
     while (m_document->undoStack().canUndo()) m_document->undoStack().undo();
     QVERIFY(m_document->sink("drain")->minimum == drain.minimum && !box().isTurned());
+  }
+
+  /// By right angles they go on in a circle, as anything that is turned, and not in a line.
+  void copiesOfATurnedDrainGoRound() {
+    const Quaternion quarter(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3(0, 0, 1)));
+    Sink drain;
+    drain.id = "drain", drain.minimum = Vector3(-0.2, 0, -0.1), drain.maximum = Vector3(0.2, 0.1, 0.1);
+    Placement first;
+    first.sinks = {drain};
+    Placement before = first, now = shifted(turned(first, {}, std::nullopt, quarter), {0.3, 0.1, 0});
+    const auto box = [](const Placement& things) { return TurnedBox(things.sinks.front()); };
+    Vector3 way = box(now).middle() - box(before).middle();
+    for (int k = 2; k <= 4; ++k) {
+      const Placement next = continued(before, now);
+      way = quarter * way;
+      QVERIFY((box(next).middle() - box(now).middle() - way).norm() < 1e-12);
+      QVERIFY((box(next).axes() - quarter * box(now).axes()).norm() < 1e-12);
+      before = now, now = next;
+    }
+    QVERIFY((box(now).middle() - box(first).middle()).norm() < 1e-12 && !box(now).isTurned());
   }
 
   /// The corner opposite to the one that is dragged stays, of a drain that is turned too.
@@ -388,6 +449,40 @@ class TestPicking : public QObject {
     m_selection->select(OutlineKind::Body, "rope");
     frame(0.15);
     QVERIFY(m_selection->empty());
+  }
+
+  /// Far from the middle of a wide view too its edges are those of the picture.
+  void aFrameIsUprightAtTheEdgeOfAWideView() {
+    const Vector3 eye(0, 0.45, 3);
+    Project project = scene();
+    const auto add = [&](const char* id, double x, double y) {
+      const Vector3 place = eye + Vector3(x, y, -1), half = Vector3::Constant(0.001);
+      Probe probe;
+      probe.id = id, probe.quantity = "temperature", probe.region = Region{place - half, place + half};
+      project.probes.push_back(probe);
+    };
+    add("in", 0.82, 0.18), add("above", 0.82, 0.21), add("left", 0.79, 0.18), add("right", 1.18, -0.19);
+    m_document->open(project, {});
+    Toolbox tools(*m_document, *m_selection);
+    SelectTool tool(tools);
+    const std::vector<SelectedItem> both{{OutlineKind::Probe, "in"}, {OutlineKind::Probe, "right"}};
+    for (const bool back : {false, true}) {
+      Pointer from, to;
+      from.ray = {eye, Vector3(0.8, -0.2, -1).normalized()};
+      to.ray = {eye, Vector3(1.2, 0.2, -1).normalized()};
+      if (back) std::swap(from.ray, to.ray);
+      from.control = to.control = true;
+      QVERIFY(tool.press(from));
+      tool.drag(to);
+      tool.release(to);
+      QVERIFY(m_selection->items() == both);
+    }
+    // Straight down, where forward says hardly which way the view is turned.
+    Pointer down;
+    down.ray.origin = Vector3(0, 2, 0);
+    down.forward = Vector3(-1e-17, -1, 0);  // turned by a quarter: right is -z
+    const auto seen = inPicture(down, Vector3(0, 0, -1));
+    QVERIFY(seen && std::abs(seen->x - 0.5) < 1e-12 && std::abs(seen->y) < 1e-12);
   }
 
   /// Nor is a tap in front of the section, unless it is the one that is selected.

@@ -19,6 +19,7 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace ps;
@@ -75,6 +76,29 @@ class TestPorts : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(session().snapshot()->stats.flow.held.count, uint64_t{0}, kLong);
     document().undoStack().redo();
     QCOMPARE(project().emitters.size(), size_t{1});
+  }
+
+  /// Of a body one sees nothing while it is hidden, and of what a tap has poured neither.
+  void whatAHiddenTapHasPouredIsHidden() {
+    const std::string tap = placedTap().id;
+    onEngine<bool>(session(), [](Engine& engine) {
+      for (int frame = 0; frame < 20; ++frame) engine.step();
+      return true;
+    });
+    session().step();
+    const auto poured = [&](const SnapshotPtr& shown) {
+      const auto& ids = *shown->bodyIds;
+      const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), tap) - ids.begin());
+      return std::count(shown->body.begin(), shown->body.end(), index);
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(poured(view()->snapshot()) > 0, kLong);
+    const auto whole = session().snapshot()->id.size();
+    document().setVisible({{Owner::Emitter, tap, ""}}, false);
+    QVERIFY(poured(view()->snapshot()) == 0);
+    QVERIFY(!view()->snapshot()->id.empty());  // the block is still seen
+    QCOMPARE(session().snapshot()->id.size(), whole);
+    document().undoStack().undo();
+    QVERIFY(poured(view()->snapshot()) > 0);
   }
 
   void draggedUpATapPoursDown() {

@@ -61,6 +61,12 @@ class TestPreferences : public SampleWindowTest {
     QVERIFY(preferences::vibration() > 0);
     pick("Vibration", "None");
     QCOMPARE(preferences::vibration(), 0);
+    pick("Main hand", "Left");
+    QVERIFY(preferences::leftHanded());
+    pick("Hands in use", "The main one alone");
+    QVERIFY(preferences::oneHanded());
+    pick("Seated height", "30 cm higher");
+    QCOMPARE(preferences::seatedHeight(), 30);
     pick("In memory, at most", "512 MiB");
     QCOMPARE(preferences::recordBudget().memory, size_t{512} << 20);
     pick("On the disk, at most", "Nothing");
@@ -69,6 +75,9 @@ class TestPreferences : public SampleWindowTest {
     openDialog();
     QCOMPARE(field<QComboBox>("Copy it")->currentText(), QStringLiteral("Every minute"));
     QCOMPARE(field<QComboBox>("Vibration")->currentText(), QStringLiteral("None"));
+    QCOMPARE(field<QComboBox>("Main hand")->currentText(), QStringLiteral("Left"));
+    QCOMPARE(field<QComboBox>("Hands in use")->currentText(), QStringLiteral("The main one alone"));
+    QCOMPARE(field<QComboBox>("Seated height")->currentText(), QStringLiteral("30 cm higher"));
     QCOMPARE(field<QComboBox>("In memory, at most")->currentText(), QStringLiteral("512 MiB"));
     QCOMPARE(field<QComboBox>("On the disk, at most")->currentText(), QStringLiteral("Nothing"));
   }

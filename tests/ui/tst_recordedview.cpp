@@ -18,6 +18,7 @@
 #include "ui/timeline/runlines.h"
 #include "ui/timeline/transport.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QSignalSpy>
@@ -481,6 +482,36 @@ class TestRecordedView : public SampleWindowTest {
     choose(1, "Delete");
     QCOMPARE(session().recorded().earlier().size(), size_t{4});
     QCOMPARE(session().recorded().earlier().front().number, uint64_t{2});
+  }
+
+  /// A value acts where the run stands, not at the moment that is shown: that is said once for each change.
+  void aChangeBesideARecordedMomentSaysWhereItActs() {
+    StatusLine* line = m_window->statusLine();
+    const double before = std::get<double>(document().value(kFloor));
+    QCOMPARE(document().setParameter(kFloor, before + 1), QString());
+    QVERIFY2(!line->state().note.contains(QStringLiteral("where the run stands")), qPrintable(line->state().note));
+    drag(4);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{4}, kLong);
+    const QString told = QStringLiteral(
+                             "It acts where the run stands, at %1; what is recorded stays as it was. "
+                             "Continue from here runs on from %2 with it.")
+                             .arg(clockText(kFrames / 60.0), clockText(4.0 / 60));
+    document().beginGesture();
+    QCOMPARE(document().setParameter(kFloor, before + 2), QString());
+    QCOMPARE(line->state().note, told);
+    line->say(QStringLiteral("Something else."));
+    QCOMPARE(document().setParameter(kFloor, before + 3), QString());  // of the same drag
+    QCOMPARE(line->state().note, QStringLiteral("Something else."));
+    document().endGesture();
+    QCOMPARE(document().setParameter(kFloor, before + 4), QString());
+    QCOMPARE(line->state().note, told);
+    session().recorded().showNewest();
+    QVERIFY(line->state().note != told);
+    drag(4);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{4}, kLong);
+    QCOMPARE(document().putKey(kFloor, 4.0 / 60, 400), QString());
+    QCOMPARE(line->state().note, told);
+    session().recorded().showNewest();
   }
 
   /// Who works on matter sees it as it stands.

@@ -21,6 +21,7 @@ class TestRenderHeadset : public QObject {
   void cleanupTestCase() { m_context.reset(); }
 
   void preparedOnAnotherThreadIsTheSame();
+  void coarserPicturesKeepWhatIsThere();
   void depthsAreOfTheLastPicture_data();
   void depthsAreOfTheLastPicture();
 
@@ -51,6 +52,24 @@ void TestRenderHeadset::preparedOnAnotherThreadIsTheSame() {
     usual.prepare(later, &before, second ? 1 : 0.5, scene, shot.look);
     QVERIFY(renderImage(renderer, shot.eye(), shot.size) == renderImage(usual, shot.eye(), shot.size));
   }
+}
+
+/// Light and skins change a little, by steps; nothing stays behind of it.
+void TestRenderHeadset::coarserPicturesKeepWhatIsThere() {
+  const Shot shot;
+  Renderer renderer;
+  renderer.prepare(everything(), nullptr, 1, tray(), shot.look);
+  const auto picture = [&](int coarser) { return ps::renderImage(renderer, shot.eye(), shot.size, coarser); };
+  const auto apart = [](const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+    double all = 0;
+    for (size_t i = 0; i < a.size(); ++i) all += std::abs(a[i] - b[i]);
+    return all / static_cast<double>(a.size());
+  };
+  const auto full = picture(0), one = picture(1), two = picture(kSoftSteps);
+  QVERIFY2(apart(full, one) > 0.01 && apart(full, one) < 2, qPrintable(QString::number(apart(full, one))));
+  QVERIFY2(apart(one, two) > 0.01 && apart(full, two) < 3, qPrintable(QString::number(apart(full, two))));
+  QVERIFY(picture(kSoftSteps + 3) == two);
+  QVERIFY(picture(0) == full);
 }
 
 void TestRenderHeadset::depthsAreOfTheLastPicture_data() {

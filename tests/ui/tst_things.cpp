@@ -467,6 +467,66 @@ class TestThings : public SampleWindowTest {
     QVERIFY(project().groups.empty());
   }
 
+  /// Probes are members like walls: hidden and locked together, copied and saved with the group, back by undo.
+  void probesAreMembersOfGroups() {
+    const std::string first = project().probes[0].id, second = project().probes[1].id;
+    const auto rowIn = [&](OutlineKind kind, const std::string& id) {
+      return static_cast<OutlineKind>(rowOf(kind, id).parent().data(outline::kKind).toInt());
+    };
+    QCOMPARE(rowIn(OutlineKind::Probe, first), OutlineKind::Probes);
+    m_window->selection().selectAll({{OutlineKind::Probe, first}, {OutlineKind::Wall, "floor"}});
+    const int steps = document().undoStack().index();
+    trigger("edit.group");
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QCOMPARE(project().groups.size(), size_t{1});
+    const std::string id = project().groups[0].id;
+    const std::vector<std::string> members{memberOf(Owner::Probe, first), memberOf(Owner::Wall, "floor")};
+    QCOMPARE(project().groups[0].members, members);
+    QCOMPARE(rowIn(OutlineKind::Probe, first), OutlineKind::Group);
+    QCOMPARE(rowIn(OutlineKind::Probe, second), OutlineKind::Probes);
+    QCOMPARE(tree()->model()->rowCount(rowOf(OutlineKind::Group, id)), 2);
+    const LoadedProject again = parseProject(writeProject(project()), "again", *session().plugins());
+    QVERIFY(again.project.groups == project().groups);
+    m_window->selection().clear();
+    QTest::mouseClick(tree()->viewport(), Qt::LeftButton, {},
+                      tree()->visualRect(rowOf(OutlineKind::Group, id)).center());
+    QVERIFY(m_window->selection().has(OutlineKind::Probe, first) &&
+            m_window->selection().has(OutlineKind::Wall, "floor"));
+    trigger("edit.visible");
+    trigger("edit.locked");
+    const auto marked = [](const auto& thing) { return !thing.visible && thing.locked; };
+    QVERIFY(marked(*document().wall("floor")) && marked(*document().probe(first)));
+    const QModelIndex row = rowOf(OutlineKind::Group, id);
+    QVERIFY(!row.data(outline::kVisible).toBool() && row.data(outline::kLocked).toBool());
+    document().undoStack().undo();
+    document().undoStack().undo();
+    QVERIFY(document().probe(first)->visible && !document().probe(first)->locked);
+    // A copy of it has a probe of its own.
+    trigger("edit.copy");
+    trigger("edit.paste");
+    QCOMPARE(project().groups.size(), size_t{2});
+    QCOMPARE(project().groups[1].members.size(), size_t{2});
+    QVERIFY(project().groups[1].members != members);
+    document().undoStack().undo();
+    // What is deleted leaves it, and comes back into it.
+    m_window->selection().select(OutlineKind::Probe, first);
+    trigger("edit.delete");
+    QCOMPARE(livingGroups(project())[0].members, std::vector<std::string>{memberOf(Owner::Wall, "floor")});
+    document().undoStack().undo();
+    QCOMPARE(livingGroups(project())[0].members, members);
+    // By hand: out of it, and another one into it.
+    drop({rowOf(OutlineKind::Probe, first)}, rowOf(OutlineKind::Probes, ""), -1);
+    QCOMPARE(rowIn(OutlineKind::Probe, first), OutlineKind::Probes);
+    drop({rowOf(OutlineKind::Probe, second)}, rowOf(OutlineKind::Group, id), -1);
+    QCOMPARE(rowIn(OutlineKind::Probe, second), OutlineKind::Group);
+    m_window->selection().select(OutlineKind::Probe, second);
+    trigger("edit.ungroup");
+    QVERIFY(project().groups.empty());
+    while (document().undoStack().index() > steps) document().undoStack().undo();
+    QVERIFY(project().groups.empty());
+    QCOMPARE(rowIn(OutlineKind::Probe, first), OutlineKind::Probes);
+  }
+
   void rowsAreDraggedIntoOrderAndGroups() {
     const std::vector<std::string> ids = threeBalls();
     selectBodies({ids[0]});

@@ -22,6 +22,8 @@
 #include <QtCore/QFile>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
+#include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
 
@@ -175,6 +177,24 @@ class TestWaysOut : public SampleWindowTest {
     QVERIFY(rowOf(m_window->inspector().materialPanel(), "material/paste/yield"));
     QTest::qWait(100);
     picture(QStringLiteral("kept-rows.png"));
+    // Its menu offers what acts alone.
+    QStringList offered;
+    ParameterRow* sticky = rowOf(body, "constraint/net/org.example.net/sticky");
+    QTimer::singleShot(0, sticky, [&offered] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      if (!menu) {  // else it would wait for good
+        for (QWidget* shown : QApplication::topLevelWidgets())
+          if (qobject_cast<QMenu*>(shown)) shown->close();
+      }
+      QVERIFY(menu);
+      for (const QAction* action : menu->actions()) {
+        if (!action->isSeparator() && action->isEnabled()) offered << action->text();
+      }
+      QTest::keyClick(menu, Qt::Key_Escape);
+    });
+    QContextMenuEvent ask(QContextMenuEvent::Keyboard, QPoint(20, 10), sticky->mapToGlobal(QPoint(20, 10)));
+    QApplication::sendEvent(sticky, &ask);
+    QCOMPARE(offered, (QStringList{QStringLiteral("Copy value"), QStringLiteral("Explain")}));
     // A click and a key change nothing.
     ParameterRow* tear = rowOf(body, "constraint/net/org.example.net/tear_strain");
     QTest::mouseDClick(tear, Qt::LeftButton, {}, tear->rect().center());
@@ -183,6 +203,28 @@ class TestWaysOut : public SampleWindowTest {
     QCOMPARE(writeProject(document().project()), before);
     const nlohmann::json saved = nlohmann::json::parse(before);
     QVERIFY(saved["bodies"].back()["constraints"][0] == net["constraints"][0]);
+  }
+
+  /// What the row "Held together by" does not show is not what it replaces.
+  void anotherStructureKeepsASecondMissingOne() {
+    Project project = sceneOfMissing();
+    BodyConstraint other{"org.example.other", {}, {}};
+    other.parameters.values["weave"] = 2.0;
+    project.bodies.back().constraints.push_back(other);
+    openProject(project);
+    const std::string before = writeProject(document().project());
+    const Address structure{Owner::Body, "net", kStructureKey};
+    QCOMPARE(document().value(structure), Value(std::string("org.example.net")));
+    QCOMPARE(document().setParameter(structure, std::string("bonds")), QString());
+    const std::vector<BodyConstraint>& now = document().body("net")->constraints;
+    QCOMPARE(now.size(), size_t{2});
+    QCOMPARE(now[0].plugin, std::string("bonds"));
+    QCOMPARE(now[1].plugin, std::string("org.example.other"));
+    const nlohmann::json saved = nlohmann::json::parse(writeProject(document().project()));
+    QCOMPARE(saved["bodies"].back()["constraints"][1]["parameters"]["weave"].get<double>(), 2.0);
+    QCOMPARE(document().value(structure), Value(std::string("bonds")));
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
   }
 
   void theLinkOfAMessageLeadsToThePlugin() {

@@ -2,17 +2,22 @@
 // The whole window on a real scene: the road from a slider to the simulation and back.
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/simulation/declared.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/stackview.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/messagespage.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/render/camera.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
@@ -28,6 +33,8 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
+#include <QtWidgets/QWidgetAction>
 
 #include <algorithm>
 #include <clocale>
@@ -379,6 +386,77 @@ class TestWindow : public QObject {
     m_window->viewport()->show(StandardView::Scene);
   }
 
+  /// What stands beside a title is not in it already.
+  void thePaletteSaysEachThingOnce() {
+    Emitter pours;
+    pours.material = "water";
+    const Port tap = document().addEmitter(pours), drain = document().addSink({});
+    Probe probe;
+    probe.quantity = "temperature";
+    document().addProbe(probe);
+    const auto entries = m_window->paletteEntries();
+    const auto where = [&](const char* title) {
+      QStringList places;
+      for (const PaletteEntry& entry : entries) {
+        if (entry.title == QLatin1String(title)) places << entry.where;
+      }
+      return places.join(QLatin1Char(','));
+    };
+    QCOMPARE(document().portName(tap), QStringLiteral("Tap"));
+    QCOMPARE(document().portName(drain), QStringLiteral("Drain"));
+    QCOMPARE(where("Tap"), QStringLiteral("In the scene"));
+    QCOMPARE(where("Tap speed"), QStringLiteral("Jet"));
+    QCOMPARE(where("Drain open"), QStringLiteral("Sink"));
+    QCOMPARE(where("Hot plate temperature"), QStringLiteral("Wall"));
+    QCOMPARE(where("Place a tap"), QStringLiteral("Sketch"));
+    for (const PaletteEntry& entry : entries) {
+      QVERIFY2(entry.where.isEmpty() ||
+                   !(QLatin1Char(' ') + entry.title).contains(QLatin1Char(' ') + entry.where, Qt::CaseInsensitive),
+               qPrintable(entry.title + QStringLiteral(" / ") + entry.where));
+    }
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+  }
+
+  /// All that menus have and all rows of panels are found by their whole titles, among the first few; what cannot be
+  /// run now comes behind all that can.
+  void thePaletteKnowsEveryActionAndEveryRow() {
+    constexpr int kFew = 5;
+    const auto entries = m_window->paletteEntries();
+    QStringList missing, late;
+    const auto look = [&](const QString& title, const std::function<bool(const PaletteEntry&)>& is) {
+      int before = 0;
+      for (const size_t k : paletteMatches(entries, title)) {
+        if (is(entries[k])) {
+          if (before >= kFew && entries[k].whyNot.isEmpty()) late << title;
+          return;
+        }
+        before += entries[k].title != title ? 1 : 0;
+      }
+      missing << title;
+    };
+    const auto lookFor = [&](const QString& title) {
+      look(title, [&](const PaletteEntry& entry) { return entry.title == title; });
+    };
+    const std::set<QString> actions = titlesInMenus();
+    QVERIFY(actions.size() > 100);
+    for (const QString& title : actions) lookFor(title);
+    const std::set<std::string> rows = addressesOfRows();
+    QVERIFY(rows.size() > 100);
+    for (const std::string& text : rows) {
+      const std::optional<Address> parsed = Address::parse(text);
+      QVERIFY2(parsed, text.c_str());
+      const Address& address = *parsed;
+      const QString words = QLatin1Char(' ') + QString::fromStdString(text).replace(QLatin1Char('_'), QLatin1Char(' '));
+      look(awayLabel(document().project(), address, QString::fromUtf8(document().declaration(address)->label)),
+           [&](const PaletteEntry& entry) { return entry.words.endsWith(words); });
+    }
+    for (const ParameterRow* row : m_window->findChild<BrushPanel*>()->rows())
+      lookFor(QString::fromUtf8(row->model().declaration.label));
+    QVERIFY2(missing.isEmpty() && late.isEmpty(),
+             qPrintable(QStringLiteral("missing: %1; late: %2")
+                            .arg(missing.join(QStringLiteral(", ")), late.join(QStringLiteral(", ")))));
+  }
+
   /// The scene's own, by its name and by the tags of what is installed.
   void thePaletteFindsAMaterialByItsTags() {
     m_window->selection().setMaterial({});
@@ -512,6 +590,26 @@ class TestWindow : public QObject {
     Q_EMIT(*nothing)->linkActivated(QStringLiteral("clear"));
     QVERIFY(palette->field()->text().isEmpty() && palette->shownCount() > 0 && !(*nothing)->isVisible());
     palette->hide();
+  }
+
+  /// Where there is nothing to see it is said what to do. Outliner, panels, run and searches have tests of their own.
+  void emptyPlacesHaveTheirSentences() {
+    MessageLog log;
+    MessagesPage page(log);
+    page.show();
+    const auto says = [](const QWidget& widget, const QString& text) {
+      const auto labels = widget.findChildren<QLabel*>();
+      return std::any_of(labels.begin(), labels.end(),
+                         [&](const QLabel* label) { return label->isVisibleTo(&widget) && label->text() == text; });
+    };
+    QVERIFY(says(page, QStringLiteral("All quiet")));
+    log.add(MessageLevel::Info, QStringLiteral("Test"), QStringLiteral("Something to read"));
+    QVERIFY(!says(page, QStringLiteral("All quiet")));
+    const std::string graph = document().addGraph({}, 0, QStringLiteral("a graph of nothing"));
+    const Plot* plot = m_window->graphs()->plot(graph);
+    QVERIFY(plot);
+    QCOMPARE(plot->summary(), QStringLiteral("Drag a probe here to plot it"));
+    document().undoStack().undo();
   }
 
   void thePaletteJumpsToARow() {
@@ -747,6 +845,44 @@ class TestWindow : public QObject {
  private:
   Session& session() { return m_window->session(); }
   Document& document() { return session().document(); }
+  /// Without what menus are filled with when they are opened.
+  std::set<QString> titlesInMenus() {
+    const QStringList filledWhenOpened{QStringLiteral("Open recent"), QStringLiteral("Earlier versions"),
+                                       QStringLiteral("Favourite brushes")};
+    std::set<QString> titles;
+    const std::function<void(const QList<QAction*>&)> walk = [&](const QList<QAction*>& all) {
+      for (const QAction* action : all) {
+        if (const QMenu* menu = action->menu()) {
+          if (!filledWhenOpened.contains(menu->title())) walk(menu->actions());
+        } else if (!action->isSeparator() && !qobject_cast<const QWidgetAction*>(action)) {
+          titles.insert(cleanText(*action));
+        }
+      }
+    };
+    walk(m_window->findChild<QMenuBar*>()->actions());
+    return titles;
+  }
+  /// Of all that the scene declares, and of what the panels show.
+  std::set<std::string> addressesOfRows() {
+    std::set<std::string> rows;
+    const auto add = [&](const Address& address) {
+      if (document().declaration(address)) rows.insert(address.text());
+    };
+    for (const Address& address : allAddresses(document().project(), session().plugins())) add(address);
+    const Inspector& inspector = m_window->inspector();
+    const std::vector<SelectedItem> selected{{OutlineKind::Body, "ice"}, {OutlineKind::Probe, "mean"}};
+    for (const SelectedItem& item : selected) {
+      m_window->selection().select(item.kind, item.id);
+      for (const ParameterPanel* panel :
+           {inspector.bodyPanel(), inspector.materialPanel(), inspector.scenePanel(), inspector.solverPanel()}) {
+        for (const ParameterRow* row : panel->rows()) {
+          if (const auto address = Address::parse(row->key().toStdString())) add(*address);
+        }
+      }
+    }
+    m_window->selection().clear();
+    return rows;
+  }
   void openSample() {
     QSignalSpy opened(&session().files(), &DocumentFiles::opened);
     m_window->openFile(kSample);

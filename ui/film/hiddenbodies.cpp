@@ -20,6 +20,9 @@ std::set<std::string> hiddenBodies(const Project& project) {
   for (const Body& body : project.bodies) {
     if (!body.visible) hidden.insert(body.id);
   }
+  for (const Emitter& tap : project.emitters) {
+    if (!tap.visible) hidden.insert(tap.id);
+  }
   return hidden;
 }
 

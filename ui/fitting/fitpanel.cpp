@@ -95,6 +95,7 @@ void FitPanel::layOut() {
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setMinimumHeight(1);  // a small window has no room for it
   auto* held = new QWidget;
   auto* upper = new QVBoxLayout(held);
   upper->setContentsMargins(0, 0, 0, 0);

@@ -12,6 +12,8 @@
 #include <QtCore/QTimer>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QStyle>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +26,12 @@ QString joules(double value) { return formatPrefixed(value, QStringLiteral("J"))
 }  // namespace
 
 EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
-    : QWidget(parent), m_session(session), m_history(session), m_graph(new EnergyStackView), m_ledger(new QLabel) {
+    : QWidget(parent),
+      m_session(session),
+      m_history(session),
+      m_graph(new EnergyStackView),
+      m_ledger(new QLabel),
+      m_room(new QScrollArea) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 4, 12, 4);
   row->setSpacing(12);
@@ -34,7 +41,14 @@ EnergyPanel::EnergyPanel(Session& session, QWidget* parent)
   m_ledger->setAlignment(Qt::AlignVCenter | Qt::AlignLeft);
   row->addWidget(m_graph, 1);
   seekByClicks(*m_graph, m_session.recorded());
-  row->addWidget(m_ledger);
+  m_room->setFrameShape(QFrame::NoFrame);
+  m_room->setWidgetResizable(true);
+  m_room->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  m_room->setFocusPolicy(Qt::NoFocus);
+  m_room->setWidget(m_ledger);
+  m_ledger->setAutoFillBackground(false);
+  row->addWidget(m_room);
+  fitRoom();
   connect(&session, &Session::valuesDue, this, &EnergyPanel::readHistory);
   connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
     const bool opened = std::holds_alternative<ProjectOpened>(event);
@@ -63,6 +77,12 @@ void EnergyPanel::showLedger() {
   if (!m_shown) return;
   m_ledger->setText(ledgerText());
   m_ledger->setMinimumWidth(std::max(m_ledger->minimumWidth(), m_ledger->sizeHint().width()));  // it does not breathe
+  fitRoom();
+}
+
+/// With that for a bar beside it.
+void EnergyPanel::fitRoom() {
+  m_room->setFixedWidth(m_ledger->minimumWidth() + style()->pixelMetric(QStyle::PM_ScrollBarExtent));
 }
 
 void EnergyPanel::take(const FrameStats& stats) {

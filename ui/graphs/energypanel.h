@@ -6,6 +6,7 @@
 #include <QtWidgets/QWidget>
 
 class QLabel;
+class QScrollArea;
 
 namespace ps {
 
@@ -27,10 +28,12 @@ class EnergyPanel : public QWidget {
   void readHistory();
   void take(const FrameStats& stats);
   void showLedger();
+  void fitRoom();
   Session& m_session;
   HistoryReader m_history;
   EnergyStackView* m_graph;
   QLabel* m_ledger;
+  QScrollArea* m_room;                      ///< for it: its lines do not keep the window high
   bool m_started = false, m_shown = false;  ///< m_shown: there has been matter
   double m_start = 0;
   FrameStats m_last;

@@ -85,6 +85,7 @@ std::vector<RowModel> keptRows(const ParameterSet& set, const Unknown& unknown, 
       showText(row, names, words, QString::fromStdString(value.is_string() ? value.get<std::string>() : value.dump()));
     }
     row.defaultValue = row.value;
+    row.kept = true;
     row.disabledReason =
         QStringLiteral("The plugin “%1” is not installed. Values are kept as they stand in the file.").arg(id);
     rows.push_back(std::move(row));

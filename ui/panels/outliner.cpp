@@ -102,6 +102,13 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   connect(&selection, &Selection::changed, this, &Outliner::showSelection);
   connect(&m_document, &Document::changed, this, &Outliner::onChanged);
   connect(&session, &Session::totalsDue, this, &Outliner::readValues);
+  rebuild();  // on the headset's board it is made when there is a scene already
+}
+
+/// A board in a headset has larger rows, which it knows from then on.
+void Outliner::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  m_view->doItemsLayout();
 }
 
 QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
@@ -125,7 +132,7 @@ QStandardItem* Outliner::add(QStandardItem* parent, OutlineKind kind, const std:
   return item;
 }
 
-/// Its group's row, or the scene's.
+/// Its group's row, or `scene`.
 QStandardItem* Outliner::parentOf(QStandardItem* scene, Owner owner, const std::string& id) const {
   const std::string member = memberOf(owner, id);
   for (const SceneGroup& group : m_groups) {
@@ -205,10 +212,12 @@ void Outliner::addPorts(QStandardItem* scene) {
 
 void Outliner::addProbes(QStandardItem* scene) {
   const Project& project = m_document.project();
-  if (project.probes.empty()) return;
-  QStandardItem* probes = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
+  QStandardItem* others = nullptr;
   for (const Probe& probe : project.probes) {
-    mark(add(probes, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe")), probe.visible,
+    QStandardItem* row = parentOf(nullptr, Owner::Probe, probe.id);
+    if (!row && !others)
+      others = add(scene, OutlineKind::Probes, "", QStringLiteral("Probes"), QStringLiteral("folder"));
+    mark(add(row ? row : others, OutlineKind::Probe, probe.id, nameOf(probe), QStringLiteral("probe")), probe.visible,
          probe.locked);
   }
 }

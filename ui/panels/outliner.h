@@ -53,6 +53,9 @@ class Outliner : public QWidget {
  Q_SIGNALS:
   void menuRequested(const QPoint& global);  ///< of what is selected
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   QStandardItem* add(QStandardItem* parent, OutlineKind kind, const std::string& id, const QString& name,
                      const QString& icon);

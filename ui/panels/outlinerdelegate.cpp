@@ -10,6 +10,8 @@
 #include <QtGui/QPainter>
 #include <QtWidgets/QLineEdit>
 
+#include <algorithm>
+
 namespace ps {
 namespace {
 
@@ -19,6 +21,11 @@ std::string idOf(const QModelIndex& index) { return index.data(outline::kId).toS
 /// Whether it can be hidden and locked.
 bool hasMarks(const QModelIndex& index) { return index.data(outline::kVisible).isValid(); }
 int kindOf(const QModelIndex& index) { return index.data(outline::kKind).toInt(); }
+/// What of a row is meant for a mark in it: as wide as the row is high.
+QRect around(const QRect& mark, const QRect& row) {
+  const int beside = (row.height() - mark.width()) / 2;
+  return {mark.left() - beside, row.top(), mark.width() + 2 * beside, row.height()};
+}
 
 }  // namespace
 
@@ -26,7 +33,10 @@ QRect OutlinerDelegate::eyeRect(const QRect& row) { return {row.right() - 24, ro
 /// Takes the place of the count while the pointer is there, and for good when locked.
 QRect OutlinerDelegate::lockRect(const QRect& row) { return {row.right() - 62, row.top() + 2, 20, 20}; }
 
-QSize OutlinerDelegate::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const { return {100, kRow}; }
+/// Higher where the style says so: a board in a headset has larger rows.
+QSize OutlinerDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
+  return {100, std::max(kRow, QStyledItemDelegate::sizeHint(option, index).height())};
+}
 
 void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
   const Theme& theme = Theme::current();
@@ -87,11 +97,11 @@ bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, con
       (event->type() == QEvent::MouseButtonRelease || event->type() == QEvent::MouseButtonDblClick)) {
     const QPoint at = static_cast<QMouseEvent*>(event)->position().toPoint();
     const bool release = event->type() == QEvent::MouseButtonRelease;
-    if (eyeRect(option.rect).contains(at)) {
+    if (around(eyeRect(option.rect), option.rect).contains(at)) {
       if (release) Q_EMIT visibleToggled(kindOf(index), idOf(index), !index.data(outline::kVisible).toBool());
       return true;
     }
-    if (lockRect(option.rect).contains(at)) {
+    if (around(lockRect(option.rect), option.rect).contains(at)) {
       if (release) Q_EMIT lockToggled(kindOf(index), idOf(index), !index.data(outline::kLocked).toBool());
       return true;
     }

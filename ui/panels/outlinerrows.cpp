@@ -30,6 +30,8 @@ std::optional<Owner> ownerOf(OutlineKind kind) {
       return Owner::Sink;
     case OutlineKind::Wall:
       return Owner::Wall;
+    case OutlineKind::Probe:
+      return Owner::Probe;
     default:
       return std::nullopt;
   }
@@ -154,7 +156,7 @@ std::vector<Address> Outliner::thingsOf(int kind, const std::string& id) const {
       std::find_if(m_groups.begin(), m_groups.end(), [&](const SceneGroup& one) { return one.id == id; });
   if (group == m_groups.end()) return things;
   for (const std::string& member : group->members) {
-    for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall}) {
+    for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall, Owner::Probe}) {
       const std::string prefix = memberOf(owner, "");
       if (member.starts_with(prefix)) things.push_back({owner, member.substr(prefix.size()), ""});
     }

@@ -68,6 +68,7 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
       m_filter(new QLineEdit),
       m_again(new QPushButton),
       m_folder(new QPushButton(QStringLiteral("Look in a folder…"))) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 12, 16, 12);
   column->setSpacing(10);
@@ -97,7 +98,8 @@ QHBoxLayout* PluginPage::makeHead() {
   m_summary->setProperty("role", "text2");
   m_filter->setObjectName(QStringLiteral("psFilter"));
   m_filter->setPlaceholderText(QStringLiteral("Name, kind, author"));
-  m_filter->setFixedWidth(170);
+  m_filter->setMinimumWidth(60);
+  m_filter->setMaximumWidth(170);
   m_filter->setAccessibleName(QStringLiteral("Filter plugins"));
   connect(m_filter, &QLineEdit::textChanged, this, &PluginPage::filter);
   auto* copy = new QPushButton(QStringLiteral("Copy list"));
@@ -109,7 +111,7 @@ QHBoxLayout* PluginPage::makeHead() {
   head->addSpacing(8);
   head->addWidget(m_summary);
   head->addStretch(1);
-  head->addWidget(m_filter);
+  head->addWidget(m_filter, 2);
   head->addWidget(copy);
   head->addWidget(back);
   return head;

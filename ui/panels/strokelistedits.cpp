@@ -64,6 +64,20 @@ void StrokeListEdits::move(const std::string& id, size_t stroke, size_t to) {
   redraw(*body, std::move(wanted), QStringLiteral("order of the strokes of %1"), to);
 }
 
+void StrokeListEdits::setHidden(const std::string& id, size_t stroke, bool hidden) {
+  const Body* body = sketched(id, stroke);
+  if (!body) return;
+  VoxelShape wanted = std::get<VoxelShape>(body->shape);
+  if (wanted.strokes[stroke].hidden == hidden) return;
+  wanted.strokes[stroke].hidden = hidden;
+  const auto isHidden = [](const VoxelShape::Stroke& one) { return one.hidden; };
+  if (std::all_of(wanted.strokes.begin(), wanted.strokes.end(), isHidden))
+    return stay(QStringLiteral("It is the only one that is shown. Hide %1 in the outliner instead.")
+                    .arg(QString::fromStdString(body->name)));
+  redraw(*body, std::move(wanted),
+         hidden ? QStringLiteral("hiding a stroke of %1") : QStringLiteral("showing a stroke of %1"), stroke);
+}
+
 void StrokeListEdits::setMaterial(const std::string& id, size_t stroke, const std::string& material) {
   const Body* body = sketched(id, stroke);
   if (!body) return;

@@ -25,6 +25,8 @@ class StrokeListEdits : public QObject {
   /// The last one takes the body with it.
   void remove(const std::string& body, size_t stroke);
   void move(const std::string& body, size_t stroke, size_t to);
+  /// The sketch is as without it, and it stays in the list. Not of the only one that is shown.
+  void setHidden(const std::string& body, size_t stroke, bool hidden);
   /// SceneMaterial::id that it draws in, as warm as before.
   void setMaterial(const std::string& body, size_t stroke, const std::string& material);
   /// By so much, in m.

@@ -41,7 +41,8 @@ namespace {
 constexpr int kMostShown = 8;
 const QString kKeys = QStringLiteral(
     "Del removes the stroke; a drag, Alt+Up and Alt+Down draw it earlier or later; W moves it in the view; the other "
-    "mouse button gives it another material, or has it drawn anew. The sketch is drawn again from them.");
+    "mouse button gives it another material, hides it, as does the eye, or has it drawn anew. The sketch is drawn "
+    "again from them.");
 const QString kNone = QStringLiteral("Strokes of the body that is selected are listed here");
 
 double lengthOf(const VoxelShape::Stroke& stroke) {
@@ -115,6 +116,9 @@ class StrokesList::Rows : public QWidget {
     m_list.setCurrent(lineAt(event->position()));
     setFocus(Qt::MouseFocusReason);
     letGo();
+    const int line = m_list.m_current;
+    if (event->button() == Qt::LeftButton && line >= 0 && eyeOf(line, width()).contains(event->position()))
+      return m_list.turnHidden(line);
     if (event->button() == Qt::LeftButton && m_list.m_current >= 0)
       m_held = Held{event->position(), m_list.m_body, m_list.m_current};
   }
@@ -166,17 +170,21 @@ class StrokesList::Rows : public QWidget {
     const QRectF row(0, index * kRow, width(), kRow);
     const bool current = index == m_list.m_current;
     if (current) painter.fillRect(row, theme[Token::Selection]);
-    paintIcon(painter, QRectF(12, row.center().y() - 8, 16, 16), line.icon, theme[Token::Text2]);
-    double right = width() - 12;
+    const QColor ink = theme[line.hidden ? Token::Disabled : Token::Text];
+    paintIcon(painter, QRectF(12, row.center().y() - 8, 16, 16), line.icon, line.hidden ? ink : theme[Token::Text2]);
+    const QRectF eye = eyeOf(index, width());
+    paintIcon(painter, eye.adjusted(2, 2, -2, -2), line.hidden ? QStringLiteral("eye-off") : QStringLiteral("eye"),
+              line.hidden ? ink : theme[current ? Token::Text2 : Token::Muted]);
+    double right = eye.left() - 4;
     if (line.colour.isValid())
       paintBox(painter, QRectF(right - 11, row.center().y() - 5.5, 11, 11), line.colour, theme[Token::Line2], 5.5);
     right -= 19;
     const QFont small = Theme::font(TextRole::Small);
     const double wide = textWidth(line.length, small) + 1;
     paintText(painter, QRectF(right - wide, row.top(), wide, kRow), Qt::AlignVCenter | Qt::AlignRight, line.length,
-              small, theme[current ? Token::Text2 : Token::Muted]);
+              small, line.hidden ? ink : theme[current ? Token::Text2 : Token::Muted]);
     paintText(painter, QRectF(36, row.top(), right - wide - 44, kRow), Qt::AlignVCenter, line.name,
-              Theme::font(TextRole::Normal), theme[Token::Text]);
+              Theme::font(TextRole::Normal), ink);
   }
 
   StrokesList& m_list;
@@ -292,6 +300,12 @@ void StrokesList::drawAnew(int line) {
   refreshHeading();
 }
 
+void StrokesList::turnHidden(int line) {
+  if (line < 0 || line >= static_cast<int>(m_lines.size())) return;
+  const auto at = static_cast<size_t>(line);
+  m_edits->setHidden(m_body, at, !m_lines[at].hidden);
+}
+
 void StrokesList::choose() {
   const bool any = m_current >= 0 && !m_body.empty();
   m_tools.choose(any ? std::optional(ChosenStroke{m_body, static_cast<size_t>(m_current)}) : std::nullopt);
@@ -340,6 +354,7 @@ QMenu* StrokesList::menuOf(int line) {
     m_tools.activate("move");
   });
   add(menu, QStringLiteral("Draw anew"), [this, line] { drawAnew(line); })->setEnabled(leavesMatter);
+  add(menu, m_lines[at].hidden ? QStringLiteral("Show") : QStringLiteral("Hide"), [this, line] { turnHidden(line); });
   QMenu* materials = menu->addMenu(QStringLiteral("Material"));
   materials->setEnabled(leavesMatter);
   for (const SceneMaterial& material : m_document.project().materials)
@@ -370,7 +385,7 @@ void StrokesList::refresh() {
                          : iconNames().contains(brush) ? brush
                                                        : QStringLiteral("brush"),
                          nameOf(stroke, plugins), length > 0 ? lengthText(length) : QString(),
-                         matterOf(stroke, *shape, m_document)});
+                         matterOf(stroke, *shape, m_document), stroke.hidden});
     }
   }
   m_current = std::min(m_current, static_cast<int>(m_lines.size()) - 1);
@@ -396,7 +411,8 @@ void StrokesList::setCurrent(int line) {
   m_current = line >= 0 && line < static_cast<int>(m_lines.size()) ? line : -1;
   if (m_current >= 0) {
     const Line& now = m_lines[static_cast<size_t>(m_current)];
-    m_rows->setAccessibleDescription(QStringLiteral("%1, %2").arg(now.name, now.length));
+    m_rows->setAccessibleDescription(QStringLiteral("%1, %2").arg(now.name, now.length) +
+                                     (now.hidden ? QStringLiteral(", hidden") : QString()));
     static_cast<QScrollArea*>(m_scroll)->ensureVisible(0, m_current * kRow + kRow / 2, 0, kRow / 2);
   }
   choose();

@@ -3,6 +3,7 @@
 #include "core/scene/project.h"
 #include "ui/tools/toolbox.h"
 
+#include <QtCore/QRectF>
 #include <QtCore/QString>
 #include <QtGui/QColor>
 #include <QtWidgets/QWidget>
@@ -26,8 +27,8 @@ struct StrokeChanged;
 /// The strokes of one sketched body, in the order in which they were drawn: with which brush, how far it went, and of
 /// what. The body is the one that is selected or, while none is, the one that was drawn at last. Without one that has
 /// strokes there is a sentence. The keys, the mouse and a menu remove a stroke, move it earlier or later, give it
-/// another material and have it drawn anew (see StrokeListEdits). The view shows the one that the keys are on, and the
-/// tool Move moves it.
+/// another material, hide it and have it drawn anew (see StrokeListEdits). The view shows the one that the keys are on,
+/// and the tool Move moves it.
 class StrokesList : public QWidget {
   Q_OBJECT
  public:
@@ -37,12 +38,16 @@ class StrokesList : public QWidget {
   struct Line {
     QString icon, name, length;  ///< "tube", "Tube, in a mirror", "312 mm"
     QColor colour;               ///< of its matter; invalid where it leaves none
+    bool hidden = false;
   };
   const std::vector<Line>& lines() const { return m_lines; }
   const std::string& body() const { return m_body; }  ///< whose strokes these are; "": of none
   int current() const { return m_current; }           ///< the line that the keys are on; -1: none
   void setCurrent(int line);
   StrokeListEdits& edits() { return *m_edits; }
+  void turnHidden(int line);  ///< hides a stroke that is shown, and shows one that is hidden
+  /// px, of the eye of a line.
+  static QRectF eyeOf(int line, int width) { return {width - 28.0, line * kRow + 3.0, 20, 20}; }
   QMenu* menuOf(int line);  ///< of what can be done with it; its parent is the list
 
   /// The next stroke that a hand draws takes its place, unless another tool is taken first.

@@ -40,6 +40,7 @@ struct RowModel {
   QStringList choiceLabels;     ///< of a choice, in the order of its names; empty: made from the names
   QStringList rules;            ///< sentences for the tooltip: what bounds the value, when it acts
   QString disabledReason;       ///< not empty: disabled, the tooltip says why
+  bool kept = false;            ///< of a plugin that is not installed: there is nothing to pin, plot or key
   QString derivedFrom;          ///< not empty: computed, no field: "from pressure"
   QString source;               ///< of the default value; "": the declaration's
   double temperature = 293.15;  ///< K, operating point of a response

@@ -97,11 +97,12 @@ void ParameterRow::Private::openContextMenu(const QContextMenuEvent& event) {
   const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
   QAction* pin = nullptr;
   QAction* plot = nullptr;
-  if (offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
+  if ((!model.kept || model.isPinned) && offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
     pin = menu->addAction(model.isPinned ? QStringLiteral("Remove from “Try these”")
                                          : QStringLiteral("Pin to “Try these”"));
   }
-  const bool plots = (isNumeric() && !showsCurve()) || declaration().kind == api::ParameterKind::Toggle;
+  const bool plots =
+      !model.kept && ((isNumeric() && !showsCurve()) || declaration().kind == api::ParameterKind::Toggle);
   if (plots && offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested)))
     plot = menu->addAction(QStringLiteral("Plot"));
   addKeyEntries(menu);

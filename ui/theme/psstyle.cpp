@@ -8,6 +8,7 @@
 #include <QtGui/QPainter>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QPushButton>
 #include <QtWidgets/QStyleFactory>
 #include <QtWidgets/QStyleOption>
 #include <QtWidgets/QTabBar>
@@ -163,6 +164,7 @@ void PsStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option
                             const QWidget* widget) const {
   switch (element) {
     case PE_FrameFocusRect: {
+      if (qobject_cast<const QPushButton*>(widget)) return;   // its border says so: no second frame around its words
       const bool tab = qobject_cast<const QTabBar*>(widget);  // a tab ends with its text, which the ring stands around
       paintFocusRing(*painter, tab ? option->rect.adjusted(-7, -3, 7, 3) : option->rect, 4);
       return;

@@ -7,6 +7,7 @@
 #include <QtCore/QTimer>
 #include <QtGui/QKeyEvent>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QTabBar>
 
 #include <algorithm>
@@ -36,6 +37,7 @@ bool FocusKeeper::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     m_byHand = key == Qt::Key_Tab || key == Qt::Key_Backtab;
+    if (key == Qt::Key_Escape) givenUp(watched);
   } else if (event->type() == QEvent::MouseButtonPress && watched->isWidgetType()) {
     m_byHand = isHeader(static_cast<QWidget*>(watched));
   }
@@ -52,6 +54,16 @@ void FocusKeeper::onFocus(QWidget*, QWidget* now) {
   m_holders.clear();
   for (QWidget* holder = now; holder && holder != &m_window; holder = holder->parentWidget())
     m_holders.emplace_back(holder);
+}
+
+/// When the field has gone: it knows its row, and what lies around that the row does not know.
+void FocusKeeper::givenUp(QObject* watched) {
+  auto* field = qobject_cast<QLineEdit*>(watched);
+  if (!field || field->objectName() != QStringLiteral("psRowEdit") || field->window() != &m_window) return;
+  QTimer::singleShot(0, this, [this, field = QPointer(field)] {
+    const bool gone = !field || !field->isVisible();
+    if (gone && m_view && m_view->isVisible()) m_view->setFocus(Qt::OtherFocusReason);
+  });
 }
 
 void FocusKeeper::giveBack() {

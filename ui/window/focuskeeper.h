@@ -14,7 +14,8 @@ class Dock;
 
 /// Where the keys go. What has the focus may vanish (a row that is named, a page that another takes the place of): Qt
 /// gives it to whatever is next, which is some dock's tabs. Then it goes to what held that widget, else to the view.
-/// It gets to tabs by hand alone: Tab, a click on them, or from part to part of the window.
+/// It gets to tabs by hand alone: Tab, a click on them, or from part to part of the window. What is typed into a row
+/// and given up by Esc leaves the keys in the view.
 class FocusKeeper : public QObject {
   Q_OBJECT
  public:
@@ -27,6 +28,7 @@ class FocusKeeper : public QObject {
  private:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void onFocus(QWidget* before, QWidget* now);
+  void givenUp(QObject* watched);
   void giveBack();
   QWidget& m_window;
   QPointer<QWidget> m_view;

@@ -69,6 +69,7 @@
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QDialog>
 #include <QtWidgets/QDockWidget>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QStackedWidget>
@@ -113,6 +114,8 @@ MainWindow::MainWindow(const Options& options)
   connectParts();
   m_vr = std::make_unique<VrMode>(
       VrMode::Parts{*m_session, viewport(), *m_tools, *m_notices, *m_status, *m_curves, m_actions});
+  connect(m_vr.get(), &VrMode::wayOutWanted, m_waysOut, &WaysOut::follow);
+  connect(m_vr.get(), &VrMode::refused, m_notices, &Notices::refuse);
   m_layout->applyDefault();
   m_layout->restore();
   qApp->installEventFilter(this);
@@ -334,6 +337,7 @@ void MainWindow::connectParts() {
   });
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
   connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
+  connect(m_tools.get(), &Toolbox::working, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
   connect(m_inspector, &Inspector::keyRefused, m_notices,
           [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
@@ -371,6 +375,8 @@ void MainWindow::connectParts() {
   Viewport* view = viewport();
   if (!view) return;
   connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });
+  connect(m_sketch.get(), &SketchActions::planeWanted, view,
+          [this, view](bool acrossView) { m_tools->layPlane(view->pointerNow(), acrossView); });
   connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { m_views->openViewMenu(global); });
   connect(view, &Viewport::glFailed, this, [this](const QString& problem) {
     m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem);
@@ -483,8 +489,16 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     m_layout->setFullViewport(false);
   } else if (m_tools->active() == kSelectTool && view && view->endSection()) {
     return;
-  } else {
+  } else if (m_tools->active() != kSelectTool) {
     m_tools->activate(kSelectTool);
+  } else if (view && !view->hasFocus()) {
+    if (auto* field = qobject_cast<QLineEdit*>(QApplication::focusWidget())) {
+      while (field->isUndoAvailable()) field->undo();  // to leave it would take what was typed
+      field->setModified(false);
+    }
+    view->setFocus(Qt::OtherFocusReason);
+  } else {
+    m_selection->clear();
   }
 }
 

@@ -28,6 +28,7 @@
 
 #include <QtGui/QAction>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -36,6 +37,37 @@ namespace ps {
 namespace {
 
 using Entries = std::vector<PaletteEntry>;
+
+/// What stands beside a title: the first of these that the title does not say itself.
+QString beside(const QString& title, const QStringList& places) {
+  const auto said = [&](const QString& place) {
+    return (QLatin1Char(' ') + title).contains(QLatin1Char(' ') + place, Qt::CaseInsensitive);
+  };
+  const auto place = std::find_if_not(places.begin(), places.end(), said);
+  return place == places.end() ? QString() : *place;
+}
+
+/// What a thing with rows is; "" where there is one of its kind only.
+QString kindOf(Owner owner) {
+  switch (owner) {
+    case Owner::Wall:
+      return QStringLiteral("Wall");
+    case Owner::Emitter:
+      return QStringLiteral("Tap");
+    case Owner::Sink:
+      return QStringLiteral("Drain");
+    case Owner::Body:
+    case Owner::Constraint:
+    case Owner::Shape:
+      return QStringLiteral("Body");
+    case Owner::Probe:
+      return QStringLiteral("Probe");
+    case Owner::HeatSource:
+      return QStringLiteral("Heat source");
+    default:
+      return {};
+  }
+}
 
 QString valueText(Document& document, const Address& address, const api::ParameterDeclaration& declaration) {
   const Value value = document.value(address);
@@ -76,7 +108,8 @@ void addActions(Entries& entries, MainWindow& window, const Actions& actions, bo
     if (action->objectName().startsWith(QLatin1String("help.")) != help) continue;
     QString where = action->objectName().section(QLatin1Char('.'), 0, 0);
     where = where.left(1).toUpper() + where.mid(1);
-    entries.push_back({cleanText(*action), where, action->shortcut().toString(QKeySequence::NativeText),
+    const QString title = cleanText(*action);
+    entries.push_back({title, beside(title, {where}), action->shortcut().toString(QKeySequence::NativeText),
                        action->property(kWords).toString(), [action] { action->trigger(); },
                        action->property(kReplaces).toBool(), action->isEnabled() ? QString() : whyNot(*action, ready)});
   }
@@ -84,15 +117,22 @@ void addActions(Entries& entries, MainWindow& window, const Actions& actions, bo
 
 void addParameters(Entries& entries, MainWindow& window) {
   Document& document = window.session().document();
-  for (const Address& address : allAddresses(document.project(), document.plugins())) {
+  const Project& project = document.project();
+  std::vector<Address> addresses = allAddresses(project, document.plugins());
+  for (const Probe& probe : project.probes) {  // no values of the scene, and rows all the same
+    const api::ParameterList list = declarationsOf(project, document.plugins(), {Owner::Probe, probe.id, ""});
+    for (size_t i = 0; i < list.count; ++i) addresses.push_back({Owner::Probe, probe.id, list[i].key});
+  }
+  for (const Address& address : addresses) {
     const auto* declaration = document.declaration(address);
     if (!declaration) continue;
-    const QString label = QString::fromUtf8(declaration->label);
-    entries.push_back({awayLabel(document.project(), address, label), ownerLabel(document.project(), address),
-                       valueText(document, address, *declaration),
-                       QString::fromUtf8(declaration->group) + QLatin1Char(' ') +
-                           QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
-                       [&window, address] { window.revealParameter(address); }});
+    const QString title = awayLabel(document.project(), address, QString::fromUtf8(declaration->label));
+    const QString kind = kindOf(address.owner), group = QString::fromUtf8(declaration->group);
+    const QString owner = kind.isEmpty() ? ownerLabel(document.project(), address) : kind;
+    entries.push_back(
+        {title, beside(title, {owner, group}), valueText(document, address, *declaration),
+         group + QLatin1Char(' ') + QString::fromStdString(address.text()).replace(QLatin1Char('_'), QLatin1Char(' ')),
+         [&window, address] { window.revealParameter(address); }});
   }
 }
 
@@ -107,8 +147,9 @@ void showThing(MainWindow& window, const SelectedItem& item) {
 void addThings(Entries& entries, MainWindow& window) {
   const auto add = [&](const auto& items, OutlineKind kind, const char* what) {
     for (const auto& item : items) {
-      entries.push_back({nameOf(item),
-                         QString::fromLatin1(what),
+      const QString name = nameOf(item), whatItIs = QString::fromLatin1(what);
+      entries.push_back({name,
+                         beside(name, {whatItIs, QStringLiteral("In the scene")}),
                          {},
                          QString::fromStdString(item.id),
                          [&window, thing = SelectedItem{kind, item.id}] { showThing(window, thing); }});
@@ -145,8 +186,9 @@ void addBrush(Entries& entries, MainWindow& window) {
   auto* panel = window.findChild<BrushPanel*>();
   if (!panel) return;
   for (const ParameterRow* row : panel->rows()) {
-    entries.push_back({QString::fromUtf8(row->model().declaration.label), QStringLiteral("Brush"), row->valueText(),
-                       QString::fromUtf8(row->model().declaration.group),
+    const QString label = QString::fromUtf8(row->model().declaration.label);
+    const QString group = QString::fromUtf8(row->model().declaration.group);
+    entries.push_back({label, beside(label, {QStringLiteral("Brush"), group}), row->valueText(), group,
                        [&window, panel, key = row->key()] { revealBrush(window, *panel, key); }});
   }
 }
@@ -192,7 +234,7 @@ void addMaterials(Entries& entries, MainWindow& window) {
     if (present.count(base)) continue;
     const std::string& label = plugins->material(base)->label;
     entries.push_back({title(QString::fromStdString(label.empty() ? base : label)),
-                       QStringLiteral("Materials"),
+                       QStringLiteral("Installed"),
                        {},
                        words[base],
                        [&session, &selection, base] { selection.pickMaterial(session.document().addMaterial(base)); }});

@@ -55,6 +55,10 @@ void SketchActions::makeMenu(QMenu* menu) {
                   brush.symmetry.mirror = brush.symmetry.mirror == "none" ? "x" : "none";
                   m_tools.setBrush(brush);
                 });
+  m_actions.add(menu, QStringLiteral("sketch.planeHere"), QStringLiteral("Plane from the surface"),
+                {QKeySequence(QStringLiteral("I"))}, [this] { Q_EMIT planeWanted(false); });
+  m_actions.add(menu, QStringLiteral("sketch.planeView"), QStringLiteral("Plane across the view"),
+                {QKeySequence(QStringLiteral("Shift+I"))}, [this] { Q_EMIT planeWanted(true); });
   addHolding(menu);
   addMaterials(menu->addMenu(QStringLiteral("Material")));
   m_shapes = menu->addMenu(QStringLiteral("Brush shape"));

@@ -33,7 +33,8 @@ class SketchActions : public QObject {
   QAction* makeReal() const { return m_makeReal; }  ///< enabled while something is held
 
  Q_SIGNALS:
-  void shapeTaken();  ///< a brush was chosen by its name
+  void shapeTaken();                  ///< a brush was chosen by its name
+  void planeWanted(bool acrossView);  ///< to draw on: else from the surface under the pointer
 
  private:
   void addHolding(QMenu* menu);

@@ -7,6 +7,7 @@
 #include "ui/panels/rowmodels.h"
 #include "ui/session/autosave.h"
 #include "ui/session/documentfiles.h"
+#include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
@@ -100,9 +101,37 @@ void StatusLine::tellOfSketches(const StrokeChanged& event) {
   }
 }
 
+/// A value acts where the run stands, also while an earlier moment of it is shown: nothing there would say so. Of what
+/// waits for the start its row does.
+void StatusLine::noteRecorded(const ChangeEvent& event) {
+  const auto* parameter = std::get_if<ParameterChanged>(&event);
+  const bool acts =
+      parameter ? !m_session.document().actsAtReset(parameter->address) : std::holds_alternative<TracksChanged>(event);
+  if (acts && m_session.recorded().isActive()) m_recordedStays = true;
+}
+
+/// Once for each step of the history: those of a drag are one.
+void StatusLine::tellOfRecorded() {
+  const int64_t step = m_session.document().undoStack().position();
+  const bool other = std::exchange(m_step, step) != step;
+  const SnapshotPtr shown = m_session.recorded().shown(), newest = m_session.newest();
+  if (!std::exchange(m_recordedStays, false) || !other || !shown || !newest) return;
+  m_saidOfRecorded = QStringLiteral(
+                         "It acts where the run stands, at %1; what is recorded stays as it was. Continue "
+                         "from here runs on from %2 with it.")
+                         .arg(clockText(newest->stats.time), clockText(shown->stats.time));
+  say(m_saidOfRecorded);
+}
+
 void StatusLine::follow() {
   connect(&m_session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (const auto* stroke = std::get_if<StrokeChanged>(&event)) tellOfSketches(*stroke);
+    noteRecorded(event);
+  });
+  connect(&m_session.document().undoStack(), &History::indexChanged, this, &StatusLine::tellOfRecorded);
+  connect(&m_session.recorded(), &RecordedView::changed, this, [this] {  // of another moment it is true no more
+    const QString told = std::exchange(m_saidOfRecorded, QString());
+    if (!told.isEmpty() && told == m_said) say({});
   });
   for (const auto signal : {&Session::ready, &Session::valuesDue, &Session::playingChanged})
     connect(&m_session, signal, this, &StatusLine::refresh);

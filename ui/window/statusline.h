@@ -68,6 +68,8 @@ class StatusLine : public QWidget {
   void refresh();
   void addNote(State& state);
   void tellOfSketches(const StrokeChanged& event);
+  void noteRecorded(const ChangeEvent& event);
+  void tellOfRecorded();
   std::vector<Part> leftParts() const;
   void followTool();
   Part toolPart() const;
@@ -75,6 +77,9 @@ class StatusLine : public QWidget {
   Session& m_session;
   Viewport* m_view;
   QString m_fileText, m_noteAddress, m_late, m_headset, m_said;
+  QString m_saidOfRecorded;      ///< of the moment that is shown
+  bool m_recordedStays = false;  ///< something was changed that acts after what is shown
+  int64_t m_step = 0;            ///< of the history, that was told of last
   QString m_stage;
   int m_percent = -1;  ///< of setWork()
   MessageLevel m_saidLevel = MessageLevel::Info;

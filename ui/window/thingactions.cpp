@@ -47,7 +47,7 @@ QString whatOf(const Project& things) {
 /// As a group names it; "" for what is in none.
 std::string memberOf(const SelectedItem& item) {
   const auto thing = thingOf(item);
-  const bool canBe = thing && item.kind != OutlineKind::Pin && item.kind != OutlineKind::Probe;
+  const bool canBe = thing && item.kind != OutlineKind::Pin;
   return canBe ? ps::memberOf(thing->owner, item.id) : std::string();
 }
 
@@ -388,7 +388,7 @@ void ThingActions::group() {
   }
   if (members.empty()) {
     m_notices.refuse(QStringLiteral("Nothing was grouped."),
-                     QStringLiteral("Select bodies, taps, drains or walls first."));
+                     QStringLiteral("Select bodies, taps, drains, walls or probes first."));
     return;
   }
   m_session.document().addGroup(std::move(members));

@@ -17,6 +17,7 @@ namespace ps {
 namespace {
 
 constexpr int kWidth = 300, kGap = 12;
+constexpr int kDown = 9 * kGap;  // from the upper edge of the view, whose axes stand there
 
 class TourCard : public QWidget {
  public:
@@ -117,28 +118,36 @@ void Tour::showStep() {
 }
 
 void Tour::follow() {
-  for (QWidget* part = m_steps[static_cast<size_t>(m_step)].at; part && part != parentWidget();
-       part = part->parentWidget())
-    part->installEventFilter(this);
+  for (QWidget* first : {m_steps.front().at.data(), m_steps[static_cast<size_t>(m_step)].at.data()}) {
+    for (QWidget* part = first; part && part != parentWidget(); part = part->parentWidget())
+      part->installEventFilter(this);
+  }
 }
 
-QRect Tour::target() const {
-  const QWidget* at = m_steps[static_cast<size_t>(m_step)].at;
+QRect Tour::target(size_t step) const {
+  const QWidget* at = m_steps[step].at;
   return at && at->isVisible() ? QRect(at->mapTo(parentWidget(), QPoint()), at->size()) : parentWidget()->rect();
 }
 
-/// Beside what it speaks of, where there is room; else inside its upper left corner.
+QRect Tour::target() const { return target(static_cast<size_t>(m_step)); }
+
+/// At the right edge of what the first step speaks of, whichever it is: an eye that reads on need not look for the
+/// card. Where it would cover there what another one speaks of: beside that.
 void Tour::place() {
   setGeometry(parentWidget()->rect());
   m_card->setFixedHeight(m_card->layout()->heightForWidth(kWidth));
-  const QRect of = target(), all = rect().adjusted(kGap, kGap, -kGap, -kGap);
+  const QRect of = target(), first = target(0), all = rect().adjusted(kGap, kGap, -kGap, -kGap);
   const QSize size = m_card->size();
-  const QPoint places[] = {{of.left() - size.width() - kGap, of.top() + kGap},
+  const QPoint home(first.right() - kGap - size.width() + 1,
+                    std::max(first.top() + kGap, std::min(first.top() + kDown, first.bottom() - kGap - size.height())));
+  const QPoint places[] = {home,
+                           {of.left() - size.width() - kGap, of.top() + kGap},
                            {of.right() + kGap, of.top() + kGap},
                            {of.left() + kGap, of.bottom() + kGap},
                            {of.left() + kGap, of.top() - size.height() - kGap}};
-  const auto* fits = std::find_if(std::begin(places), std::end(places),
-                                  [&](const QPoint& corner) { return all.contains(QRect(corner, size)); });
+  const auto* fits = std::find_if(std::begin(places), std::end(places), [&](const QPoint& corner) {
+    return all.contains(QRect(corner, size)) && (m_step == 0 || !of.intersects(QRect(corner, size)));
+  });
   m_card->move(fits != std::end(places) ? *fits : of.topLeft() + QPoint(2 * kGap, 5 * kGap));
 }
 

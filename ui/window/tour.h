@@ -18,8 +18,9 @@ struct TourStep {
   QString title, text;
 };
 
-/// Marks over the running window, one after another: a ring around what is spoken of, and a card beside it. Nothing is
-/// held up: the mouse goes through the ring to what lies below. Goes by "Done", "Skip" or Esc.
+/// Marks over the running window, one after another: a ring around what is spoken of, and a card that stays where it is
+/// as long as it covers nothing of that. Nothing is held up: the mouse goes through the ring to what lies below. Goes
+/// by "Done", "Skip" or Esc.
 class Tour : public QWidget {
   Q_OBJECT
  public:
@@ -40,8 +41,9 @@ class Tour : public QWidget {
  private:
   void showStep();
   void place();
-  void follow();         ///< what it speaks of, when that or the window is laid out anew
-  QRect target() const;  ///< of the step, in the window
+  void follow();                    ///< what it speaks of, when that or the window is laid out anew
+  QRect target(size_t step) const;  ///< of a step, in the window
+  QRect target() const;             ///< of the present one
   std::vector<TourStep> m_steps;
   int m_step = 0;
   QWidget* m_card;
