@@ -64,6 +64,34 @@ void Neighbours::build(const ParticleStore& store) {
   makeLists(placesOf(store), store.period());
 }
 
+/// Chunks are searched twice: how much room they need is not known from the last time, and what is known of others is
+/// kept for the lists of all.
+void Neighbours::buildOf(const ParticleStore& store, size_t first) {
+  const size_t n = store.size(), count = n - first;
+  if (2 * count >= n) return build(store);
+  assignCells(placesOf(store), store.period());
+  m_built.clear();
+  loadSlots(placesOf(store), store.period());
+  for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->assign(n, 0);
+  const SearchGrid grid = searchGrid(store.period());
+  std::vector<Room> rooms(chunkCount(count, grain::kNeighbours));
+  const auto search = [&](size_t begin, size_t end) {
+    Room& mine = rooms[begin / grain::kNeighbours];
+    const ListRoom room{mine.first, mine.count, m_index.data(), m_begin.data(), m_last.data(), m_end.data(), dummy()};
+    const size_t needed = searchLists(grid, first + begin, first + end, room);
+    if (mine.count == 0) mine.count = static_cast<uint32_t>(needed);
+  };
+  forChunks(count, grain::kNeighbours, search);
+  m_slots = 0;
+  for (Room& room : rooms) {
+    room.first = static_cast<uint32_t>(m_slots);
+    m_slots += room.count;
+  }
+  makeRoom();
+  forChunks(count, grain::kNeighbours, search);
+  advance(count);
+}
+
 void Neighbours::save(StateWriter& writer, bool valid) const {
   const std::span<const api::Float4> built(m_built.data(), valid ? m_built.size() : 0);
   writer.open(kBuiltBlock, StateType::Float4, built.size());
@@ -199,25 +227,29 @@ bool Neighbours::renew(const SearchGrid& grid, size_t first, size_t last) {
   return true;
 }
 
+SearchGrid Neighbours::searchGrid(const Period& period) const {
+  const double radius = m_support + m_skin;
+  return {m_x.data(),
+          m_y.data(),
+          m_z.data(),
+          m_grid.order().data(),
+          m_slotOf.data(),
+          m_grid.cellOfEach().data(),
+          m_grid.starts().data(),
+          {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
+          {m_grid.low(0), m_grid.low(1), m_grid.low(2)},
+          {m_grid.perMetre(0), m_grid.perMetre(1), m_grid.perMetre(2)},
+          static_cast<float>(radius * radius),
+          {period.length(0), period.length(1), period.length(2)}};
+}
+
 void Neighbours::makeLists(std::span<const api::Float4> position, const Period& period) {
   const size_t n = position.size();
   findStirred(position, period);
   m_built.clear();  // there are no lists until all are whole
   loadSlots(position, period);
   advance(n);
-  const double radius = m_support + m_skin;
-  const SearchGrid grid{m_x.data(),
-                        m_y.data(),
-                        m_z.data(),
-                        m_grid.order().data(),
-                        m_slotOf.data(),
-                        m_grid.cellOfEach().data(),
-                        m_grid.starts().data(),
-                        {m_grid.cells(0), m_grid.cells(1), m_grid.cells(2)},
-                        {m_grid.low(0), m_grid.low(1), m_grid.low(2)},
-                        {m_grid.perMetre(0), m_grid.perMetre(1), m_grid.perMetre(2)},
-                        static_cast<float>(radius * radius),
-                        {period.length(0), period.length(1), period.length(2)}};
+  const SearchGrid grid = searchGrid(period);
   for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->resize(n);
   Progress* progress = t_progress;  // of this thread; others help it
   bool all = true;
@@ -244,18 +276,19 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   });
 }
 
-bool Neighbours::stale(const ParticleStore& store) const {
+bool Neighbours::know(const ParticleStore& store, double reach) const {
   const size_t n = store.size();
-  if (m_built.size() != n) return true;
+  if (m_built.size() != n) return false;
   const api::Float4* position = store.position();
-  return anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
+  const double way = (m_support + m_skin - reach) / 2;
+  return !anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
     float most = 0;
     for (size_t i = first; i < last; ++i) {
       const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;
       const float d2 = x * x + y * y + z * z;
       most = d2 > most ? d2 : most;
     }
-    return double{most} > 0.25 * m_skin * m_skin;
+    return double{most} > way * way;
   });
 }
 

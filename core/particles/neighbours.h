@@ -26,8 +26,14 @@ class Neighbours {
   void sortAndBuild(ParticleStore& store);
   /// Rebuilds the lists in the present order.
   void build(const ParticleStore& store);
+  /// Makes the lists of the particles from `first` on alone, those of all others are empty: for matter that has just
+  /// been added, before build() or sortAndBuild() makes all.
+  void buildOf(const ParticleStore& store, size_t first);
   /// True when a particle has moved more than half the skin since the last build, or their number has changed.
-  bool stale(const ParticleStore& store) const;
+  bool stale(const ParticleStore& store) const { return !know(store, m_support); }
+  /// Whether the lists, of the present order, hold all pairs that are no farther apart than `reach`, m: they do until a
+  /// particle has moved half of what the search radius is more than that.
+  bool know(const ParticleStore& store, double reach) const;
   std::span<const uint32_t> lastOrder() const { return m_lastOrder; }
 
   api::NeighbourView view() const;
@@ -52,6 +58,7 @@ class Neighbours {
   bool giveMoreRoom();
   void makeRoom();
   void makeLists(std::span<const api::Float4> position, const Period& period);
+  SearchGrid searchGrid(const Period& period) const;
   void findStirred(std::span<const api::Float4> position, const Period& period);
   bool renew(const SearchGrid& grid, size_t first, size_t last);
   uint32_t dummy() const { return static_cast<uint32_t>(m_begin.size()); }

@@ -250,8 +250,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   }
   m->motion.adopt(store, first, last, m->time);
   if (!spawn.constraintSets.empty()) {
-    beginStage("Finding neighbours", static_cast<double>(count), 2 * static_cast<double>(store.size()));
-    m->neighbours.build(store);
+    beginStage("Finding neighbours", static_cast<double>(count), static_cast<double>(count));
+    m->neighbours.buildOf(store, first);
     for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
   }
   m->matterChanged(energyBefore);
@@ -341,13 +341,13 @@ void Solver::addVelocities(std::span<const Vector3> change) {
 
 TieChange Solver::cut(std::span<const Blade> blades, std::span<const uint8_t> isSpared) {
   m->configure();
-  if (m->needsLists()) m->freshLists();  // a hand asks in each frame, and they often hold
+  m->holdLists();
   return m->tiesChanged(m->constraints.cut(m->store, m->neighbours, blades, isSpared));
 }
 
 TieChange Solver::weld(std::span<const Blade> balls, std::span<const uint8_t> isSpared) {
   m->configure();
-  if (m->needsLists()) m->freshLists();  // a hand asks in each frame, and they often hold
+  m->holdLists();
   return m->tiesChanged(m->constraints.weld(m->store, m->neighbours, balls, isSpared));
 }
 
@@ -356,7 +356,7 @@ void Solver::redo(const TieChange& change) { m->changeTies(change, change.made);
 
 void Solver::Impl::changeTies(const TieChange& change, bool made) {
   configure();
-  if (needsLists()) freshLists();
+  holdLists();
   if (made)
     constraints.tie(store, neighbours, change);
   else

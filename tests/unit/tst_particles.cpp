@@ -57,12 +57,14 @@ void fill(ParticleStore& store, const QString& kind) {
   }
 }
 
-/// Empty when the lists are right, else what is wrong.
-QString problemOf(const ParticleStore& store, const Neighbours& neighbours) {
+/// Empty when the lists are right, else what is wrong. Particles before `from` have none.
+QString problemOf(const ParticleStore& store, const Neighbours& neighbours, uint32_t from = 0) {
   const ps::api::NeighbourView view = neighbours.view();
   const float radius2 = static_cast<float>((kSupport + kSkin) * (kSupport + kSkin));
   const ps::api::Float4* p = store.position();
-  for (uint32_t i = 0; i < store.size(); ++i) {
+  for (uint32_t i = 0; i < from; ++i)
+    if (view.begin[i] != view.end[i]) return QString("particle %1 has a list").arg(i);
+  for (uint32_t i = from; i < store.size(); ++i) {
     std::vector<uint32_t> expected;
     for (uint32_t j = 0; j < store.size(); ++j) {
       const float x = p[i].x - p[j].x, y = p[i].y - p[j].y, z = p[i].z - p[j].z;
@@ -129,6 +131,9 @@ class TestParticles : public QObject {
     const size_t first = store.add(20);
     for (size_t i = first; i < store.size(); ++i) place(store, i, 0.1 * random.next() - 1, 0.1 * random.next(), 3);
     QVERIFY(neighbours.stale(store));
+    neighbours.buildOf(store, first);
+    QCOMPARE(problemOf(store, neighbours, first > 20 ? static_cast<uint32_t>(first) : 0), QString());
+    QCOMPARE(neighbours.stale(store), first > 20);  // of a few, else they are made of all
     neighbours.build(store);
     QCOMPARE(problemOf(store, neighbours), QString());
     const std::vector<uint32_t> gone{0, 5, 6, 20};

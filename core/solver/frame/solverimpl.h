@@ -127,6 +127,8 @@ struct Solver::Impl {
   bool advance();
   bool needsLists() const;
   void freshLists();
+  /// For a hand, which ties and parts in each frame what touches: older lists know that too.
+  void holdLists();
   /// Whether something lies so many images away from the periodic box that single precision begins to tell.
   bool strayed() const;
   /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.
