@@ -161,16 +161,12 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
 }
 
 json benchDrag(int particles, PluginRegistry& plugins, long frames) {
-  Drag drag = measureDrag(tank(particles), plugins, "water", frames);
-  std::sort(drag.milliseconds.begin(), drag.milliseconds.end());
-  const auto at = [&](double share) {
-    const auto index = static_cast<size_t>(share * static_cast<double>(drag.milliseconds.size()));
-    return drag.milliseconds.empty() ? 0 : drag.milliseconds[std::min(index, drag.milliseconds.size() - 1)];
-  };
+  const Drag drag = measureDrag(tank(particles), plugins, "water", frames);
+  const Spread spread = spreadOf(drag.milliseconds);
   return {{"name", "drag"},
           {"particles", drag.particles},
           {"threads", threadCount()},
-          {"ms", {{"median", at(0.5)}, {"p95", at(0.95)}}},
+          {"ms", {{"median", spread.median}, {"p95", spread.p95}}},
           {"edits", drag.edits},
           {"edits_per_s", drag.editsPerSecond},
           {"edits_applied", drag.applied},
@@ -183,17 +179,15 @@ json benchDrag(int particles, PluginRegistry& plugins, long frames) {
 }
 
 json benchSketch(int particles, PluginRegistry& plugins, long frames) {
-  SketchCost cost = measureSketch(tank(particles), plugins, frames);
+  const SketchCost cost = measureSketch(tank(particles), plugins, frames);
   json edits, worst;
   double most = -1;
-  for (EditTimes& edit : cost.edits) {
-    std::sort(edit.milliseconds.begin(), edit.milliseconds.end());
-    const size_t count = edit.milliseconds.size();
-    const double median = edit.milliseconds[count / 2], p95 = edit.milliseconds[count * 19 / 20];
-    edits[edit.what] = {{"median", median}, {"p95", p95}, {"limit", edit.limit}};
-    if (median / edit.limit <= most) continue;
-    most = median / edit.limit;
-    worst = {{"median", median}, {"p95", p95}};
+  for (const EditTimes& edit : cost.edits) {
+    const Spread spread = spreadOf(edit.milliseconds);
+    edits[edit.what] = {{"median", spread.median}, {"p95", spread.p95}, {"limit", edit.limit}};
+    if (spread.median / edit.limit <= most) continue;
+    most = spread.median / edit.limit;
+    worst = {{"median", spread.median}, {"p95", spread.p95}};
   }
   return {
       {"name", "sketch"}, {"particles", cost.particles}, {"threads", threadCount()}, {"ms", worst}, {"edits", edits}};

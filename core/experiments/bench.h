@@ -19,8 +19,8 @@ BenchScene benchScene(const std::string& name, const Project& project, PluginReg
 /// A slider dragged over the tank, beside the same tank left alone: a row of bench's report.
 nlohmann::json benchDrag(int particles, PluginRegistry& plugins, long frames);
 
-/// What hands cost in the tank: a row of bench's report; its ms are those of the kind of edit that comes nearest to its
-/// limit.
+/// What strokes and hands cost the engine's thread in the tank (see measureSketch()): a row of bench's report; its ms
+/// are those of the kind of edit that comes nearest to its limit.
 nlohmann::json benchSketch(int particles, PluginRegistry& plugins, long frames);
 
 nlohmann::json benchMachine();

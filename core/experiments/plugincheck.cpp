@@ -66,6 +66,11 @@ std::string runScene(const PluginInfo& info, PluginRegistry& plugins) {
   return {};
 }
 
+/// A solid particle where the stroke begins.
+SeenMatter oneParticle(const Vector3&, double) {
+  return {{{0, -0.01F, 0, 0.01F}}, {263.15F}, {0}, {api::Phase::Solid}, {api::Motion::Solid}, {0}, {0}};
+}
+
 std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   StrokeSetup setup;
   setup.grid = {{0, 0, 0}, 0.02};
@@ -76,17 +81,19 @@ std::string drawStroke(const PluginInfo& info, const PluginRegistry& plugins) {
   block.cells = {{0, 0, 0, 2, 0}, {0, 1, 0, 2, 0}, {0, 0, 1, 2, 0}};
   setup.stamp = stampCells(block);
   const api::BrushPlugin& brush = *plugins.brush(info.id);
-  if (plugins.needs(info.id, api::kTouchesMatter)) {
-    if (touchesOf(brush, setup, api::EditKind::Add, samples).empty())
-      return "a hand of 5 cm radius that goes through matter does nothing";
-    return {};
-  }
-  const api::EditKind kind = kindOf(brush, false);
-  StrokeEdits edits = applyBrush(brush, setup, kind, samples);
-  if (edits.of(kind).empty())
-    return std::string("a stroke of two samples and 5 cm radius ") +
-           (kind == api::EditKind::Add ? "draws" : "changes") + " nothing";
-  return {};
+  const bool touches = plugins.needs(info.id, api::kTouchesMatter);
+  const api::EditKind kind = touches ? api::EditKind::Add : kindOf(brush, false);
+  const auto acts = [&] {
+    return touches ? !touchesOf(brush, setup, kind, samples).empty()
+                   : !applyBrush(brush, setup, kind, samples).of(kind).empty();
+  };
+  // One that sees matter may act where there is none, where there is some, or in both cases.
+  const bool actsAlone = acts();
+  setup.matterWithin = oneParticle;
+  if (acts() || actsAlone) return {};
+  if (touches) return "a hand of 5 cm radius that goes through matter does nothing";
+  return std::string("a stroke of two samples and 5 cm radius ") + (kind == api::EditKind::Add ? "draws" : "changes") +
+         " nothing";
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -51,7 +51,8 @@ class Measure {
   }
 
   /// Held in place, where a hand is to find it again.
-  void draw(const std::string& what, double temperature, const std::string& constraint, bool held = false) {
+  void draw(const std::string& what, const Vector3& from, double temperature, const std::string& constraint,
+            bool held = false) {
     Body body;
     body.id = body.name = what;
     body.material = "water";
@@ -62,7 +63,7 @@ class Measure {
     shape.palette.push_back({"water", temperature, {}});
     body.shape = shape;
     const auto made = std::make_shared<const Body>(body);
-    stroke("draws " + what, above(), [&](auto cells) { return AddCells{made, std::move(cells), 0, ++m_key}; });
+    stroke("draws " + what, from, [&](auto cells) { return AddCells{made, std::move(cells), 0, ++m_key}; });
   }
   void erase() {
     stroke("erases", inside(), [&](auto cells) { return TakeCells{lattice(), std::move(cells), {}, ++m_key}; });
@@ -96,7 +97,10 @@ class Measure {
   Vector3 inside() const {
     return {m_low.x() + 8 * m_spacing, (m_low.y() + m_high.y()) / 2, (m_low.z() + m_high.z()) / 2};
   }
-  Vector3 above() const { return {inside().x(), m_high.y() + 2 * kRadius * m_spacing, inside().z()}; }
+  /// Over the matter, in the place of the n-th stroke: where one still is, the next one would draw nothing.
+  Vector3 above(int strokes) const {
+    return inside() + Vector3(0, m_high.y() - inside().y() + strokes * (2 * kRadius + 2) * m_spacing, 0);
+  }
   SketchCost result() { return std::move(m_cost); }
 
  private:
@@ -157,10 +161,11 @@ SketchCost measureSketch(const Project& project, PluginRegistry& plugins, long s
   other.id = "other";
   scene.materials.push_back(other);
   Measure measure(scene, plugins, samples);
-  measure.draw("liquid", 293, {});
-  measure.draw("ice", 263, frozen, true);
-  measure.touch("cuts", touchOf(api::TouchKind::Cut), measure.above());
-  measure.touch("welds", touchOf(api::TouchKind::Weld), measure.above());
+  const Vector3 ice = measure.above(2);
+  measure.draw("liquid", measure.above(1), 293, {});
+  measure.draw("ice", ice, 263, frozen, true);
+  measure.touch("cuts", touchOf(api::TouchKind::Cut), ice);
+  measure.touch("welds", touchOf(api::TouchKind::Weld), ice);
   measure.erase();
   measure.paint("paints", other.id);
   measure.paint("tints", colourCoat({1, 0, 0}));

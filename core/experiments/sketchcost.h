@@ -21,10 +21,12 @@ struct SketchCost {
   std::vector<EditTimes> edits;
 };
 
-/// Draws, erases, paints and tints by a ball four particles in radius, which goes on by one at each sample, in and
-/// above the matter of a scene; then a hand heats, pushes, holds, cuts and welds what is in such balls, of four places
-/// a frame. `samples` of each kind, a frame between two. The scene needs a material "water" and matter about its
-/// middle. Throws InputError where no scene can be made of it, or a plugin is missing that this needs.
+/// Strokes go by a ball four particles in radius, which goes on by one at each sample, and hands have such balls, at
+/// four places a frame. In this order: strokes draw liquid above the matter of a scene and held ice above that, a hand
+/// cuts and welds the ice, strokes erase, paint and tint in the matter, and a hand heats, pushes and holds there.
+/// `samples`, at least 1, of each kind, a frame between two. The scene needs a material "water", matter about its
+/// middle, and above it room of 24 particle spacings. Throws InputError where no scene can be made of it, a plugin is
+/// missing that this needs, or what is to be cut is not tied.
 SketchCost measureSketch(const Project& project, PluginRegistry& plugins, long samples);
 
 }  // namespace ps

@@ -80,7 +80,7 @@ std::vector<uint32_t> Engine::addBody(const Body& body) {
   m->requireRoomFor(particleCount(body, m->spacing), body);
   std::vector<uint32_t> ids, packed;
   // What is there keeps away; the body's own particles may lie nearer, on a lattice that is pressed or packed.
-  const OccupiedPlaces taken = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing, 0);
+  const OccupiedPlaces taken = occupiedPlaces(m->solver->particles(), 0.9 * m->spacing);
   const Period& period = m->solver->particles().period();
   OccupiedPlaces own(kOverlap * m->spacing, static_cast<size_t>(particleCount(body, m->spacing)), period);
   for (ColouredSpawn& spawn : compileBody(project, m->plugins, m->tables.tables(), body)) {

@@ -219,8 +219,8 @@ std::vector<uint32_t> rowsNear(const ParticleStore& store, std::span<const api::
   return rows;
 }
 
-OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more) {
-  OccupiedPlaces occupied(clearance, store.size() + more, store.period());
+OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance) {
+  OccupiedPlaces occupied(clearance, store.size(), store.period());
   for (size_t i = 0; i < store.size(); ++i) occupied.add(store.wrappedPosition(i));
   return occupied;
 }

@@ -65,8 +65,8 @@ class NearBox {
 /// Particles, by their places in the store, in a box around some places with `margin` m to spare: all that are as near
 /// as that to one of them, and others.
 std::vector<uint32_t> rowsNear(const ParticleStore& store, std::span<const api::Double3> places, double margin);
-/// The places of a store's particles, and room for `more`.
-OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance, size_t more);
+/// The places of a store's particles; `clearance` in m.
+OccupiedPlaces occupiedPlaces(const ParticleStore& store, double clearance);
 /// Leaves out positions that have a live particle (or an earlier one of the list) within `clearance` m.
 std::vector<api::Double3> freePositions(const ParticleStore& store, const std::vector<api::Double3>& positions,
                                         double clearance);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sketch/matterbrush.h"
 
-#include "core/base/shorttext.h"
-#include "core/sketch/symmetry.h"
-
-#include <optional>
-#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -30,17 +27,10 @@ std::vector<api::Touch> touchesOf(const api::BrushPlugin& brush, const StrokeSet
                                   std::span<const api::StrokeSample> samples) {
   const auto* matter = static_cast<const api::MatterBrush*>(brush.extension(api::kTouchesMatter));
   if (!matter) throw BrushFault("it does not say how it touches matter");
-  const api::StrokeContext own = contextOf(setup);
-  const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
   TouchList list;
-  for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
-    const std::vector<api::StrokeSample> copies = imageOf(all, image);
-    api::StrokeContext context = imageOf(own, image);
-    const std::optional<SeenMatter> seen = seenBy(brush, setup, context, copies);
-    const api::NearMatter near = seen ? seen->view() : api::NearMatter{};
-    if (seen) context.matter = &near;
-    askBrush([&] { matter->touch(context, kind, api::listOf(copies.data(), copies.size()), list); });
-  }
+  askBrush(brush, setup, samples, [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
+    matter->touch(context, kind, copies, list);
+  });
   return list.result();
 }
 

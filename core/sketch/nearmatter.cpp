@@ -34,6 +34,13 @@ api::NearMatter SeenMatter::view() const {
           phase.data(),    motion.data(),   body.data(),        material.data()};
 }
 
+Vector3 imageNear(const Period& period, const Vector3& place, const Vector3& centre) {
+  if (!period.any()) return place;
+  api::Float4 away = float4Of(place - centre, 0);
+  period.shorten(away.x, away.y, away.z);
+  return centre + vectorOf(away);
+}
+
 std::optional<SeenMatter> seenBy(const api::BrushPlugin& brush, const StrokeSetup& setup,
                                  const api::StrokeContext& context, std::span<const api::StrokeSample> samples) {
   const auto* seeing = static_cast<const api::SeeingBrush*>(brush.extension(api::kSeesMatter));

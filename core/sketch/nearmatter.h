@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/math/vector.h"
+#include "core/particles/period.h"
 
 #include <phasesketch/brush.h>
 
@@ -25,6 +26,9 @@ struct SeenMatter {
 
 /// What lies within a radius (m) of a place of the scene. Asked by the thread that asks the brush.
 using MatterWithin = std::function<SeenMatter(const Vector3& centre, double radius)>;
+
+/// A place of the scene, m, or where space repeats itself the image of it that is nearest to a centre.
+Vector3 imageNear(const Period& period, const Vector3& place, const Vector3& centre);
 
 /// m, the farthest that a brush may see.
 inline constexpr double kFarthestSeen = 10;

@@ -214,31 +214,34 @@ api::StrokeContext contextOf(const StrokeSetup& setup) {
   return context;
 }
 
-void askBrush(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error&) {  // of what collects its answer
-    throw;
-  } catch (const std::exception& error) {
-    throw BrushFault(shortText(error.what()));
-  } catch (...) {
-    throw BrushFault("it threw something that is no std::exception");
-  }
-}
-
-StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
-                       std::span<const api::StrokeSample> samples) {
+void askBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, std::span<const api::StrokeSample> samples,
+              const BrushCall& call) {
   const api::StrokeContext own = contextOf(setup);
   const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
-  Collector collector;
   for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
     const std::vector<api::StrokeSample> copies = imageOf(all, image);
     api::StrokeContext context = imageOf(own, image);
     const std::optional<SeenMatter> seen = seenBy(brush, setup, context, copies);
     const api::NearMatter matter = seen ? seen->view() : api::NearMatter{};
     if (seen) context.matter = &matter;
-    askBrush([&] { brush.stroke(context, kind, api::listOf(copies.data(), copies.size()), collector); });
+    try {
+      call(context, api::listOf(copies.data(), copies.size()));
+    } catch (const Error&) {  // of what collects its answer
+      throw;
+    } catch (const std::exception& error) {
+      throw BrushFault(shortText(error.what()));
+    } catch (...) {
+      throw BrushFault("it threw something that is no std::exception");
+    }
   }
+}
+
+StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                       std::span<const api::StrokeSample> samples) {
+  Collector collector;
+  askBrush(brush, setup, samples, [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
+    brush.stroke(context, kind, copies, collector);
+  });
   return collector.result();
 }
 

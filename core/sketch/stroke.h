@@ -7,6 +7,7 @@
 
 #include <phasesketch/brush.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,9 +78,6 @@ class BrushFault : public Error {
   using Error::Error;
 };
 
-/// Calls a brush: what it throws is a BrushFault from there on. An Error is the host's own, and goes on as it is.
-void askBrush(const std::function<void()>& call);
-
 /// Cells that one stroke may touch before it is refused: about 2 GB of particles.
 inline constexpr size_t kMaxStrokeCells = size_t{1} << 23;
 
@@ -93,6 +91,13 @@ Matrix3 turnMatrix(const Vector3& turn);
 /// What the brush knows of a stroke, but for the matter that it sees: up, side and front of strokeAxes(). Borrows the
 /// setup's numbers and its stamp.
 api::StrokeContext contextOf(const StrokeSetup& setup);
+
+/// Asks a brush for one copy of a stroke: what it knows of it and sees there, and the samples as they lie there.
+using BrushCall = std::function<void(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples)>;
+/// Calls a brush for each copy by symmetry of dense samples. Throws BrushFault for what the call throws, and for a
+/// reach that no brush may have; an Error is the host's own, and goes on as it is.
+void askBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, std::span<const api::StrokeSample> samples,
+              const BrushCall& call);
 
 /// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than
 /// kMaxStrokeCells, and BrushFault for what the brush itself throws.

@@ -17,7 +17,10 @@ StrokeMaker::StrokeMaker(std::string id, const api::BrushPlugin& brush, StrokeSe
       m_setup(std::move(setup)),
       m_scene(std::move(scene)),
       m_kind(kindOf(brush, erases)),
-      m_resampler(m_setup.grid.spacing) {}
+      m_resampler(m_setup.grid.spacing) {
+  m_filling.expect(1);
+  m_filling.begin("Filling", 1, kMostFlooded);
+}
 
 std::vector<api::Cell> StrokeMaker::add(std::span<const api::StrokeSample> raw) {
   std::vector<api::StrokeSample> dense;

@@ -36,20 +36,11 @@ class StrokeMaker {
   bool asksBrush() const noexcept { return m_asks; }  ///< now; from any thread
   /// What is being filled is given up: add() or lift() throws Cancelled; from any thread.
   void cancel() { m_filling.cancel(); }
-  size_t filled() const { return m_filling.cells(); }  ///< cells that have run full so far, about; from any thread
+  double filled() const { return m_filling.state().done; }  ///< 0..1 of the most that may run full; from any thread
   /// The brush gave cells outside of the scene or in its walls, which are left out; from any thread.
   bool leavesScene() const noexcept { return m_leavesScene; }
 
  private:
-  /// Counts.
-  class Filling : public Progress {
-   public:
-    size_t cells() const { return m_cells; }
-
-   private:
-    void advanced(size_t steps) override { m_cells += steps; }
-    std::atomic<size_t> m_cells{0};
-  };
   StrokeEdits ask(std::span<const api::StrokeSample> samples);
   std::vector<api::Cell> feed(std::vector<api::StrokeSample> samples);
   CellSet floodedFrom(const CellSet& seeds);
@@ -62,7 +53,7 @@ class StrokeMaker {
   StrokeResampler m_resampler;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
   CellSet m_cells;                         ///< that have come so far
-  Filling m_filling;
+  Progress m_filling;                      ///< of all that runs full, as one stage
   std::atomic<bool> m_asks = false, m_leavesScene = false;
 };
 

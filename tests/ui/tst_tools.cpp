@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 
 using namespace ps;
@@ -47,7 +48,10 @@ class TestTools : public ToolTest {
     open(project);
   }
 
-  void cleanup() { close(); }
+  void cleanup() {
+    close();
+    m_fixture.reset();
+  }
 
   void theTableIsWhole() {
     std::set<std::string> ids, keys;
@@ -177,19 +181,10 @@ class TestTools : public ToolTest {
   void aBrushThatFailsIsPutAside() {
     QFETCH(QString, behaviour);
     QFETCH(QString, words);
-    const QTemporaryDir folder;
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        folder.filePath(behaviour + QStringLiteral(".so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    PluginRegistry plugins(options);
-    m_document->setPlugins(&plugins);
-    connect(m_tools.get(), &Toolbox::brushFailed, this, [&](const QString& brush, const QString& problem) {
-      plugins.fault(brush.toStdString(), problem.toStdString());
+    withFixture(behaviour);
+    connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
+      m_fixture->fault(brush.toStdString(), problem.toStdString());
     });
-    BrushSettings brush = m_tools->brush();
-    brush.shape = "fixture.brush";
-    m_tools->setBrush(brush);
     m_tools->activate("brush");
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
@@ -210,50 +205,30 @@ class TestTools : public ToolTest {
     m_engine->reset();
     QTRY_VERIFY(m_engine->snapshot()->revision != now->revision);
     QCOMPARE(m_engine->snapshot()->id.size(), particles);
-    QVERIFY(!plugins.brush("fixture.brush"));
-    QCOMPARE(m_tools->brush().shape, plugins.standard(PluginKind::Brush));
+    QVERIFY(!m_fixture->brush("fixture.brush"));
+    QCOMPARE(m_tools->brush().shape, m_fixture->standard(PluginKind::Brush));
     qputenv("PS_LET_GO", "1");  // what it gives now is dropped
     QTRY_VERIFY(ongoingCalls().empty());
     qunsetenv("PS_LET_GO");
     QCOMPARE(m_document->undoStack().count(), 0);
-    cleanup();  // the plugins go before the document does
   }
 
   /// It is asked how large it is before anything is drawn.
   void aBrushThatDoesNotSayItsSizeIsPutAside() {
-    const QTemporaryDir folder;
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        folder.filePath(QStringLiteral("endless_extent.so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    PluginRegistry plugins(options);
-    m_document->setPlugins(&plugins);
+    withFixture(QStringLiteral("endless_extent"));
     QSignalSpy failed(m_tools.get(), &Toolbox::brushFailed);
-    BrushSettings brush = m_tools->brush();
-    brush.shape = "fixture.brush";
-    m_tools->setBrush(brush);
-    QCOMPARE(m_tools->stamp().first, Vector3(Vector3::Constant(brush.radius)));
+    QCOMPARE(m_tools->stamp().first, Vector3(Vector3::Constant(m_tools->brush().radius)));
     QVERIFY(failed.wait());
     QCOMPARE(failed.front()[0].toString(), QStringLiteral("fixture.brush"));
-    QCOMPARE(m_tools->brush().shape, plugins.standard(PluginKind::Brush));
+    QCOMPARE(m_tools->brush().shape, m_fixture->standard(PluginKind::Brush));
     qputenv("PS_LET_GO", "1");
     QTRY_VERIFY(ongoingCalls().empty());
     qunsetenv("PS_LET_GO");
-    cleanup();
   }
 
   /// It thinks for as long as it wants to: the pointer goes on, and what it gives comes then.
   void aSlowBrushDoesNotStopTheWindow() {
-    const QTemporaryDir folder;
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        folder.filePath(QStringLiteral("endless_brush.so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    PluginRegistry plugins(options);
-    m_document->setPlugins(&plugins);
-    BrushSettings brush = m_tools->brush();
-    brush.shape = "fixture.brush";
-    m_tools->setBrush(brush);
+    withFixture(QStringLiteral("endless_brush"));
     m_tools->activate("brush");
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
@@ -275,20 +250,12 @@ class TestTools : public ToolTest {
     const auto* drawn = std::get_if<VoxelShape>(&m_document->project().bodies.back().shape);
     QVERIFY(drawn);
     QVERIFY(VoxelCanvas(drawn->runs).cells().cells().size() >= static_cast<size_t>(std::lround(0.15 / kSpacing)));
-    cleanup();  // the plugins go before the document does
   }
 
   /// It draws beside the ice and not beyond, and so it does when the sketch is drawn again from its strokes.
   void aBrushSeesTheMatterWithinItsReach() {
-    const QTemporaryDir folder;
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        folder.filePath(QStringLiteral("seeing_brush.so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    PluginRegistry plugins(options);
-    m_document->setPlugins(&plugins);
+    withFixture(QStringLiteral("seeing_brush"));
     BrushSettings brush = m_tools->brush();
-    brush.shape = "fixture.brush";
     brush.drawOn = DrawOn::Level;
     brush.planeAt = 0.03;
     brush.temperature = 263;  // as cold as what it goes by, and yet its own stroke is none of that
@@ -312,23 +279,19 @@ class TestTools : public ToolTest {
     for (const api::Cell& cell : cells.cells()) farthest = std::max(farthest, gridOf(drawn).centreOf(cell).x());
     // The last particle of the ice stands half a spacing within its side; a cell's middle is half a spacing off.
     QVERIFY2(farthest > side && farthest < side + 2 * kSpacing, qPrintable(QString::number(farthest)));
-    const VoxelShape again = redrawnIn(m_document->project(), body.id, drawn, kSpacing, plugins);
+    const VoxelShape again = redrawnIn(m_document->project(), body.id, drawn, kSpacing, *m_fixture);
     QVERIFY(VoxelCanvas(again.runs).cells() == cells);
-    cleanup();  // the plugins go before the document does
+    // Where space repeats itself every 0.45 m, the end of the stroke, 0.4 m away, lies beside the ice as well.
+    Project periodic = m_document->project();
+    periodic.environment.periodic[0] = true;
+    periodic.environment.boundsMinimum.x() = -0.03, periodic.environment.boundsMaximum.x() = 0.42;
+    const VoxelShape both = redrawnIn(periodic, body.id, drawn, kSpacing, *m_fixture);
+    QVERIFY(VoxelCanvas(both.runs).size() > cells.size());
   }
 
   /// The last sample waits for the end of the stroke: what fails there is told as well.
   void aBrushThatFailsAtTheEndIsTold() {
-    const QTemporaryDir folder;
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        folder.filePath(QStringLiteral("throwing_brush.so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    PluginRegistry plugins(options);
-    m_document->setPlugins(&plugins);
-    BrushSettings brush = m_tools->brush();
-    brush.shape = "fixture.brush";
-    m_tools->setBrush(brush);
+    withFixture(QStringLiteral("throwing_brush"));
     m_tools->activate("brush");
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QTRY_VERIFY(m_engine->snapshot());
@@ -343,7 +306,6 @@ class TestTools : public ToolTest {
     QCOMPARE(refused.count(), 1);
     QVERIFY(refused.front()[1].toString().contains(QStringLiteral("no more paint")));
     QCOMPARE(m_document->undoStack().count(), 0);
-    cleanup();  // the plugins go before the document does
   }
 
   void theBrushIsTheStandardOneAndEachIsReached() {
@@ -788,6 +750,19 @@ class TestTools : public ToolTest {
   }
 
  private:
+  /// A brush that behaves so, in hand.
+  void withFixture(const QString& behaviour) {
+    m_folder.emplace();
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
+                        m_folder->filePath(behaviour + QStringLiteral(".so"))));
+    PluginRegistry::Options options;
+    options.extraPaths = {m_folder->path().toStdString()};
+    m_fixture = std::make_unique<PluginRegistry>(options);
+    m_document->setPlugins(m_fixture.get());
+    BrushSettings brush = m_tools->brush();
+    brush.shape = "fixture.brush";
+    m_tools->setBrush(brush);
+  }
   void setGuide(const std::string& key, const Value& value) {
     BrushSettings brush = m_tools->brush();
     setValueOf(brush, key, value);
@@ -810,6 +785,9 @@ class TestTools : public ToolTest {
     if (!key.empty()) brush.parameters[shape].values[key] = value;
     m_tools->setBrush(brush);
   }
+
+  std::optional<QTemporaryDir> m_folder;
+  std::unique_ptr<PluginRegistry> m_fixture;  ///< with which the document goes on
 };
 
 QTEST_GUILESS_MAIN(TestTools)

@@ -9,7 +9,9 @@
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
 #include "ui/tools/handbrush.h"
+#include "ui/tools/sight.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
@@ -72,7 +74,7 @@ class TestTouchTools : public ToolTest {
 
   /// It thinks for as long as it wants to: the pointer goes on, and what it says counts once it comes.
   void aSlowBrushDoesNotStopTheWindow() {
-    takeFixture();
+    takeFixture(QStringLiteral("endless_touch"));
     m_engine->play();
     Tool& tool = m_tools->tool();
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
@@ -100,7 +102,7 @@ class TestTouchTools : public ToolTest {
 
   /// Nor one that never comes back, which is put aside.
   void aBrushThatDoesNotComeBackIsPutAside() {
-    takeFixture();
+    takeFixture(QStringLiteral("endless_touch"));
     m_engine->play();
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     QVERIFY(m_tools->tool().press(at(kTop)));
@@ -115,6 +117,44 @@ class TestTouchTools : public ToolTest {
     QTRY_VERIFY(ongoingCalls().empty());
     qunsetenv("PS_LET_GO");
     QCOMPARE(heaters(), 0.0);
+  }
+
+  /// It heats all of the block where the hand is on it, and nothing of it where it sees none; once the hand has let go
+  /// nothing that it saw is kept.
+  void aHandSeesTheMatterWithinItsReach() {
+    takeFixture(QStringLiteral("seeing_touch"));
+    take("fixture.touch", 1);
+    m_engine->play();
+    Tool& tool = m_tools->tool();
+    const auto hold = [&](const Vector3& place) {
+      QVERIFY(tool.press(at(place)));
+      const double start = time();
+      QVERIFY(QTest::qWaitFor([&] { return time() > start + 0.1; }));
+      tool.release(at(place));
+    };
+    hold(Vector3(0.4, 0, 0.4));
+    QCOMPARE(heaters(), 0.0);
+    const std::weak_ptr<const Snapshot> seen = m_engine->snapshot();
+    hold(kTop);
+    QVERIFY(heaters() > 0);
+    QTRY_VERIFY(seen.expired());
+  }
+
+  /// Through a face of a periodic box too: the nearest image of what is there.
+  void whatIsSeenLiesAroundTheHand() {
+    Snapshot scene;
+    for (const Vector3& place : {Vector3(0.95, 0, 0), Vector3(0.8, 0, 0), Vector3(-0.95, 0.95, 0)}) {
+      scene.position.push_back(float4Of(place, 0.01F));
+      scene.temperature.push_back(300), scene.speed.push_back(0), scene.body.push_back(0), scene.material.push_back(0);
+      scene.phase.push_back(api::Phase::Solid), scene.motion.push_back(api::Motion::Solid);
+    }
+    const Vector3 hand(-0.95, 0, 0);
+    QVERIFY(seenIn(scene, hand, 0.15).position.empty());
+    scene.period = Period({-1, -1, -1}, {1, 1, 1}, {true, false, false});
+    const SeenMatter seen = seenIn(scene, hand, 0.15);
+    QCOMPARE(seen.position.size(), size_t{1});
+    QVERIFY((vectorOf(seen.position[0]) - Vector3(-1.05, 0, 0)).norm() < 1e-6);  // in single precision
+    QCOMPARE(seen.position[0].w, 0.01F);
   }
 
   void controlDoesTheOpposite() {
@@ -660,15 +700,18 @@ class TestTouchTools : public ToolTest {
   static const Vector3 kTop;
   QTemporaryDir m_folder;
 
-  /// A brush for matter that takes as long as PS_LET_GO is not set, in hand in the same scene.
-  void takeFixture() {
-    const QString file = m_folder.filePath(QStringLiteral("endless_touch.so"));
+  /// A brush for matter that behaves so, in hand in the same scene; an endless one takes as long as PS_LET_GO is not
+  /// set.
+  void takeFixture(const QString& behaviour) {
+    const QDir folder(m_folder.filePath(behaviour));
+    const QString file = folder.filePath(behaviour + QStringLiteral(".so"));
     if (!QFile::exists(file)) {
+      QVERIFY(folder.mkpath(QStringLiteral(".")));
       QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_touch.so"), file));
     }
     close();
     PluginRegistry::Options options;
-    options.extraPaths = {m_folder.path().toStdString()};
+    options.extraPaths = {folder.path().toStdString()};
     m_plugins = std::make_unique<PluginRegistry>(options);
     init();
     connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {

@@ -452,6 +452,14 @@ void TestCli::benchWritesItsKeys() {
   QCOMPARE(ran.out.count(" of before:"), 2);
   QCOMPARE(jsonFile(folder.filePath("c.json"))["compared"].size(), size_t{2});
   QVERIFY(QFileInfo(folder.filePath("t.csv")).size() > 0 && QFileInfo(folder.filePath("p.svg")).size() > 0);
+  // Of few samples too, between which nothing has fallen far.
+  ran = cli({"bench", "sketch", "--particles", "4000", "--frames", "8", "--json", folder.filePath("s.json")});
+  QVERIFY2(ran.code == 0, ran.err.constData());
+  const nlohmann::json sketch = jsonFile(folder.filePath("s.json"))["scenes"][0];
+  QCOMPARE(keysOf(sketch), (Keys{"name", "particles", "threads", "ms", "edits"}));
+  QCOMPARE(keysOf(sketch["edits"]), (Keys{"draws liquid", "draws ice", "cuts", "welds", "erases", "paints", "tints",
+                                          "heats", "pushes", "holds"}));
+  for (const nlohmann::json& edit : sketch["edits"]) QCOMPARE(keysOf(edit), (Keys{"median", "p95", "limit"}));
 }
 
 void TestCli::recordingsAreDrawn() {

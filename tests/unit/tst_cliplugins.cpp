@@ -83,6 +83,7 @@ void TestCliPlugins::pluginsAreTried_data() {
   row("neighbour", "sound_neighbour", 0, ": fine: constraint 'fixture.neighbour'");
   row("source", "sound_source", 0, ": fine: heat_source 'fixture.source'");
   row("material", "sound_material", 0, ": fine: material 'fixture.material'");
+  row("brush", "seeing_brush", 0, ": fine: brush 'fixture.brush'");
   row("constraint", "wide_constraint", 1, "2 to 4 particles, not 9");
   row("constraint", "nan_constraint", 1, "plugin 'fixture.constraint' moved it");
   row("constraint", "throwing_topology", 1, "no more bonds");

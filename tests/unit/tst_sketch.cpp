@@ -480,6 +480,11 @@ class TestSketch : public QObject {
     cells.remove(replayStroke(ball, eraser, grid).removed.cells());
     QVERIFY(VoxelCanvas(again.runs).cells() == cells);
     for (const VoxelShape::Run& run : again.runs) QCOMPARE(run.palette, 1);
+    // A hidden stroke draws nothing, and its brush may be missing.
+    shape.strokes[1].hidden = true;
+    shape.strokes[1].brush = "gone";
+    QVERIFY(VoxelCanvas(redrawn(shape, 1, all, brushOf).runs).cells() == replayStroke(ball, stroke, grid).added);
+    shape.strokes[1] = eraser;
     // What others hold stays free; the order of strokes counts; half the spacing has eight times the cells, nearly.
     const FreeOf butTwo = [](const SketchGrid&, CellSet some) {
       some.remove(cellsOf({{0, 0, 0}, {1, 0, 0}}).cells());

@@ -3,13 +3,13 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/scene/pose.h"
+#include "core/scene/shownname.h"
+#include "core/simulation/compile.h"
 #include "core/sketch/redraw.h"
 #include "core/sketch/stroke.h"
 #include "ui/document/strokerecord.h"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -17,40 +17,41 @@
 namespace ps {
 namespace {
 
-/// Matter of one body at the start, its cells' middles, within a radius (m) of a place.
-void addSeen(const Project& project, const VoxelShape& voxels, uint32_t body, const Vector3& centre, double radius,
+/// Matter of one body at the start, its cells' middles, within a radius (m) of a place; in a periodic box its nearest
+/// images.
+void addSeen(const Project& project, const VoxelShape& voxels, size_t body, const Vector3& centre, double radius,
              SeenMatter& seen) {
+  const Environment& environment = project.environment;
+  const Period period(double3Of(environment.boundsMinimum), double3Of(environment.boundsMaximum), environment.periodic);
   const SketchGrid grid = gridOf(voxels);
   const auto rest = static_cast<float>(voxels.spacing * std::cbrt(3 / (4 * std::numbers::pi)));
   for (const VoxelShape::Run& run : voxels.runs) {
     const VoxelShape::Paint& paint = voxels.palette.at(static_cast<size_t>(run.palette));
-    const auto material = std::find_if(project.materials.begin(), project.materials.end(),
-                                       [&](const SceneMaterial& one) { return one.id == paint.material; });
+    const uint32_t material = materialIndex(project, paint.material, shownName(project.bodies[body]));
     for (int k = 0; k < run.length; ++k) {
-      const Vector3 place = grid.centreOf({run.x + k, run.y, run.z});
+      const Vector3 place = imageNear(period, grid.centreOf({run.x + k, run.y, run.z}), centre);
       if (!((place - centre).squaredNorm() <= radius * radius)) continue;
       seen.position.push_back(float4Of(place, rest));
       seen.temperature.push_back(static_cast<float>(paint.temperature));
       seen.speed.push_back(0);
       seen.phase.push_back(api::Phase::Solid);
       seen.motion.push_back(api::Motion::Solid);
-      seen.body.push_back(body);
-      seen.material.push_back(static_cast<uint32_t>(material - project.materials.begin()));
+      seen.body.push_back(static_cast<uint32_t>(body));
+      seen.material.push_back(material);
     }
   }
 }
 
 /// What brushes see while the sketch of a body is drawn again: the other bodies are made into cells when first asked.
 MatterBeside matterBeside(const Project& project, const std::string& body, double spacing) {
-  auto others = std::make_shared<std::vector<std::optional<VoxelShape>>>();
-  return [&project, body, spacing, others](const VoxelShape& soFar, const Vector3& centre, double radius) {
+  std::vector<std::optional<VoxelShape>> others(project.bodies.size());
+  return [&project, body, spacing, others](const VoxelShape& soFar, const Vector3& centre, double radius) mutable {
     const std::vector<Body>& bodies = project.bodies;
     SeenMatter seen;
-    others->resize(bodies.size());
     for (size_t b = 0; b < bodies.size(); ++b) {
-      std::optional<VoxelShape>& voxels = (*others)[b];
+      std::optional<VoxelShape>& voxels = others[b];
       if (bodies[b].id != body && !voxels) voxels = std::get<VoxelShape>(asVoxels(bodies[b], spacing).shape);
-      addSeen(project, voxels ? *voxels : soFar, static_cast<uint32_t>(b), centre, radius, seen);
+      addSeen(project, voxels ? *voxels : soFar, b, centre, radius, seen);
     }
     return seen;
   };

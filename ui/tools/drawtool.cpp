@@ -52,7 +52,8 @@ void DrawTool::hover(const Pointer& pointer) {
   const Environment& environment = box().document().project().environment;
   BrushCursor cursor;
   cursor.erase = !touches() && erases(pointer);
-  if (const auto plane = planeFor(box().brush(), pointer); plane && !cursor.erase && !meetsMatter()) {
+  const bool draws = !cursor.erase && !meetsMatter();
+  if (const auto plane = planeFor(box().brush(), pointer); plane && draws) {
     m_plane = *plane;
     const auto point = placeOf(pointer);
     if (!point) return;
@@ -64,13 +65,13 @@ void DrawTool::hover(const Pointer& pointer) {
     cursor.centre = surface->point;
   }
   std::tie(cursor.extent, cursor.box) = box().stamp(m_plane.normal);
-  if (!cursor.erase && !meetsMatter() && box().brush().drawOn == DrawOn::Surface) {
+  if (draws && box().brush().drawOn == DrawOn::Surface) {
     // A brush stands on the surface instead of half inside it.
     m_lift = m_plane.normal.cwiseProduct(cursor.extent);
     cursor.centre += m_lift;
     m_plane.point = cursor.centre;
   }
-  if (!cursor.erase && !meetsMatter()) {
+  if (draws) {
     if (const auto place = snapped(pointer, cursor.centre)) m_plane.point = cursor.centre = *place;
     if (!m_snapped.isEmpty() && box().brush().snapTo != SnapTo::Grid) m_lift = {0, 0, 0};
   }

@@ -130,18 +130,6 @@ std::pair<Vector3, double> nearestOn(const Vector3& a, const Vector3& b, const R
   return {place, (ray.origin + ahead * ray.direction - place).norm()};
 }
 
-/// The ways of a stroke, and of its copies, where the document has them.
-std::vector<std::vector<Vector3>> waysOf(const VoxelShape& sketch, const VoxelShape::Stroke& stroke) {
-  const RigidMove pose = poseOf(sketch);
-  std::vector<std::vector<Vector3>> ways;
-  for (const SketchImage& image : imagesOf(stroke.symmetry.value_or(VoxelShape::Symmetry{}))) {
-    std::vector<Vector3>& way = ways.emplace_back();
-    for (const auto& sample : stroke.samples)
-      way.push_back(pose.of(Vector3(image.of({sample[0], sample[1], sample[2]}))));
-  }
-  return ways;
-}
-
 /// Keeps what is nearest within a reach.
 class Nearest {
  public:
@@ -187,12 +175,19 @@ std::optional<StrokeSnap> strokeSnap(const BrushSettings& brush, const Project& 
   for (const Body& body : project.bodies) {
     const auto* sketch = std::get_if<VoxelShape>(&body.shape);
     if (!sketch || !body.visible) continue;
+    const RigidMove pose = poseOf(*sketch);
     for (const VoxelShape::Stroke& stroke : sketch->strokes) {
       if (stroke.erase || stroke.hidden || stroke.samples.empty()) continue;
-      for (const std::vector<Vector3>& way : waysOf(*sketch, stroke)) {
-        for (const Vector3& end : {way.front(), way.back()}) ends.see(nearestOn(end, end, ray), true);
-        for (size_t k = 1; k < way.size() && brush.snapTo == SnapTo::Strokes; ++k)
-          anywhere.see(nearestOn(way[k - 1], way[k], ray), false);
+      for (const SketchImage& image : imagesOf(stroke.symmetry.value_or(VoxelShape::Symmetry{}))) {
+        const auto place = [&](const auto& sample) { return pose.of(image.of({sample[0], sample[1], sample[2]})); };
+        Vector3 from = place(stroke.samples.front());
+        const Vector3 last = place(stroke.samples.back());
+        for (const Vector3& end : {from, last}) ends.see(nearestOn(end, end, ray), true);
+        for (size_t k = 1; k < stroke.samples.size() && brush.snapTo == SnapTo::Strokes; ++k) {
+          const Vector3 to = place(stroke.samples[k]);
+          anywhere.see(nearestOn(from, to, ray), false);
+          from = to;
+        }
       }
     }
   }

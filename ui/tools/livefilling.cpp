@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of LiveStroke that lets hollows run full.
 #include "core/simulation/lattice.h"
-#include "core/sketch/flooding.h"
 #include "ui/session/scenelink.h"
 #include "ui/tools/livestroke.h"
 #include "ui/tools/strokethread.h"
 #include "ui/tools/toolbox.h"
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -40,8 +38,7 @@ bool LiveStroke::end() {
 }
 
 void LiveStroke::tellOfEnd() {
-  const size_t percent = 100 * m_thread->filled() / kMostFlooded;
-  m_box.work(QStringLiteral("filling, of the most that may run full"), static_cast<int>(std::min<size_t>(99, percent)));
+  m_box.work(QStringLiteral("filling, of the most that may run full"), static_cast<int>(99 * m_thread->filled()));
 }
 
 void LiveStroke::stopEnding() {

@@ -162,6 +162,7 @@ QString LiveTouch::finish() {
     problem = goOn(kBrushLook);
   if (m_record && m_call.valid()) return fail(kNotBack);
   if (!m_record) return problem;  // the brush failed
+  m_sight.show(nullptr);          // which keeps a whole scene
   const std::shared_ptr<StrokeRecord> record = std::exchange(m_record, nullptr);
   if (m_keeps) m_box.document().addStroke(record);
   return problem;
@@ -174,6 +175,7 @@ void LiveTouch::cancel() {
   m_call = {};  // it goes on, and what it gives is dropped
   m_way.clear();
   m_waits = false;
+  m_sight.show(nullptr);
   if (m_box.link()) m_box.link()->cancel(record);
 }
 

@@ -24,11 +24,9 @@ MatterWithin Sight::matterWithin() const {
 SeenMatter seenIn(const Snapshot& scene, const Vector3& centre, double radius) {
   SeenMatter seen;
   for (size_t i = 0; i < scene.position.size(); ++i) {
-    const api::Float4& place = scene.position[i];
-    api::Float4 away = float4Of(vectorOf(place) - centre, 0);
-    scene.period.shorten(away.x, away.y, away.z);
-    if (!(vectorOf(away).squaredNorm() <= radius * radius)) continue;
-    seen.position.push_back(scene.period.any() ? float4Of(centre + vectorOf(away), place.w) : place);
+    const Vector3 place = imageNear(scene.period, vectorOf(scene.position[i]), centre);
+    if (!((place - centre).squaredNorm() <= radius * radius)) continue;
+    seen.position.push_back(float4Of(place, scene.position[i].w));
     seen.temperature.push_back(scene.temperature[i]);
     seen.speed.push_back(scene.speed[i]);
     seen.phase.push_back(scene.phase[i]);

@@ -130,7 +130,7 @@ bool StrokeThread::wait() {
 
 bool StrokeThread::asksBrush() const { return m_shared->maker->asksBrush(); }
 
-size_t StrokeThread::filled() const { return m_shared->maker->filled(); }
+double StrokeThread::filled() const { return m_shared->maker->filled(); }
 
 bool StrokeThread::leavesScene() const { return m_shared->maker->leavesScene(); }
 

@@ -36,7 +36,7 @@ class StrokeThread {
   bool asksBrush() const;    ///< it is the brush that works now
   bool leavesScene() const;  ///< see StrokeMaker
   size_t places() const;     ///< of those that were added: how many have been drawn
-  size_t filled() const;     ///< see StrokeMaker
+  double filled() const;     ///< see StrokeMaker
 
  private:
   struct Shared;

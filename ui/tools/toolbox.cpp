@@ -321,14 +321,14 @@ const std::string* further(const std::vector<std::string>& ring, const std::stri
 }
 
 void Toolbox::layPlane(const Pointer& pointer, bool acrossView) {
+  const QString refusal = QStringLiteral("No plane was laid.");
   BrushSettings brush = m_brush;
   if (acrossView) {
     brush.plane = FreePlane::across(pointer.target, -pointer.forward);
   } else {
     const auto surface = surfaceUnder(pointer, m_document.project().environment);
     if (!surface || surface->normal.isZero())
-      return refuse(QStringLiteral("No plane was laid."),
-                    QStringLiteral("The pointer is on no matter, nor on a floor."));
+      return refuse(refusal, QStringLiteral("The pointer is on no matter, nor on a floor."));
     const Vector3 normal = matterOn(pointer) ? facingAt(pointer, surface->point) : surface->normal;
     const Vector3 half = stamp(normal).first.cwiseProduct(normal);
     brush.plane = FreePlane::across(surface->point + half.norm() * normal, normal);
@@ -336,6 +336,7 @@ void Toolbox::layPlane(const Pointer& pointer, bool acrossView) {
   brush.drawOn = DrawOn::Plane;
   setBrush(brush);
   if (!tool().usesBrush()) activate(kBrushTool);
+  refuse(refusal, {});  // what was said before is over
 }
 
 void Toolbox::stepShape(int by) {
