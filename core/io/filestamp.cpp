@@ -20,16 +20,30 @@ FileStamp stampAt(const std::string& path) {
   return ::stat(path.c_str(), &info) == 0 ? stampOf(info) : FileStamp{};
 }
 
+FileStamp stampOfBytes(const std::string& path) {
+  FileStamp stamp = stampAt(path);
+  try {
+    if (stamp.known) stamp.hash = hashOf(readFile(path, kMaximumProjectBytes));
+  } catch (const InputError&) {
+    stamp.hash = 0;
+  }
+  return stamp;
+}
+
 uint64_t hashOf(std::string_view bytes) {
   Hash hash;
   hash.add(bytes.data(), bytes.size());
   return hash.value();
 }
 
+bool isUntouched(const FileStamp& a, const FileStamp& b) {
+  return a.known && b.known && a.size == b.size && a.inode == b.inode && a.time == b.time;
+}
+
 bool holdsStamped(const std::string& path, const FileStamp& stamp) {
   const FileStamp now = stampAt(path);
   if (!now.known || !stamp.known || now.size != stamp.size) return false;
-  if (now.inode == stamp.inode && now.time == stamp.time) return true;
+  if (isUntouched(now, stamp)) return true;
   try {
     return hashOf(readFile(path, kMaximumProjectBytes)) == stamp.hash;
   } catch (const InputError&) {

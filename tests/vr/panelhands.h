@@ -65,15 +65,21 @@ class PanelsTest : public VrWindowTest {
     m_window->action(QStringLiteral("simulation.tryVr"))->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 2, kLong);
   }
-  /// A right hand that points at a place of a widget of a panel, by its beam or by its tip.
-  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0,
-          bool byTip = false) {
-    QWidget* on = panels().widget(panel);
+  /// Where a place of a widget is on its panel: 0..1 right and down from the upper left corner.
+  QPointF shareOf(size_t panel, const QWidget& widget, const QPointF& place) {
+    const QWidget* on = panels().widget(panel);
     const QPointF there = place + widget.mapTo(on, QPoint(0, 0));
+    return {there.x() / on->width(), there.y() / on->height()};
+  }
+  QPointF middleOf(size_t panel, const QWidget& widget) {
+    return shareOf(panel, widget, QRectF(widget.rect()).center());
+  }
+  /// The beam of a right hand points at a place of a widget of a panel.
+  void at(size_t panel, const QWidget& widget, const QPointF& place, bool pressed, double steer = 0) {
+    const QPointF there = shareOf(panel, widget, place);
     vr::HandsSeen seen;
     seen.seconds = m_seconds += 1;
-    seen.hands[vr::kRight].panel =
-        vr::PanelPoint{panel, there.x() / on->width(), there.y() / on->height(), 1, byTip, pressed};
+    seen.hands[vr::kRight].panel = vr::PanelPoint{panel, there.x(), there.y(), 1, false, pressed};
     seen.hands[vr::kRight].input.steerY = steer;
     panels().act(seen);
   }
@@ -105,10 +111,9 @@ class PanelsTest : public VrWindowTest {
   QString boardKey(int frame, const QWidget& widget, const QPointF& at, bool byTip, bool presses,
                    const QString& inputs = {}) {
     constexpr double kBefore = 0.025, kThrough = -0.004;  // m, of a tip from the board
-    const QWidget* board = panels().widget(vr::kBoard);
-    const QPointF there = at + widget.mapTo(board, QPoint(0, 0));
+    const QPointF there = shareOf(vr::kBoard, widget, at);
     const vr::Panels::Place& place = boardPlace();
-    const Vector3 to = place.at(there.x() / board->width(), there.y() / board->height());
+    const Vector3 to = place.at(there.x(), there.y());
     const Vector3 front = place.pose.orientation * Vector3::UnitZ();
     if (!byTip) return key(frame, "right", pointing({0.3, 1.15, 0.1}, to), trigger(presses) + inputs);
     return key(frame, "right", pointing(to + ((presses ? kThrough : kBefore) + vr::kTip) * front, to), inputs);

@@ -37,20 +37,8 @@ Box boxOfCells(const Body& body) {
   return box;
 }
 
-constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
 constexpr const char* kVive = "/interaction_profiles/htc/vive_controller";
 constexpr int kShortly = 5, kForLong = 40;  // frames of 20 ms, that a button is pressed
-
-/// A script with other controllers.
-std::string withProfile(const std::string& script, const QString& profile) {
-  return QString::fromStdString(script).replace(QString::fromLatin1(kTouch), profile).toStdString();
-}
-
-/// Keys of a script: from a frame on neither hand is there.
-QString awayFrom(int frame) {
-  return QString(kHandsAway)
-      .replace(QStringLiteral("\"frame\": 1"), QStringLiteral("\"frame\": %1").arg(QString::number(frame)));
-}
 
 }  // namespace
 
@@ -391,10 +379,9 @@ void VrHandsTest::aGripLeadsABodyAndFeelsWhatPressesOnIt() {
   QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->position.size() == idsNow(session()).size(), kLong);
   const auto middle = [&] { return SolidForm(std::get<SolidShape>(document().body(id)->shape)).middle(); };
   {
-    const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
-    const QString open = QStringLiteral(R"(, "/input/squeeze/value": 0)");
-    const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, open) + tipKey(20, "right", s, from, held) +
-                                           tipKey(110, "right", s, to, held) + tipKey(180, "right", s, to, open)));
+    const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, kHoldsNothing) +
+                                           tipKey(20, "right", s, from, kHolds) + tipKey(110, "right", s, to, kHolds) +
+                                           tipKey(180, "right", s, to, kHoldsNothing)));
     session().play();
     action()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(m_window->selection().items(), (std::vector<SelectedItem>{{OutlineKind::Body, id}}),
@@ -501,15 +488,14 @@ void VrHandsTest::bothGripsCarryWhatTheEyesSee() {
   const std::array<Vector3, 2> to{Vector3(-0.1, 1.15, -0.3), Vector3(0.38, 1.15, -0.15)};
   const vr::Stand after = vr::carried(stand(), from, to);
   QVERIFY(after.scale > 1.2 * stand().scale && after.turn < stand().turn - 0.2);
-  const QString held = QStringLiteral(R"(, "/input/squeeze/value": 1)");
-  const QString open = QStringLiteral(R"(, "/input/squeeze/value": 0)");
   const auto both = [](int frame, const std::array<Vector3, 2>& places, const QString& inputs) {
     return key(frame, "left", {places[vr::kLeft], Quaternion::Identity()}, inputs) +
            key(frame, "right", {places[vr::kRight], Quaternion::Identity()}, inputs);
   };
   const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [110])"),
-                                 both(5, from, open) + both(20, from, held) + both(30, from, held) +
-                                     both(60, to, held) + both(70, to, held) + both(75, to, open) + awayFrom(80)));
+                                 both(5, from, kHoldsNothing) + both(20, from, kHolds) + both(30, from, kHolds) +
+                                     both(60, to, kHolds) + both(70, to, kHolds) + both(75, to, kHoldsNothing) +
+                                     awayFrom(80)));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 112, kLong);
   leave();

@@ -2,6 +2,7 @@
 // What a window shows of the headset's picture, by itself and in the editor; neither waits for the other.
 #include <epoxy/gl.h>
 
+#include "tests/vr/plate.h"
 #include "tests/vr/vrwindow.h"
 #include "ui/session/preferences.h"
 #include "ui/vr/mirror.h"
@@ -16,41 +17,6 @@
 using namespace ps;
 
 namespace {
-
-/// A picture with storage of its own, as a headset's runtime has it, or a window.
-struct Plate {
-  Plate(GLenum format, int width, int height) : size{width, height} {
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-    glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  }
-  ~Plate() {
-    glDeleteFramebuffers(1, &framebuffer);
-    glDeleteTextures(1, &texture);
-  }
-  /// One colour of the left half, another one of the right.
-  void fill(const std::array<int, 3>& left, const std::array<int, 3>& right) const {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glEnable(GL_SCISSOR_TEST);
-    for (const auto& [colour, x] : {std::pair{left, 0}, {right, size.width / 2}}) {
-      glScissor(x, 0, size.width / 2, size.height);
-      glClearColor(float(colour[0]) / 255, float(colour[1]) / 255, float(colour[2]) / 255, 1);
-      glClear(GL_COLOR_BUFFER_BIT);
-    }
-    glDisable(GL_SCISSOR_TEST);
-  }
-  std::array<int, 3> at(int x, int y) const {
-    std::array<uint8_t, 4> pixel{};
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
-    return {pixel[0], pixel[1], pixel[2]};
-  }
-  GLuint texture = 0, framebuffer = 0;
-  PictureSize size;
-};
 
 constexpr std::array<int, 3> kRed{200, 30, 7}, kBlue{11, 60, 180}, kGrey{100, 101, 102}, kBlack{0, 0, 0};
 

@@ -4,13 +4,13 @@
 
 #include "core/io/projectio.h"
 #include "core/simulation/enginethread.h"
+#include "tests/vr/plate.h"
 #include "tests/vr/stay.h"
 #include "tests/vr/vrwindow.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/preferences.h"
 #include "ui/vr/livescene.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 
 #include <algorithm>
@@ -25,8 +25,6 @@
 using namespace ps;
 
 namespace {
-
-size_t threads() { return static_cast<size_t>(QDir(QStringLiteral("/proc/self/task")).entryList(QDir::Dirs).size()); }
 
 /// What an eye of the script's head sees, as rows of RGBA8 from the top.
 using Seen = std::vector<uint8_t>;
@@ -50,19 +48,11 @@ SnapshotPtr after(const Snapshot& start, double seconds) {
 
 /// By a headset's scene, in the context that is current.
 Seen seenBy(vr::HeadsetScene& scene) {
-  GLuint texture = 0, framebuffer = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, kSide, kSide);
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  scene.draw(vr::kLeft, scriptEye(false), {framebuffer, 0, 0, {kSide, kSide}});
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  const Plate eye(GL_RGBA8, kSide, kSide);
+  scene.draw(vr::kLeft, scriptEye(false), {eye.framebuffer, 0, 0, eye.size});
+  glBindFramebuffer(GL_FRAMEBUFFER, eye.framebuffer);
   Seen fromBelow(kRow * kSide), seen;
   glReadPixels(0, 0, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE, fromBelow.data());
-  glDeleteFramebuffers(1, &framebuffer);
-  glDeleteTextures(1, &texture);
   for (auto end = fromBelow.end(); end != fromBelow.begin(); end -= static_cast<ptrdiff_t>(kRow))
     seen.insert(seen.end(), end - static_cast<ptrdiff_t>(kRow), end);
   return seen;
@@ -139,9 +129,7 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
 /// picture without one are the same; they may round otherwise.
 void VrModeTest::eyesShowWhatTheViewShows() {
   backToTheStart();
-  const ScriptedRun run(
-      vrScript(QStringLiteral(R"(, "pictures": [30])"), QStringLiteral(R"(, {"frame": 1, "left": {"active": false},
-                                                        "right": {"active": false}})")));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [30])"), kHandsAway));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 32, kLong);
   leave();
@@ -401,7 +389,7 @@ void VrModeTest::whatIsSavedIsSaid() {
 /// The window goes on, says so, and is not kept when it leaves. VR can be entered again once the runtime is back.
 void VrModeTest::aRuntimeThatHangsIsLeft() {
   const std::string before = writeProject(document().project());
-  const size_t alone = threads();
+  const size_t alone = countThreads();
   const ScriptedRun run(
       vrScript(QStringLiteral(R"(, "events": [{"frame": 20, "hangs": "xrWaitFrame", "milliseconds": 30000}])")));
   enter();
@@ -419,7 +407,7 @@ void VrModeTest::aRuntimeThatHangsIsLeft() {
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(!vr().active(), kLong);
   QVERIFY2(status().contains(QStringLiteral("still keeps the last stay")), qPrintable(status()));
-  QTRY_COMPARE_WITH_TIMEOUT(threads(), alone, 3 * kLong);
+  QTRY_COMPARE_WITH_TIMEOUT(countThreads(), alone, 3 * kLong);
   QVERIFY(run.lines("violation").empty());
   const ScriptedRun again(vrScript());
   enter();
@@ -468,13 +456,13 @@ void VrModeTest::staysLeaveNothing() {
   const ScriptedRun run(vrScript());
   enter();
   leave();
-  const size_t before = threads(), made = objects();
+  const size_t before = countThreads(), made = objects();
   QVERIFY(made > 0);
   for (int i = 0; i < 50; ++i) {
     enter();
     leave();
   }
-  QTRY_COMPARE(threads(), before);
+  QTRY_COMPARE(countThreads(), before);
   QTRY_VERIFY2_WITH_TIMEOUT(objects() < made + 25,
                             qPrintable(QStringLiteral("%1, after one stay %2").arg(objects()).arg(made)), kLong);
   QVERIFY(run.lines("violation").empty());

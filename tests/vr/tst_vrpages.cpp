@@ -6,8 +6,11 @@
 #include "ui/curves/responselist.h"
 #include "ui/graphs/graphview.h"
 #include "ui/panels/outliner.h"
+#include "ui/panels/wayout.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/keyrows.h"
 #include "ui/timeline/timeline.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/vrwithout.h"
@@ -49,6 +52,7 @@ class VrPagesTest : public PanelsTest {
   void aGraphIsZoomed_data();
   void aGraphIsZoomed();
   void onePageLeadsToAnother();
+  void rowsReachTheWearer();
 
  private:
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
@@ -57,6 +61,12 @@ class VrPagesTest : public PanelsTest {
     auto* one = board ? board->findChild<Transport*>() : nullptr;
     if (one) one->setDuration(kDuration);
     return one;
+  }
+  /// Whether the board says something that begins so.
+  bool noted(const QString& text) {
+    const auto labels = panels().widget(vr::kBoard)->findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const QLabel* label) { return label->isVisible() && label->text().startsWith(text); });
   }
 };
 
@@ -77,38 +87,18 @@ void VrPagesTest::theTimelineIsScrubbed() {
   session().recorded().showNewest();
   QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kFrames, kLong);
 
-  enterWithout();
-  panels().showPage(QStringLiteral("Transport"));
-  const vr::HeadsetView view = painted();
-  const QWidget* board = panels().widget(vr::kBoard);
-  QVERIFY(transport());
-  const auto shareOf = [&](uint64_t frame) {
-    const QPointF at = transport()->mapTo(board, transport()->placeOf(double(frame) / 60));
-    return QPointF(at.x() / board->width(), at.y() / board->height());
-  };
-  const QPointF from = shareOf(kFrom), to = shareOf(kTo);
-  leaveAtLast();
-  vr::Panels geometry;
-  geometry.follow(frameOf({}, {}), view);
-  const auto place = geometry.place(vr::kBoard);
-  QVERIFY(place);
-  const Vector3 front = place->pose.orientation * Vector3::UnitZ();
-  const auto handAt = [&](const QPointF& share, double before) {
-    const Vector3 at = place->at(share.x(), share.y());
-    return byTip ? pointing(at + (before + vr::kTip) * front, at) : pointing({0.3, 1.15, 0.1}, at);
-  };
-  const double away = 0.025, through = -0.004;  // m before the board
-  const auto pulled = [&](int value) { return byTip ? QString() : trigger(value); };
-  const ScriptedRun run(vrScript(
-      QStringLiteral(R"(, "pictures": [150])"),
-      key(5, "right", handAt(from, away)) + key(100, "right", handAt(from, away), pulled(0)) +
-          key(110, "right", handAt(from, through), pulled(1)) + key(140, "right", handAt(to, through), pulled(1)) +
-          key(160, "right", handAt(to, through), pulled(0)) + key(170, "right", handAt(to, away), pulled(0))));
+  ScriptedRun run(vrScript());
   enter();
   panels().showPage(QStringLiteral("Transport"));
+  QTest::qWait(100);
   QVERIFY(transport());
-  QVERIFY2(vr().frames() < 90, "the machine was too slow for the script");
-  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 175, 2 * kLong);
+  const Transport& bar = *transport();
+  const QPointF from = bar.placeOf(double(kFrom) / 60), to = bar.placeOf(double(kTo) / 60);
+  run.goOn(vrScript(QStringLiteral(R"(, "pictures": [70, 100])"),
+                    boardKey(0, bar, from, byTip, false) + boardKey(20, bar, from, byTip, false) +
+                        boardKey(30, bar, from, byTip, true) + boardKey(60, bar, to, byTip, true) +
+                        boardKey(80, bar, to, byTip, true) + boardKey(90, bar, to, byTip, false)));
+  QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{4}, 2 * kLong);  // it is let go by then
   leave();
   QVERIFY(run.lines("violation").empty());
   QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), kTo, kLong);
@@ -116,8 +106,9 @@ void VrPagesTest::theTimelineIsScrubbed() {
   QCOMPARE(session().newest()->stats.frame, kFrames);
   QVERIFY(document().undoStack().index() == 0);  // nothing was drawn or edited
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
-  if (!folder.isEmpty()) run.picture(150, 0).save(folder + "/vr-timeline-left.png");
-  if (!folder.isEmpty()) run.picture(150, 1).save(folder + "/vr-timeline-right.png");
+  const auto names = run.texts("picture");
+  for (size_t eye = 0; !folder.isEmpty() && eye < 2; ++eye)
+    QImage(QString::fromStdString(names[eye])).save(folder + QStringLiteral("/vr-timeline-%1.png").arg(eye));
   session().recorded().showNewest();
 }
 
@@ -316,19 +307,56 @@ void VrPagesTest::onePageLeadsToAnother() {
   QTest::qWait(100);
   QVERIFY(panels().widget(vr::kBoard)->findChild<Outliner*>()->isVisible());
   // What is refused is said where its wearer looks, too.
-  const auto noted = [&] {
-    for (const auto* label : panels().widget(vr::kBoard)->findChildren<QLabel*>())
-      if (label->isVisible() && label->text() == QStringLiteral("Nothing was drawn. There is no room.")) return true;
-    return false;
-  };
+  const QString said = QStringLiteral("Nothing was drawn. There is no room.");
   m_window->tools().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("There is no room."));
-  QVERIFY(noted());
+  QVERIFY(noted(said));
   m_window->tools().refuse(QStringLiteral("Nothing was drawn."), {});
-  QVERIFY(!noted());
+  QVERIFY(!noted(said));
   // It goes of itself as well.
   m_window->tools().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("There is no room."));
-  QVERIFY(noted());
-  QTRY_VERIFY_WITH_TIMEOUT(!noted(), kLong);
+  QVERIFY(noted(said));
+  QTRY_VERIFY_WITH_TIMEOUT(!noted(said), kLong);
+}
+
+/// What rows of the board cannot do by themselves: the board and the window say what is refused, a way out is followed,
+/// and keys come as a curve.
+void VrPagesTest::rowsReachTheWearer() {
+  const Address floor{Owner::Wall, "floor", "temperature"};
+  const Project before = document().project();
+  for (const double time : {5.0, 10.0}) QCOMPARE(document().putKey(floor, time, 300 + time), QString());
+  Project project = document().project();
+  project.tracks[0].keys[0].value = 2e4;  // the wall takes 10000 K: such a key cannot be moved
+  document().open(project, kSample, false, false);
+  enterWithout();
+  QSignalSpy refused(&vr(), &VrMode::refused);
+  const std::string body = document().project().bodies.front().id;
+  m_window->selection().selectBody(body);
+  panels().showPage(QStringLiteral("Body"));
+  QTest::qWait(100);
+  ParameterRow* row = rowOf(QStringLiteral("body/%1/temperature").arg(QString::fromStdString(body)));
+  QVERIFY(row);
+  row->toggleKey();  // it acts at the start
+  QVERIFY(noted(QStringLiteral("No key was set. ")));
+  QCOMPARE(refused.count(), 1);
+  auto* panel = panels().widget(vr::kBoard)->findChild<ParameterPanel*>();
+  Q_EMIT panel->linkActivated({}, wayout::action("simulation.play"));
+  QTRY_VERIFY(session().playing());
+  session().pause();
+
+  panels().showPage(QStringLiteral("Transport"));
+  QTest::qWait(100);
+  const KeyRows& keys = *panels().widget(vr::kBoard)->findChild<KeyRows*>();
+  const QPointF key = keys.placeOf(floor, 0), name(30, key.y());
+  at(vr::kBoard, keys, key, false);
+  at(vr::kBoard, keys, key, true);
+  for (const bool pressed : {true, false}) at(vr::kBoard, keys, key + QPointF(10, 0), pressed);
+  QVERIFY(noted(QStringLiteral("The keys stay as they are. ")));
+  QCOMPARE(refused.count(), 2);
+  for (const bool pressed : {false, true, false, true, false}) at(vr::kBoard, keys, name, pressed);
+  auto* curve = panels().widget(vr::kBoard)->findChild<CurvePanel*>();
+  QVERIFY(curve && curve->isVisible());
+  QCOMPARE(m_window->curves().track(), std::optional(floor));
+  document().open(before, kSample, false, false);
 }
 
 QTEST_MAIN(VrPagesTest)

@@ -127,7 +127,7 @@ std::vector<TrackEdit> arrivingTracks(const std::vector<Track>& here, const std:
 
 /// A member of a group as it is called here; "" where it has not come.
 std::string memberHere(const std::string& member, const AllNames& names) {
-  for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall, Owner::Probe}) {
+  for (const Owner owner : kMembers) {
     const std::string prefix = memberOf(owner, "");
     const Names& ids = *names.of(owner);
     const auto id = member.starts_with(prefix) ? ids.find(member.substr(prefix.size())) : ids.end();

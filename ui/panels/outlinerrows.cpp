@@ -156,7 +156,7 @@ std::vector<Address> Outliner::thingsOf(int kind, const std::string& id) const {
       std::find_if(m_groups.begin(), m_groups.end(), [&](const SceneGroup& one) { return one.id == id; });
   if (group == m_groups.end()) return things;
   for (const std::string& member : group->members) {
-    for (const Owner owner : {Owner::Body, Owner::Emitter, Owner::Sink, Owner::Wall, Owner::Probe}) {
+    for (const Owner owner : kMembers) {
       const std::string prefix = memberOf(owner, "");
       if (member.starts_with(prefix)) things.push_back({owner, member.substr(prefix.size()), ""});
     }
@@ -199,9 +199,7 @@ void Outliner::filter() {
   const Project& project = m_document.project();
   const bool bare = project.bodies.empty() && project.emitters.empty() && wanted.isEmpty();
   m_nothing->setVisible(!any || bare);
-  m_nothing->setText(
-      bare ? QStringLiteral("Add a body or press B to sketch")
-           : QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(wanted.toHtmlEscaped()));
+  m_nothing->setText(bare ? QStringLiteral("Add a body or press B to sketch") : nothingCalled(wanted));
 }
 
 /// To another place in its list, into a group or out of it.

@@ -45,7 +45,6 @@ class StrokesList : public QWidget {
   int current() const { return m_current; }           ///< the line that the keys are on; -1: none
   void setCurrent(int line);
   StrokeListEdits& edits() { return *m_edits; }
-  void turnHidden(int line);  ///< hides a stroke that is shown, and shows one that is hidden
   /// px, of the eye of a line.
   static QRectF eyeOf(int line, int width) { return {width - 28.0, line * kRow + 3.0, 20, 20}; }
   QMenu* menuOf(int line);  ///< of what can be done with it; its parent is the list
@@ -62,6 +61,7 @@ class StrokesList : public QWidget {
   void choose();  ///< the line that the keys are on, for the view
   void onStroke(const StrokeChanged& event);
   void takeAnew(const std::string& body, bool isLast);
+  void turnHidden(int line);  ///< hides a stroke that is shown, and shows one that is hidden
   const VoxelShape* sketch(const std::string& body) const;  ///< nullptr: it has no strokes
   bool act(const QKeyEvent& event);                         ///< whether a key is one of the list's, and done
 

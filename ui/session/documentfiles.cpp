@@ -91,27 +91,11 @@ struct DocumentFiles::Read {
   std::shared_ptr<FileLock> lock;
 };
 
-/// What a look found, for as long as nobody writes: a file that was only touched would be read at each sign.
-struct DocumentFiles::Seen {
-  FileStamp at;
-  uint64_t knownHash = 0;
-  bool same = false;
-  FileStamp now;
-  bool answers(const FileStamp& stamp, const FileStamp& known) const {
-    return at.known && stamp.known && stamp.size == at.size && stamp.inode == at.inode && stamp.time == at.time &&
-           known.hash == knownHash;
-  }
-};
-
 DocumentFiles::DocumentFiles(Document& document, Worker& worker, QObject* parent)
-    : QObject(parent),
-      m_document(document),
-      m_worker(worker),
-      m_own(std::make_shared<OwnFiles>()),
-      m_seen(std::make_shared<Seen>()) {
+    : QObject(parent), m_document(document), m_worker(worker), m_own(std::make_shared<OwnFiles>()) {
   freeSettings();
   connect(&document, &Document::changed, this, [this](const ChangeEvent& event) {
-    if (std::holds_alternative<ProjectOpened>(event)) forgetOutside();
+    if (std::holds_alternative<ProjectOpened>(event)) m_outside = {};
   });
 }
 
@@ -270,15 +254,15 @@ void DocumentFiles::save(const QString& path, bool anyway) {
   SaveJob job{absolute, m_document.project(), m_document.plugins(), {}, locks(absolute), m_lock, m_own, {}};
   if (!anyway && absolute == m_document.path()) {
     job.known = m_document.file();
-    job.givenUp = m_givenUp;
+    job.givenUp = m_outside.givenUp;
   }
   if (m_autosave) job.around = m_autosave->aroundSave();
   m_worker.run([this, job = std::move(job), count = m_document.changeCount()] {
     QMetaObject::invokeMethod(this, [this, result = job(), path = job.path, count] {
       if (result.refusal != SaveRefusal::None) {
         if (result.refusal == SaveRefusal::Changed && m_document.had(count)) {  // told by that
-          m_outside = OutsideChange::Written;
-          m_outsideFile = result.file;
+          m_outside.told = OutsideChange::Written;
+          m_outside.file = result.file;
         }
         Q_EMIT saveRefused(path, result.refusal, result.problem, m_document.had(count));
         return;
@@ -290,7 +274,7 @@ void DocumentFiles::save(const QString& path, bool anyway) {
       addRecent(path);
       if (m_document.had(count)) {
         m_lock = result.lock;
-        forgetOutside();
+        m_outside = {};
       }
       if (!result.noVersion.isEmpty()) Q_EMIT versionNotKept(path, result.noVersion);
       if (!result.stateLeftOut.isEmpty()) Q_EMIT stateLeftOut(path, result.stateLeftOut, m_document.had(count));
@@ -302,11 +286,12 @@ void DocumentFiles::save(const QString& path, bool anyway) {
 /// In line with our own saves, so that none of them is taken for somebody else's.
 void DocumentFiles::look() {
   const QString path = m_document.path();
-  if (path.isEmpty() || !m_document.file().known) return;
-  m_worker.run([this, path, count = m_document.changeCount(), known = m_document.file(), own = m_own, seen = m_seen] {
+  const FileStamp known = m_document.file();
+  if (path.isEmpty() || !known.known) return;
+  m_worker.run([this, path, known, count = m_document.changeCount(), own = m_own, seen = m_outside.seen] {
     const std::string file = path.toStdString();
     const FileStamp at = stampAt(file);
-    if (!seen->answers(at, known)) {
+    if (!isUntouched(seen->at, at) || seen->knownHash != known.hash) {
       const bool same = (own->path == path && holdsStamped(file, own->file)) || holdsStamped(file, known);
       *seen = {at, known.hash, same, same ? known : stampOfBytes(file)};
     }
@@ -319,39 +304,31 @@ void DocumentFiles::look() {
 void DocumentFiles::hear(bool same, const FileStamp& now) {
   const OutsideChange change = same ? OutsideChange::None : now.known ? OutsideChange::Written : OutsideChange::Gone;
   if (change != OutsideChange::Gone) {
-    m_missing.invalidate();
-  } else if (!m_missing.isValid()) {
-    m_missing.start();
+    m_outside.missing.invalidate();
+  } else if (!m_outside.missing.isValid()) {
+    m_outside.missing.start();
     QTimer::singleShot(kGap, Qt::PreciseTimer, this, &DocumentFiles::look);
     return;
-  } else if (m_missing.elapsed() < kGap && m_outside != OutsideChange::Gone) {
+  } else if (m_outside.missing.elapsed() < kGap && m_outside.told != OutsideChange::Gone) {
     return;  // the timer looks again
   }
-  const bool alike = now.size == m_outsideFile.size && now.hash == m_outsideFile.hash;
-  if (change == m_outside && (change != OutsideChange::Written || alike)) return;
-  m_outside = change;
-  m_outsideFile = now;
+  const bool alike = now.size == m_outside.file.size && now.hash == m_outside.file.hash;
+  if (change == m_outside.told && (change != OutsideChange::Written || alike)) return;
+  m_outside.told = change;
+  m_outside.file = now;
   if (change == OutsideChange::Gone) {  // no file holds it any more
-    m_cleanAt = m_document.isDirty() ? std::nullopt : std::optional(m_document.changeCount());
+    m_outside.cleanAt = m_document.isDirty() ? std::nullopt : std::optional(m_document.changeCount());
     m_document.undoStack().resetClean();
-  } else if (change == OutsideChange::None && m_cleanAt == m_document.changeCount()) {
+  } else if (change == OutsideChange::None && m_outside.cleanAt == m_document.changeCount()) {
     m_document.undoStack().setClean();  // it is there again
   }
   Q_EMIT changedOutside(m_document.path(), change);
 }
 
 void DocumentFiles::keepOurs() {
-  if (m_outside == OutsideChange::Written) m_givenUp = m_outsideFile;
-  m_cleanAt.reset();
+  if (m_outside.told == OutsideChange::Written) m_outside.givenUp = m_outside.file;
+  m_outside.cleanAt.reset();
   m_document.undoStack().resetClean();
-}
-
-void DocumentFiles::forgetOutside() {
-  m_outside = OutsideChange::None;
-  m_outsideFile = {};
-  m_givenUp.reset();
-  m_cleanAt.reset();
-  m_missing.invalidate();
 }
 
 QStringList DocumentFiles::recent() {

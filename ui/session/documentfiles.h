@@ -98,28 +98,37 @@ class DocumentFiles : public QObject {
     std::shared_ptr<const AutosavedSession> session;
   };
   struct Read;
+  /// What a look found, for as long as nobody writes: a file that was only touched would be read at each sign.
+  struct Seen {
+    FileStamp at;
+    uint64_t knownHash = 0;
+    bool same = false;
+    FileStamp now;
+  };
+  /// What other programs do to the document's file.
+  struct Outside {
+    OutsideChange told = OutsideChange::None;               ///< last
+    FileStamp file;                                         ///< of what was written
+    std::optional<FileStamp> givenUp;                       ///< that of it which may be replaced
+    std::optional<uint64_t> cleanAt;                        ///< count of changes that the file held before it was gone
+    QElapsedTimer missing;                                  ///< since when it is not there
+    std::shared_ptr<Seen> seen = std::make_shared<Seen>();  ///< by the worker's looks
+  };
   void load(const Source& source);
   void adopt(const Source& source, Read& read);
   bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && !isSample(path); }
   void lockLater();
   void hear(bool same, const FileStamp& now);
-  void forgetOutside();
 
   Document& m_document;
   Worker& m_worker;
   const Autosave* m_autosave = nullptr;
   QString m_samples;
-  std::optional<Source> m_failed;                 ///< what could not be opened last
-  std::shared_ptr<FileLock> m_lock;               ///< of the document's file
-  std::shared_ptr<OwnFiles> m_own;                ///< for the worker's jobs
-  OutsideChange m_outside = OutsideChange::None;  ///< told last
-  FileStamp m_outsideFile;                        ///< of what was written
-  std::optional<FileStamp> m_givenUp;             ///< that of it which may be replaced
-  std::optional<uint64_t> m_cleanAt;              ///< count of changes that the file held before it was gone
-  QElapsedTimer m_missing;                        ///< since when it is not there
-  struct Seen;
-  std::shared_ptr<Seen> m_seen;  ///< by the worker's looks
-  int m_request = 0;             ///< of the newest open(): an older one that arrives late is dropped
+  std::optional<Source> m_failed;    ///< what could not be opened last
+  std::shared_ptr<FileLock> m_lock;  ///< of the document's file
+  std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs
+  Outside m_outside;                 ///< since it was read or written here
+  int m_request = 0;                 ///< of the newest open(): an older one that arrives late is dropped
 };
 
 }  // namespace ps

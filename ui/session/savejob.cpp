@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/session/savejob.h"
 
-#include "core/base/error.h"
 #include "core/io/outputfile.h"
 #include "core/io/projectio.h"
-#include "core/io/textfile.h"
 #include "core/simulation/projectstate.h"
 #include "ui/session/versions.h"
 
@@ -36,16 +34,6 @@ std::shared_ptr<FileLock> OwnFiles::lockOf(const QString& project, const std::sh
   auto made = std::make_shared<FileLock>(name, lockNote().toStdString());
   lock = made;
   return made;
-}
-
-FileStamp stampOfBytes(const std::string& path) {
-  FileStamp stamp = stampAt(path);
-  try {
-    if (stamp.known) stamp.hash = hashOf(readFile(path, kMaximumProjectBytes));
-  } catch (const InputError&) {
-    stamp.hash = 0;
-  }
-  return stamp;
 }
 
 QString holderText(const FileLock& lock) {

@@ -27,8 +27,6 @@ struct OwnFiles {
   /// Locks lockPath(); `mine`: a lock that may be the one.
   std::shared_ptr<FileLock> lockOf(const QString& project, const std::shared_ptr<FileLock>& mine);
 };
-/// With its hash; of what cannot be read that is 0. Not for the user interface's thread.
-FileStamp stampOfBytes(const std::string& path);
 /// "Ada on lab-3", "" when it is the same user here: of whoever holds a lock.
 QString holderText(const FileLock& lock);
 

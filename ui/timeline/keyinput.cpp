@@ -228,7 +228,11 @@ void KeyRows::endDrag(bool keep) {
     choose(drag.keys);
   }
   document.endGesture();
-  if (keep && !drag.problem.isEmpty()) Q_EMIT refused(drag.problem);
+  if (keep) tell(drag.problem);
+}
+
+void KeyRows::tell(const QString& problem) {
+  if (!problem.isEmpty()) Q_EMIT refused(QStringLiteral("The keys stay as they are."), problem);
 }
 
 void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -251,11 +255,8 @@ void KeyRows::setKeyAt(const Row& row, double time) {
   const double own = isPoint ? keysOf(row.address).front().value : responseOf(document.value(row.address)).at(293.15);
   const double held = trackValue(keysOf(row.address), time).value_or(own);
   const QString problem = document.putKey(row.address, time, responseOf(valueOfKey(held, *declaration)).at(293.15));
-  if (!problem.isEmpty()) {
-    Q_EMIT refused(problem);
-  } else if (const auto key = keyAt(keysOf(row.address), time, document.keySlack())) {
-    choose({{row.address, *key}});
-  }
+  if (!problem.isEmpty()) return tell(problem);
+  if (const auto key = keyAt(keysOf(row.address), time, document.keySlack())) choose({{row.address, *key}});
 }
 
 void KeyRows::removeChosen() {
@@ -270,9 +271,7 @@ void KeyRows::removeChosen() {
   if (left.empty()) return;
   choose({});
   Document& document = m_session.document();
-  const QString problem =
-      document.setKeys(left, QStringLiteral("removal of keys of %1").arg(document.trackTitle(left.front().first)));
-  if (!problem.isEmpty()) Q_EMIT refused(problem);
+  tell(document.setKeys(left, QStringLiteral("removal of keys of %1").arg(document.trackTitle(left.front().first))));
 }
 
 void KeyRows::setWay(ToNext way) {
@@ -284,9 +283,7 @@ void KeyRows::setWay(ToNext way) {
   }
   if (after.empty()) return;
   Document& document = m_session.document();
-  const QString problem =
-      document.setKeys(after, QStringLiteral("way between keys of %1").arg(document.trackTitle(after.front().first)));
-  if (!problem.isEmpty()) Q_EMIT refused(problem);
+  tell(document.setKeys(after, QStringLiteral("way between keys of %1").arg(document.trackTitle(after.front().first))));
 }
 
 void KeyRows::keyPressEvent(QKeyEvent* event) {

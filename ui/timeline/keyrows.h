@@ -39,7 +39,7 @@ class KeyRows : public QWidget {
 
  Q_SIGNALS:
   void rowsChanged();
-  void refused(const QString& problem);
+  void refused(const QString& title, const QString& why);  ///< "The keys stay as they are.", why
   void curveWanted(const ps::Address& address);
 
  protected:
@@ -73,6 +73,7 @@ class KeyRows : public QWidget {
   void dragTo(double time);
   double heldShift(double shift) const;
   void endDrag(bool keep);
+  void tell(const QString& problem);  ///< "": there is none
   void setKeyAt(const Row& row, double time);
   void removeChosen();
   void setWay(ToNext way);

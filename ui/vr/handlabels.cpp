@@ -80,9 +80,8 @@ std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand, const Han
   if (profile == kMouse) return keys(main);
   if (profile == kJointsAlone) return ofBareHand(main);
   std::vector<HandLabel> labels;
-  const std::vector<Suggestion>& all = suggestions();
-  const auto of = std::find_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.profile == profile; });
-  if (of == all.end()) return labels;
+  const Suggestion* of = suggested(profile);
+  if (!of) return labels;
   if (of->bareHand) return ofBareHand(main);
   labels.push_back({nameOf(of->draw), pulled(main)});
   if (!of->hold.empty()) {
@@ -91,8 +90,7 @@ std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand, const Han
     labels.push_back({hold + ", " + labels.front().part, pulledHeld(main)});
   }
   addSteering(labels, *of, main);
-  const std::string_view first = hand == kLeft ? of->leftFirst : of->rightFirst;
-  const std::string_view second = hand == kLeft ? of->leftSecond : of->rightSecond;
+  const std::string_view first = of->first(hand), second = of->second(hand);
   const char* const does[] = {main ? "undo" : "play, pause", main ? "board" : "make real"};
   if (!first.empty()) labels.push_back({nameOf(first), does[0]});
   // One button for both: for half a second it is the second.

@@ -21,6 +21,11 @@ constexpr int kSides = 20, kBoneSides = 8;
 constexpr double kThinnest = 0.2;  // of the wrist, where a runtime tells no radius
 constexpr float kOpacity = 0.22f;  // of a brush's volume, seen straight on
 
+constexpr double kBack = 0.015;                            // m over the wand's axis, of what thumbs reach
+constexpr double kRing = 0.046, kRingTube = 0.0038;        // m
+constexpr double kRingTilt = 50 * std::numbers::pi / 180;  // forward, from across the wand
+const Vector3 kRingPlace(0, 0.022, 0.018);                 // m
+
 MeshVertex corner(const Vector3& place, const Vector3& normal, const Colour& c, float fourth) {
   return {render::floats(place), render::floats(normal), {c[0], c[1], c[2], fourth}};
 }
@@ -89,15 +94,6 @@ void addForm(std::vector<MeshVertex>& out, const Vector3& centre, const StampFor
   }
 }
 
-}  // namespace
-
-namespace {
-
-constexpr double kBack = 0.015;                            // m over the wand's axis, of what thumbs reach
-constexpr double kRing = 0.046, kRingTube = 0.0038;        // m
-constexpr double kRingTilt = 50 * std::numbers::pi / 180;  // forward, from across the wand
-const Vector3 kRingPlace(0, 0.022, 0.018);                 // m
-
 /// A disc on the wand's back, so far along it and aside.
 void addDisc(std::vector<MeshVertex>& out, const HandPose& hand, double scale, const Vector3& at, const Ring& top,
              const Colour& colour) {
@@ -143,9 +139,9 @@ void addController(Props& props, const HandPose& hand, double scale, const HandC
   }
 }
 
-void addHand(Props& props, const HandJoints& joints, const Colour& colour, bool dark) {
+void addHand(Props& props, const HandJoints& joints, const HandColours& colours) {
   constexpr size_t kFingers[] = {2, 6, 11, 16, 21, kJoints};  // their first joints; the thumb has one less
-  const Colour skin = render::sceneColour(dark, "rim");
+  const Colour skin = render::sceneColour(colours.dark, "rim");
   const auto radius = [&](size_t joint) { return std::max(joints[joint].radius, kThinnest * joints[1].radius); };
   const auto bone = [&](size_t a, size_t b) {
     const Vector3 way = joints[b].position - joints[a].position;
@@ -158,8 +154,8 @@ void addHand(Props& props, const HandJoints& joints, const Colour& colour, bool 
     if (finger > 1) bone(kFingers[finger - 1] + 1, kFingers[finger] + 1);  // from knuckle to knuckle
   }
   for (size_t joint = kWristJoint; joint < kJoints; ++joint)
-    addBall(props.opaque, joints[joint].position, Vector3::Constant(radius(joint)), joint == kIndexTip ? colour : skin,
-            kBoneSides / 2, 0);
+    addBall(props.opaque, joints[joint].position, Vector3::Constant(radius(joint)),
+            joint == kIndexTip ? colours.tip : skin, kBoneSides / 2, 0);
 }
 
 void addBeam(Props& props, const HandPose& hand, double scale, double length, const Colour& colour) {

@@ -18,7 +18,7 @@ struct HandColours {
 void addController(Props& props, const HandPose& hand, double scale, const HandColours& colours,
                    const ControllerParts& parts);
 /// A bare hand by its joints, in the scene; the index's tip has the brush's colour.
-void addHand(Props& props, const HandJoints& joints, const std::array<float, 3>& colour, bool dark);
+void addHand(Props& props, const HandJoints& joints, const HandColours& colours);
 /// A beam from the wand's tip to `length` m from where the hand aims, and a dot at its end.
 void addBeam(Props& props, const HandPose& hand, double scale, double length, const std::array<float, 3>& colour);
 /// What a dab of the brush would fill there.

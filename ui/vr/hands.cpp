@@ -85,8 +85,8 @@ void Hands::suggest() {
       bind(m_hold, hand, suggestion.hold);
       bind(m_steer, hand, suggestion.steer);
       bind(m_steerPress, hand, suggestion.steerPress);
-      bind(m_first, hand, hand == kLeft ? suggestion.leftFirst : suggestion.rightFirst);
-      bind(m_second, hand, hand == kLeft ? suggestion.leftSecond : suggestion.rightSecond);
+      bind(m_first, hand, suggestion.first(hand));
+      bind(m_second, hand, suggestion.second(hand));
       bind(m_menu, hand, suggestion.menu);
       bind(m_feel, hand, suggestion.bareHand ? "" : "/output/haptic");
     }

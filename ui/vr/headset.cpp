@@ -85,6 +85,8 @@ struct Headset::Stay {
   /// Throws Error where it was abandoned in the runtime: then there is nobody to show anything to.
   void requireOwner() const;
   class Asking;
+  /// A call into the runtime, which has the thread meanwhile. Throws what that does, and as requireOwner().
+  void ask(const auto& call);
   /// With the mutex.
   bool hangs() const { return waits && steady_clock::now() - *waits > kHung; }
   bool overdue() const { return hangs() && asked && steady_clock::now() - *asked > kGrace; }
@@ -120,40 +122,52 @@ class Headset::Stay::Asking {
   Stay& m_stay;
 };
 
+void Headset::Stay::ask(const auto& call) {
+  {
+    const Asking asking(*this);
+    call();
+  }
+  requireOwner();
+}
+
 /// What there is during a stay; made in this order, and put away in the other.
 class Headset::Loop {
  public:
   explicit Loop(Stay& told)
       : m_setup(told.setup),
         m_told(told),
-        m_making(std::in_place, told),
+        m_asking(std::in_place, told),
         m_runtime(wishes()),
         m_session(m_runtime),
         m_rate(m_runtime, m_session.handle()),
         m_mask(m_runtime, m_session.handle()),
         m_hands(m_runtime, m_session),
         m_tracking(m_runtime, m_session) {
-    m_making.reset();
+    m_asking.reset();
+  }
+  ~Loop() { m_asking.emplace(m_told); }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  /// Makes what shows something. Not in the constructor, so that ~Loop() watches the runtime where this fails, too.
+  void begin() {
     m_told.requireOwner();
     m_scene = m_setup.makeScene();
-    m_making.emplace(m_told);
-    const auto sizes = recommendedSizes(m_runtime);
-    for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
-    if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, m_setup.nearPlane, m_setup.farPlane);
-    m_making.reset();
-    m_told.requireOwner();
+    m_told.ask([&] {
+      const auto sizes = recommendedSizes(m_runtime);
+      for (const size_t eye : {size_t{0}, size_t{1}}) m_pictures[eye].emplace(m_session, sizes[eye]);
+      if (m_scene->hasDepth()) m_depth.emplace(m_runtime, m_session, sizes, m_setup.nearPlane, m_setup.farPlane);
+    });
   }
 
   Session& session() { return m_session; }
   void handleEvents() {
-    {
-      const Stay::Asking asking(m_told);
+    m_told.ask([&] {
       m_session.handleEvents([this](const XrEventDataBuffer& event) {
         m_rate.notice(event);
         m_mask.notice(event);
       });
-    }
-    m_told.requireOwner();
+    });
     m_told.hertz = m_rate.hertz();
     m_told.worn = m_session.focused() ? Worn::On : m_session.visible() ? Worn::BehindMenu : Worn::Off;
   }
@@ -163,15 +177,13 @@ class Headset::Loop {
     steady_clock::time_point began;
     m_waited = 0;
     std::optional<std::array<XrView, 2>> views;
-    {
-      const Stay::Asking asking(m_told);
+    m_told.ask([&] {
       state = m_session.waitFrame();
       began = steady_clock::now();
       m_session.beginFrame();
       m_hands.sync();
       if (state.shouldRender) views = m_session.locateEyes(state.predictedDisplayTime);
-    }
-    m_told.requireOwner();
+    });
     if (!views) return submit(state.predictedDisplayTime, {});
     m_clock.begin();
     prepare(state, *views);
@@ -193,11 +205,7 @@ class Headset::Loop {
 
  private:
   void submit(XrTime time, std::span<const XrCompositionLayerBaseHeader* const> layers) {
-    {
-      const Stay::Asking asking(m_told);
-      m_session.endFrame(time, layers);
-    }
-    m_told.requireOwner();
+    m_told.ask([&] { m_session.endFrame(time, layers); });
   }
 
   void prepare(const XrFrameState& state, const std::array<XrView, 2>& views) {
@@ -207,16 +215,15 @@ class Headset::Loop {
     frame.time = kNanosecond * double(state.predictedDisplayTime);
     frame.period = kNanosecond * double(state.predictedDisplayPeriod);
     frame.focused = m_session.focused();
-    {
-      const Stay::Asking asking(m_told);
+    m_told.ask([&] {
       for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
-    }
-    m_told.requireOwner();
+    });
     for (const size_t hand : {kLeft, kRight}) m_told.sees[hand] = frame.hands[hand].aim.has_value();
     const auto vibrations = m_scene->prepare(frame);
-    const Stay::Asking asking(m_told);
-    for (const size_t hand : {kLeft, kRight})
-      if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
+    m_told.ask([&] {
+      for (const size_t hand : {kLeft, kRight})
+        if (vibrations[hand]) m_hands.vibrate(hand, *vibrations[hand]);
+    });
   }
 
   HandInput input(size_t hand, XrTime time) const {
@@ -231,24 +238,23 @@ class Headset::Loop {
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
     EyePicture& picture = *m_pictures[eye];
     const steady_clock::time_point asked = steady_clock::now();
-    std::optional<Stay::Asking> asking(std::in_place, m_told);
-    RenderTarget target = picture.acquire(m_detail.scale());
+    const bool hasDepth = m_depth && m_depth->isTaken();
+    RenderTarget target, depth;
+    m_told.ask([&] {
+      target = picture.acquire(m_detail.scale());
+      if (hasDepth) depth = m_depth->acquire(eye);
+    });
+    m_waited += secondsSince(asked);
     target.coarser = m_detail.coarser();
     target.hidden = m_mask.hidden(eye);
-    const bool hasDepth = m_depth && m_depth->isTaken();
-    const RenderTarget depth = hasDepth ? m_depth->acquire(eye) : RenderTarget();
-    asking.reset();
-    m_told.requireOwner();
-    m_waited += secondsSince(asked);
     const Eye seen = eyeOf(view, m_setup.nearPlane, m_setup.farPlane);
     m_scene->draw(eye, seen, target);
     if (hasDepth) m_scene->drawDepth(eye, seen, depth);
     if (eye == kLeft && m_setup.mirror) m_setup.mirror->offer(picture.texture(), target.size);
-    asking.emplace(m_told);
-    if (hasDepth) m_depth->release(eye);
-    picture.release();
-    asking.reset();
-    m_told.requireOwner();
+    m_told.ask([&] {
+      if (hasDepth) m_depth->release(eye);
+      picture.release();
+    });
     auto shown = structure<XrCompositionLayerProjectionView>(XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW);
     shown.pose = view.pose;
     shown.fov = view.fov;
@@ -259,7 +265,7 @@ class Headset::Loop {
 
   const HeadsetSetup& m_setup;
   Stay& m_told;
-  std::optional<Stay::Asking> m_making;  ///< what follows, up to the scene
+  std::optional<Stay::Asking> m_asking;  ///< while what follows is made, and while it is put away
   Runtime m_runtime;
   Session m_session;
   RefreshRate m_rate;
@@ -328,13 +334,8 @@ void Headset::Stay::requireOwner() const {
 
 Ending Headset::Stay::last() {
   const Current current(setup);
-  std::optional<Asking> closing;  // outlives what is put away
   Loop loop(*this);
-  struct Closes {
-    ~Closes() { closing.emplace(stay); }
-    std::optional<Asking>& closing;
-    Stay& stay;
-  } const closes{closing, *this};
+  loop.begin();
   Session& session = loop.session();
   std::optional<steady_clock::time_point> requested;
   for (;;) {
@@ -343,8 +344,7 @@ Ending Headset::Stay::last() {
     if (leave && !session.running()) return {};
     if (leave && !requested) {
       requested = steady_clock::now();
-      const Asking asking(*this);
-      session.requestExit();
+      ask([&] { session.requestExit(); });
     } else if (requested && steady_clock::now() - *requested > kPatience) {
       return {true, kNoAnswer};
     }

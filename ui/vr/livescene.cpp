@@ -73,15 +73,14 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
 /// By its joints, or as what it does holds them where nobody tells; else what it holds.
 void LiveScene::showHand(size_t hand, const HandInput& input, const std::array<float, 3>& colour) {
   const Stand& stand = m_moving.stand();
+  const HandColours colours{colour, m_view->look.dark};
   std::optional<HandJoints> joints = input.joints;
   if (!joints && input.bare && input.grip)
     joints = posedJoints(hand, *input.grip, shapeOf(input, m_panels.isNear(input.grip->position, kNearPanel)));
-  if (!joints) {
-    const ControllerParts parts = partsOf(input.profile, hand);
-    return addController(m_props, stand.toScene(*input.aim), 1 / stand.scale, {colour, m_view->look.dark}, parts);
-  }
+  if (!joints)
+    return addController(m_props, stand.toScene(*input.aim), 1 / stand.scale, colours, partsOf(input.profile, hand));
   for (HandJoint& joint : *joints) joint = {stand.toScene(joint.position), joint.radius / stand.scale};
-  addHand(m_props, *joints, colour, m_view->look.dark);
+  addHand(m_props, *joints, colours);
 }
 
 void LiveScene::showHands(const HeadsetFrame& frame) {

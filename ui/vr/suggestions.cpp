@@ -61,17 +61,20 @@ const std::vector<Suggestion>& suggestions() {
   return kSuggestions;
 }
 
+const Suggestion* suggested(std::string_view profile) {
+  for (const Suggestion& one : suggestions())
+    if (one.profile == profile) return &one;
+  return nullptr;
+}
+
 ControllerParts partsOf(std::string_view profile, size_t hand) {
-  const std::vector<Suggestion>& all = suggestions();
-  const auto of = std::find_if(all.begin(), all.end(), [&](const Suggestion& one) { return one.profile == profile; });
-  if (of == all.end() || of->bareHand) return {};
+  const Suggestion* of = suggested(profile);
+  if (!of || of->bareHand) return {};
   ControllerParts parts;
   parts.stick = of->steer == "/input/thumbstick";
   parts.pad = of->steer == "/input/trackpad";
   parts.ring = of->ring;
-  const bool left = hand == kLeft;
-  for (const std::string_view button :
-       {left ? of->leftFirst : of->rightFirst, left ? of->leftSecond : of->rightSecond, of->menu})
+  for (const std::string_view button : {of->first(hand), of->second(hand), of->menu})
     parts.buttons += button.empty() ? 0 : 1;
   return parts;
 }

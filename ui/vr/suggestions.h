@@ -18,11 +18,16 @@ struct Suggestion {
   bool bareHand = false;            ///< it is no controller, and cannot vibrate
   std::string_view menu = "";       ///< brings the palette
   bool ring = false;                ///< by which it is seen, as the hand's model has it
+
+  std::string_view first(size_t hand) const { return hand == kLeft ? leftFirst : rightFirst; }
+  std::string_view second(size_t hand) const { return hand == kLeft ? leftSecond : rightSecond; }
 };
 
 /// Of controllers, and of bare hands that the headset sees: a pinch is a trigger, a fist a grip. Each has
 /// /input/grip/pose and /input/aim/pose as well.
 const std::vector<Suggestion>& suggestions();
+/// The one for a profile; nullptr: there is none.
+const Suggestion* suggested(std::string_view profile);
 
 /// What a model of a controller has on its back and around it; nothing of bare hands and of what is not suggested.
 struct ControllerParts {

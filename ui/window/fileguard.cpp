@@ -27,16 +27,20 @@ namespace {
 const QString kLock = QStringLiteral("lock"), kSave = QStringLiteral("save"),
               kOutside = QStringLiteral("outside");  // topics
 
+NoticeBar::Button saveElsewhere(const Actions& actions) {
+  return {QStringLiteral("Save elsewhere…"), [&actions] { actions.find(QStringLiteral("file.saveAs"))->trigger(); }};
+}
+
+NoticeBar::Button openFromDisk(Session& session, const QString& path) {
+  return {QStringLiteral("Open what is on disk"), [&session, path] { session.files().open(path); }};
+}
+
 }  // namespace
 
 FileGuard::FileGuard(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore, QObject* parent)
-    : QObject(parent),
-      m_session(session),
-      m_actions(actions),
-      m_notices(notices),
-      m_restore(restore),
-      m_watch(std::make_unique<FileWatch>(session.document(), session.files())) {
+    : QObject(parent), m_session(session), m_actions(actions), m_notices(notices), m_restore(restore) {
   DocumentFiles& files = session.files();
+  new FileWatch(session.document(), files, this);
   connect(&files, &DocumentFiles::saveRefused, this, &FileGuard::onRefused);
   connect(&files, &DocumentFiles::openElsewhere, this, &FileGuard::onElsewhere);
   connect(&files, &DocumentFiles::changedOutside, this, &FileGuard::onOutside);
@@ -56,8 +60,6 @@ FileGuard::FileGuard(Session& session, const Actions& actions, Notices& notices,
                         QStringLiteral("What the file held before was not kept: %1").arg(sentence(problem)));
   });
 }
-
-FileGuard::~FileGuard() = default;
 
 void FileGuard::addVersionsMenu(QMenu* menu) {
   m_versions = menu->addMenu(QStringLiteral("Earlier versions"));
@@ -82,13 +84,12 @@ void FileGuard::onRefused(const QString& path, SaveRefusal refusal, const QStrin
     m_restore.showReplaced(QStringLiteral("“%1” was not saved: %2").arg(nameOf(path), sentence(problem)));
     return;
   }
-  std::vector<NoticeBar::Button> buttons{
-      {QStringLiteral("Save elsewhere…"), [this] { m_actions.find(QStringLiteral("file.saveAs"))->trigger(); }}};
+  std::vector<NoticeBar::Button> buttons{saveElsewhere(m_actions)};
   if (refusal == SaveRefusal::Changed) {
     m_notices.bar().close(kOutside);  // the same, less to the point
     buttons.insert(buttons.begin(),
                    {QStringLiteral("Save anyway"), [this, path] { m_session.files().save(path, true); }});
-    buttons.push_back({QStringLiteral("Open what is on disk"), [this, path] { m_session.files().open(path); }});
+    buttons.push_back(openFromDisk(m_session, path));
   } else if (path == m_session.document().path()) {
     buttons.push_back({QStringLiteral("Take over and save"), [this, path] { takeOver(path, true); }});
   }
@@ -112,19 +113,17 @@ void FileGuard::onOutside(const QString& path, OutsideChange change) {
     m_notices.bar().show(
         kOutside, MessageLevel::Warning, title,
         QStringLiteral("Another program has removed, renamed or moved it. Your work is kept in memory."),
-        {{QStringLiteral("Save it again"), [this, path] { m_session.files().save(path); }},
-         {QStringLiteral("Save elsewhere…"), [this] { m_actions.find(QStringLiteral("file.saveAs"))->trigger(); }}});
+        {{QStringLiteral("Save it again"), [this, path] { m_session.files().save(path); }}, saveElsewhere(m_actions)});
     return;
   }
   m_notices.bar().show(
       kOutside, MessageLevel::Warning, title,
       QStringLiteral("Here the scene is as it was before. If you keep it, the next save replaces the file, and what it "
                      "holds now stays an earlier version."),
-      {{QStringLiteral("Open what is on disk"), [this, path] { m_session.files().open(path); }},
-       {QStringLiteral("Keep mine"), [this] {
-          m_session.files().keepOurs();
-          m_notices.bar().close(kOutside);
-        }}});
+      {openFromDisk(m_session, path), {QStringLiteral("Keep mine"), [this] {
+                                         m_session.files().keepOurs();
+                                         m_notices.bar().close(kOutside);
+                                       }}});
 }
 
 void FileGuard::onElsewhere(const QString& path, const QString& who) {
@@ -135,8 +134,7 @@ void FileGuard::onElsewhere(const QString& path, const QString& who) {
       kLock, MessageLevel::Warning, title,
       QStringLiteral("Here you can look at it and try things; saving asks for another name. Taken over, "
                      "it is the other window that cannot save."),
-      {{QStringLiteral("Take over"), [this, path] { takeOver(path, false); }},
-       {QStringLiteral("Save elsewhere…"), [this] { m_actions.find(QStringLiteral("file.saveAs"))->trigger(); }}});
+      {{QStringLiteral("Take over"), [this, path] { takeOver(path, false); }}, saveElsewhere(m_actions)});
 }
 
 void FileGuard::takeOver(const QString& path, bool save) {

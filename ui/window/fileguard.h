@@ -3,14 +3,11 @@
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
-#include <memory>
-
 class QMenu;
 
 namespace ps {
 
 class Actions;
-class FileWatch;
 class Notices;
 class RestoreOffer;
 class Session;
@@ -24,7 +21,6 @@ class FileGuard : public QObject {
  public:
   FileGuard(Session& session, const Actions& actions, Notices& notices, RestoreOffer& restore,
             QObject* parent = nullptr);
-  ~FileGuard() override;
   void addVersionsMenu(QMenu* menu);
   void fillVersions();
 
@@ -39,7 +35,6 @@ class FileGuard : public QObject {
   const Actions& m_actions;
   Notices& m_notices;
   RestoreOffer& m_restore;
-  std::unique_ptr<FileWatch> m_watch;
   QMenu* m_versions = nullptr;
   QString m_saveTo;  ///< file to save to when it is taken over; "": none
 };

@@ -59,7 +59,7 @@ std::shared_ptr<HeadsetContext> headsetContext(QOpenGLContext* window) {
 /// What pictures do without, to be in time.
 QString savings(double detail, int coarser) {
   QString saved;
-  if (coarser > 0) saved += QStringLiteral(", soft light and liquids coarser by %1 of 2").arg(coarser);
+  if (coarser > 0) saved += QStringLiteral(", soft light and liquids coarser by %1 of %2").arg(coarser).arg(kSoftSteps);
   if (detail < 1) saved += QStringLiteral(", pictures at %1 %").arg(std::lround(100 * detail));
   return saved.isEmpty() ? saved : saved + QStringLiteral(", to be in time");
 }
@@ -288,10 +288,8 @@ QString VrMode::hindrance() const {
   if (!m_headset->answers()) return QStringLiteral("the headset's software does not answer");
   if (m_headset->worn() == vr::Headset::Worn::Off) return QStringLiteral("the headset is not worn");
   if (m_headset->worn() == vr::Headset::Worn::BehindMenu) return QStringLiteral("behind a menu of the headset");
-  if (preferences::oneHanded()) {
-    const size_t main = preferences::leftHanded() ? vr::kLeft : vr::kRight;
-    return m_headset->sees(main) ? QString() : QStringLiteral("no hand is seen");
-  }
+  const vr::HandRoles roles = m_link->shown()->roles;
+  if (roles.alone) return m_headset->sees(roles.main) ? QString() : QStringLiteral("no hand is seen");
   const bool left = m_headset->sees(vr::kLeft), right = m_headset->sees(vr::kRight);
   if (left && right) return {};
   return !left && !right

@@ -167,15 +167,13 @@ void VrPanels::makeInspector() {
     showCurve();
   });
   connect(m_inspector.get(), &Inspector::wayOutWanted, this, &VrPanels::wayOutWanted);
-  connect(m_inspector.get(), &Inspector::keyRefused, this,
-          [this](const QString& problem) { refuse(QStringLiteral("No key was set."), problem); });
+  connect(m_inspector.get(), &Inspector::keyRefused, this, &VrPanels::refuse);
 }
 
 /// What leads from one page to another: there is one board for all of them.
 void VrPanels::connectPage(QWidget& page) {
   for (const KeyRows* keys : page.findChildren<KeyRows*>()) {
-    connect(keys, &KeyRows::refused, this,
-            [this](const QString& problem) { refuse(QStringLiteral("The keys stay as they are."), problem); });
+    connect(keys, &KeyRows::refused, this, &VrPanels::refuse);
     connect(keys, &KeyRows::curveWanted, this, [this](const Address& address) {
       m_parts.curves.chooseTrack(address);
       showCurve();

@@ -111,8 +111,6 @@ void VrWithout::useKeys(double passed) {
   const vr::HandRoles roles = m_room.roles();
   vr::HandInput &other = m_room.input(roles.other()), &main = m_room.input(roles.main);
   other.first = down(Qt::Key_Space);
-  other.second = other.steerPressed = false;
-  other.steerX = 0;
   other.steerY = double(down(Qt::Key_F));
   main.first = down(Qt::Key_U);
   main.second = down(Qt::Key_P);
