@@ -24,7 +24,7 @@ const Vector3 kRest(-0.5, 0.4, 0.1), kAside(0.5, 0.4, 0.1);
 
 }  // namespace
 
-class VrFoundryTest : public VrStory<SceneStory<VrWindowTest>> {
+class VrFoundryTest : public VrStory<SceneStory<PanelsTest>> {
   Q_OBJECT
  private Q_SLOTS:
   void initTestCase() { emptyScene(); }
@@ -92,28 +92,19 @@ void VrFoundryTest::sketchVessel(const Vector3& foot, double radius) {
   const int before = steps();
   const Vector3 rim = foot + Vector3(0, kHeight, 0);
   brush("tube", radius, 293.15, false);
-  const QString wall = right(0, foot, kLetGo) + right(20, foot, kPulled) + right(50, rim, kLetGo);
-  if (m_run) {
-    next(wall);
-  } else {
-    m_run = std::make_unique<ScriptedRun>(vrScript({}, left(0, kRest) + wall));
-    enter();
-  }
+  next(left(0, kRest) + right(0, foot, kLetGo) + right(20, foot, kPulled) + right(50, rim, kLetGo));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
   brush("disc", radius, 293.15, false);
   const Vector3 bottom = foot - Vector3(0, m_window->tools().spacing() / 2, 0);
-  next(right(0, bottom, kLetGo) + right(20, bottom, kPulled) + right(30, bottom, kLetGo));
+  next(left(0, kRest) + right(0, bottom, kLetGo) + right(20, bottom, kPulled) + right(30, bottom, kLetGo));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 2, kLong);
 }
 
-/// Both stand in the air, as the row Becomes of the brush says.
+/// Both stand in the air, as Becomes on the palette says.
 void VrFoundryTest::aMouldAndALadleAreSketched() {
+  enters(kRest, kAside);
   choose("iron");
-  m_window->tools().activate(kBrushTool);
-  BrushSettings settings = m_window->tools().brush();
-  settings.becomes = "fixed";
-  m_window->tools().setBrush(settings);
-  m_stand = stand();
+  becomes("fixed");
   sketchVessel(kMould, kMouldRadius);
   m_mould = document().project().bodies.back().id;
   sketchVessel(kLadle, kLadleRadius);
@@ -128,9 +119,7 @@ void VrFoundryTest::aMouldAndALadleAreSketched() {
 /// In three turns, each above the one before.
 void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
   choose("tin");
-  BrushSettings settings = m_window->tools().brush();
-  settings.becomes = kBecomesOfItself;
-  m_window->tools().setBrush(settings);
+  becomes(kBecomesOfItself);
   brush("sphere", 0.025, 293.15, false);
   const int before = steps();
   QString keys;
@@ -141,7 +130,7 @@ void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
     keys += k == 0 ? right(0, at, kLetGo) + right(19, at, kLetGo) : QString();
     keys += right(20 + 3 * k, at, k < kSteps ? kPulled : kLetGo);
   }
-  next(keys + right(40 + 3 * kSteps, kAside));
+  next(left(0, kRest) + keys + right(40 + 3 * kSteps, kAside));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
   m_tin = document().project().bodies.back().id;
   m_tinCount = placesOf(m_tin).size();
@@ -153,12 +142,11 @@ void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
 void VrFoundryTest::itIsMelted() {
   makeRealAndPlay(kRest, right(0, kAside));
   brush("heat", 0.1, 293.15, false);
-  BrushSettings settings = m_window->tools().brush();
-  settings.parameters["heat"].values = {{"power", 20000.0}, {"limit", 800.0}};
-  m_window->tools().setBrush(settings);
+  slides("power", 20000);
+  slides("limit", 800);
   const int before = steps();
   const Vector3 middle = meanOf(m_ladle);
-  next(right(0, kAside) + right(20, middle) + right(25, middle, kPulled));
+  next(left(0, kRest) + right(0, kAside) + right(20, middle) + right(25, middle, kPulled));
   QTRY_VERIFY2_WITH_TIMEOUT(liquidOf(m_tin) == m_tinCount, qPrintable(QString::number(liquidOf(m_tin))), kRun);
   passes(0.5);  // the ladle gets warm too
   next(right(0, middle, kPulled) + right(5, middle, kLetGo) + right(20, kAside));
@@ -227,7 +215,7 @@ void VrFoundryTest::theCastingIsLiftedOut() {
   const Vector3 mould = meanOf(m_mould), at = std::min_element(cast.begin(), cast.end(), nearer)->second;
   const Vector3 up = at + Vector3(0, 0.3, 0);
   brush("cube", 0.03, 293.15, false);
-  next(right(0, kAside) + right(20, at + Vector3(0, 0.2, 0)) + right(40, at) + right(50, at, kHolds) +
+  next(left(0, kRest) + right(0, kAside) + right(20, at + Vector3(0, 0.2, 0)) + right(40, at) + right(50, at, kHolds) +
        right(150, up, kHolds));
   QTRY_VERIFY2_WITH_TIMEOUT(lifted() == m_casting.size(), qPrintable(QString::number(lifted())), 10000);
   passes(0.5);

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/plugin_host/registry.h"
 #include "tests/ui/scenestory.h"
-#include "tests/vr/vrwindow.h"
-#include "ui/tools/tooltable.h"
+#include "tests/vr/panelhands.h"
+#include "ui/document/declared.h"
+#include "ui/document/presets.h"
+#include "ui/panels/materialspanel.h"
+#include "ui/tools/becoming.h"
 
+#include <QtWidgets/QScrollArea>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 
-// What stories share that are told in the headset, each in one stay.
+// What stories share that are told in the headset, each in one stay: hands draw, and choose on the palette and the
+// board with what they draw.
 namespace ps {
 
-inline const QString kHolds = QStringLiteral(R"(, "/input/squeeze/value": 1)");
-inline const QString kHoldsNothing = QStringLiteral(R"(, "/input/squeeze/value": 0)");
-
-/// `Story`: a SceneStory<VrWindowTest>, or one that is one too.
+/// `Story`: a SceneStory<PanelsTest>, or one that is one too.
 template <class Story>
 class VrStory : public Story {
  protected:
@@ -23,6 +30,12 @@ class VrStory : public Story {
   using Story::timeNow;
   using Story::view;
 
+  /// Both hands at rest.
+  void enters(const Vector3& ofLeft, const Vector3& ofRight) {
+    m_stand = Story::stand();
+    m_run = std::make_unique<ScriptedRun>(vrScript({}, left(0, ofLeft) + right(0, ofRight)));
+    Story::enter();
+  }
   /// What hands do next, from their own frame 0; the head stays.
   void next(const QString& keys, const QString& more = {}) { m_run->goOn(vrScript(more, keys)); }
   QString right(int frame, const Vector3& tip, const QString& inputs = {}, double roll = 0) {
@@ -38,13 +51,112 @@ class VrStory : public Story {
          left(30, rest, QStringLiteral(R"(, "/input/x/click": false)")));
     QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
   }
+  /// The left hand holds the palette up, and the beam of the right one presses a button of it so many times.
+  void presses(const char* name, int times = 1) {
+    QToolButton* one = Story::button(vr::kPalette, name);
+    QVERIFY2(one, name);
+    vr::Panels geometry;
+    geometry.follow(frameOf(palm(), {}), Story::painted());
+    const auto palette = geometry.place(vr::kPalette);
+    QVERIFY(palette);
+    const QPointF middle = Story::middleOf(vr::kPalette, *one);
+    const vr::HandPose hand = pointing({0.25, 1.25, 0.1}, palette->at(middle.x(), middle.y()));
+    QString keys = ::ps::key(0, "left", palm()) + ::ps::key(0, "right", hand, trigger(0));
+    int frame = 15;
+    for (int k = 0; k < times; ++k, frame += 10)
+      keys += ::ps::key(frame, "right", hand, trigger(1)) + ::ps::key(frame + 5, "right", hand, trigger(0));
+    next(keys);
+  }
+  /// One of `names` in place of `now`, by so many presses as there are between.
+  void goesTo(const char* choice, const std::vector<std::string>& names, const std::string& now,
+              const std::string& wanted) {
+    const auto at = [&](const std::string& name) {
+      return std::find(names.begin(), names.end(), name) - names.begin();
+    };
+    turns(choice, static_cast<int>(at(wanted) - at(now)));
+  }
+  void turns(const char* choice, int times) {
+    if (times == 0) return;
+    const std::string name = std::string(choice) + (times < 0 ? ": back" : ": on");
+    presses(name.c_str(), std::abs(times));
+  }
+  /// On the palette, too: the brush, its size within a half step, temperature within 5 K, and whether it holds.
   void brush(const char* shape, double radius, double temperature, bool held) {
-    BrushSettings settings = m_window->tools().brush();
-    settings.radius = radius;
-    settings.temperature = temperature;
-    settings.held = held;
-    m_window->tools().setBrush(settings);
-    m_window->tools().takeBrush(shape);
+    Toolbox& tools = m_window->tools();
+    goesTo("Brush", idsByLabel(*session().plugins(), PluginKind::Brush), tools.brush().shape, shape);
+    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().shape, std::string(shape), kLong);
+    const auto sizeSteps = [&] { return std::lround(std::log(radius / tools.brush().radius) / std::log(kBrushStep)); };
+    turns("Size", static_cast<int>(sizeSteps()));
+    QTRY_COMPARE_WITH_TIMEOUT(sizeSteps(), 0L, kLong);
+    const auto warmer = [&] { return std::lround((temperature - tools.brush().temperature) / 10); };
+    turns("Temperature", static_cast<int>(warmer()));
+    QTRY_COMPARE_WITH_TIMEOUT(warmer(), 0L, kLong);
+    if (tools.brush().held != held) presses("Hold what is drawn");
+    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().held, held, kLong);
+  }
+  void becomes(const std::string& what) {
+    std::vector<std::string> names;
+    for (const auto& [name, label] : becomings()) names.push_back(name);
+    goesTo("Becomes", names, m_window->tools().brush().becomes, what);
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->tools().brush().becomes, what, kLong);
+  }
+  /// The beam of the right hand presses a place on the board.
+  void pressesBoard(const QWidget& widget, const QPointF& at) {
+    next(::ps::key(0, "left", {{-0.3, 0.9, 0}, Quaternion::Identity()}) + Story::boardKey(0, widget, at, false, false) +
+         Story::boardKey(15, widget, at, false, true) + Story::boardKey(20, widget, at, false, false));
+  }
+  /// It stands where hands draw.
+  void putsBoardAway() {
+    QToolButton* close = Story::button(vr::kBoard, "Put the board away");
+    QVERIFY(close);
+    pressesBoard(*close, QRectF(close->rect()).center());
+    QTRY_VERIFY_WITH_TIMEOUT(!Story::panels().widget(vr::kBoard), kLong);
+  }
+  /// From the page that the palette's name of the material leads to, where the stick brings its tile into sight.
+  void choose(const char* material) {
+    presses("Material");
+    const auto page = [&] {
+      QWidget* board = Story::panels().widget(vr::kBoard);
+      return board ? board->findChild<MaterialsPanel*>() : nullptr;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(page() && page()->isVisible(), kLong);
+    MaterialsPanel* tiles = page();
+    QVERIFY2(!tiles->tileOf(material).isEmpty(), material);
+    const auto seen = [&] { return tiles->visibleRegion().contains(tiles->tileOf(material).center()); };
+    for (int k = 0; k < 20 && !seen(); ++k) {
+      const QPointF middle = tiles->visibleRegion().boundingRect().center();
+      const auto stick = [](int y) { return QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y); };
+      next(Story::boardKey(0, *tiles, middle, false, false, stick(0)) +
+           Story::boardKey(5, *tiles, middle, false, false, stick(-1)) +
+           Story::boardKey(15, *tiles, middle, false, false, stick(0)));
+      QTest::qWait(500);
+    }
+    QVERIFY2(seen(), material);
+    pressesBoard(*tiles, tiles->tileOf(material).center());
+    QTRY_VERIFY2_WITH_TIMEOUT(m_window->tools().brush().material == material,
+                              m_window->tools().brush().material.c_str(), kLong);
+    putsBoardAway();
+  }
+  /// A row of the brush's page is slid to within a tenth of a value.
+  void slides(const char* name, double wanted) {
+    presses("Brush");
+    QTRY_VERIFY_WITH_TIMEOUT(Story::panels().widget(vr::kBoard) && Story::rowOf(QLatin1String(name)), kLong);
+    const auto value = [&] {
+      const BrushSettings& brush = m_window->tools().brush();
+      return numberOf(brush.shapeParameters(), session().plugins()->parameters(brush.shape), name);
+    };
+    double low = 0, high = 1;
+    for (int k = 0; k < 12; ++k) {
+      const double share = (low + high) / 2;
+      const ParameterRow* row = Story::rowOf(QLatin1String(name));
+      const QRectF track = row->sliderRect();
+      const QString before = row->valueText();
+      pressesBoard(*row, {track.left() + share * track.width(), track.center().y()});
+      QTRY_VERIFY_WITH_TIMEOUT(row->valueText() != before, kLong);
+      if (std::abs(value() / wanted - 1) < 0.1) return putsBoardAway();
+      (value() < wanted ? low : high) = share;
+    }
+    QVERIFY2(false, qPrintable(QStringLiteral("%1 is %2").arg(QLatin1String(name)).arg(value())));
   }
   void passes(double seconds) {
     const double until = timeNow() + seconds;

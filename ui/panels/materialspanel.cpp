@@ -94,6 +94,7 @@ MaterialsPanel::MaterialsPanel(Session& session, Selection& selection, QWidget* 
       showLook(parameter->address.id);
     }
   });
+  rebuild();  // a scene may be open already
 }
 
 /// A slider that is dragged looks into one material alone.

@@ -59,10 +59,11 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
                      {"edit.redo", "redo"},
                      {"sketch.real", "check"}});
   addChoice(
-      *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { m_tools.stepMaterial(by); });
+      *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { m_tools.stepMaterial(by); },
+      "Materials");
   addChoice(
       *grid, QStringLiteral("Brush"), [this] { return pluginLabel(m_session.plugins(), m_tools.brush().shape); },
-      [this](int by) { m_tools.stepShape(by); });
+      [this](int by) { m_tools.stepShape(by); }, "Brush");
   addChoice(
       *grid, QStringLiteral("Size"), [this] { return m_tools.brushSizeText(); },
       [this](int by) { m_tools.stepBrush(by); });
@@ -117,14 +118,21 @@ void VrPalette::addTurns(QHBoxLayout& row) {
 }
 
 void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
-                          const std::function<void(int)>& step) {
+                          const std::function<void(int)>& step, const char* page) {
   const int line = grid.rowCount();
   auto* title = new QLabel(name);
   title->setTextFormat(Qt::PlainText);
-  auto* value = new QLabel;
-  value->setTextFormat(Qt::PlainText);
-  value->setAlignment(Qt::AlignCenter);
+  auto* value = new QToolButton;
   value->setAccessibleName(name);
+  value->setMinimumHeight(kButton);
+  value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  if (page) {
+    const QString wanted = QString::fromLatin1(page);
+    value->setToolTip(QStringLiteral("Brings the page %1").arg(wanted));
+    connect(value, &QToolButton::clicked, this, [this, wanted] { Q_EMIT pageWanted(wanted); });
+  } else {
+    value->setAttribute(Qt::WA_TransparentForMouseEvents);
+  }
   grid.addWidget(title, line, 0, 1, 2);
   int column = 2;
   for (const int by : {-1, 1}) {
@@ -179,7 +187,8 @@ void VrPalette::showLabelled(bool labelled) { m_labelled->setChecked(labelled); 
 
 void VrPalette::follow() {
   for (const Choice& choice : m_choices) {
-    const QString text = choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width());
+    QString text = choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width());
+    text.replace(QLatin1Char('&'), QStringLiteral("&&"));  // no mnemonic
     if (choice.value->text() != text) choice.value->setText(text);
   }
 }

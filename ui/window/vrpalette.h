@@ -35,15 +35,15 @@ class VrPalette : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  /// A value between two buttons that take the one before and the one after.
+  /// A value between two buttons that take the one before and the one after. It leads to its page, where it has one.
   struct Choice {
-    QLabel* value;
+    QToolButton* value;
     std::function<QString()> text;
   };
   QHBoxLayout* addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row);
   void addTurns(QHBoxLayout& row);
   void addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
-                 const std::function<void(int)>& step);
+                 const std::function<void(int)>& step, const char* page = nullptr);
   void addPages(QGridLayout& grid, const std::vector<const char*>& pages);
   void stepTemperature(int by);
   QString becomes() const;
