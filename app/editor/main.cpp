@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The editor: arguments, graphics format, theme, window.
 #include "app/editor/arguments.h"
+#include "app/editor/displayproblem.h"
 #include "app/editor/picture.h"
 #include "app/editor/quitsignals.h"
 #include "app/editor/quitwatchdog.h"
@@ -56,6 +57,10 @@ int main(int argc, char** argv) {
   if (early.problem.isEmpty() && early.version) return std::puts("phasesketch " PS_VERSION) < 0;
   if (early.problem.isEmpty() && early.listPlugins) return listPlugins();
 
+  if (const std::string problem = ps::displayProblem(argc, argv); !problem.empty()) {
+    std::fprintf(stderr, "phasesketch: %s\n", problem.c_str());
+    return 1;
+  }
   ps::requestViewFormat();
   QGuiApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
   QApplication application(argc, argv);

@@ -585,6 +585,29 @@ class TestSession : public QObject {
              theme == QStringLiteral("dark"));
   }
 
+  void withoutADisplayThatIsSaid_data() {
+    QTest::addColumn<QString>("display");
+    QTest::addColumn<QByteArray>("said");
+    QTest::newRow("none") << "" << QByteArray("there is no display (DISPLAY is not set): ");
+    QTest::newRow("gone") << ":98765" << QByteArray("the display :98765 cannot be reached: ");
+  }
+  void withoutADisplayThatIsSaid() {
+    QFETCH(QString, display);
+    QFETCH(QByteArray, said);
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    for (const char* name : {"QT_QPA_PLATFORM", "WAYLAND_DISPLAY"}) environment.remove(QLatin1String(name));
+    environment.insert(QStringLiteral("DISPLAY"), display);
+    QProcess program;
+    program.setProcessEnvironment(environment);
+    program.start(QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"), QStringList());
+    QVERIFY(program.waitForFinished(kLong));
+    QCOMPARE(program.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(program.exitCode(), 1);
+    QCOMPARE(program.readAllStandardError(), "phasesketch: " + said +
+                                                 "start it in a desktop session; "
+                                                 "phasesketch-cli needs no display\n");
+  }
+
  private:
   Session& session() { return m_window->session(); }
   Document& document() { return session().document(); }
