@@ -139,6 +139,9 @@ class TestCurves : public CurveWindowTest {
 
   void whatIsDraggedActsOnRunningMatter() {
     threePoints();
+    session().play();
+    const uint64_t began = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > began, kLong);
     const auto baked = [this] {
       return onEngine<double>(session(), [](Engine& engine) { return engine.solver().materials()[0].viscosity(300); });
     };
@@ -146,7 +149,22 @@ class TestCurves : public CurveWindowTest {
     QTest::mousePress(&curve(), Qt::LeftButton, {}, place(1));
     QTest::mouseMove(&curve(), place(1) + QPoint(0, -30));
     QVERIFY(baked() > 1.01 * before);  // while the button is down
+    const uint64_t acted = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > acted, kLong);  // and the run goes on by it
     QTest::mouseRelease(&curve(), Qt::LeftButton, {}, place(1));
+    QVERIFY(session().playing());
+  }
+
+  /// While the run goes on, of all particles of the material.
+  void theHistogramFollows() {
+    QTRY_VERIFY_WITH_TIMEOUT(curve().particles().count > 0, kLong);
+    const std::vector<size_t> before = curve().particles().bins;
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(curve().particles().bins != before, kLong);
+    const MaterialNow& now = curve().particles();
+    QCOMPARE(now.count, session().snapshot()->id.size());  // the scene has no other matter
+    QCOMPARE(std::accumulate(now.bins.begin(), now.bins.end(), size_t{0}), now.within);
+    QVERIFY(now.within > 0 && now.within <= now.count);
   }
 
   void keysWalkAndNudge() {

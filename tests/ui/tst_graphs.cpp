@@ -45,6 +45,7 @@ class TestGraphs : public QObject {
   void valuesKeepTheirWidth();
   void decadesHaveTicks();
   void whatIsLostStacksDownwards();
+  void aCurveIsComparedWithItsReference();
   void graphsAreAccessible();
 };
 
@@ -494,6 +495,28 @@ void TestGraphs::whatIsLostStacksDownwards() {
   const std::vector<PlotLine> lines = stack.measured();
   QCOMPARE(lines[lines.size() - 2].value, QStringLiteral("300.0 J"));
   QCOMPARE(lines.back().value, QStringLiteral("−500 mJ"));
+}
+
+/// Between the cursors: how much it changes, how steeply, over what area, and how far its mean is from what is expected
+/// of what stays beside that all the time.
+void TestGraphs::aCurveIsComparedWithItsReference() {
+  GraphView graph;
+  graph.resize(500, 200);
+  const int series = graph.addSeries(QStringLiteral("Water"), QStringLiteral("°C"));
+  for (int second = 0; second <= 10; ++second) graph.append(series, second, 0.1 * second);
+  graph.append(series, 20, 100);
+  graph.setReferenceLines({{0, QStringLiteral("melts")}, {100, QStringLiteral("boils")}});
+  graph.grab();
+  graph.setReading(0, 0.0);
+  graph.setReading(1, 10.0);
+  const std::vector<PlotLine> lines = graph.measured();
+  QCOMPARE(lines.size(), size_t{3});
+  QCOMPARE(lines[0].name, QStringLiteral("A to B: 10.00 s"));
+  QCOMPARE(lines[1].value, QStringLiteral("1.000 °C · 0.1000 °C/s · 5.000 °C·s"));
+  QCOMPARE(lines[2].name, QStringLiteral("mean, melts at 0 °C"));
+  QCOMPARE(lines[2].value, QStringLiteral("0.5000 °C, off by 0.50 °C"));
+  graph.setReading(1, 20.0);
+  QCOMPARE(graph.measured().size(), size_t{2});  // it has left what melts far behind
 }
 
 void TestGraphs::graphsAreAccessible() {

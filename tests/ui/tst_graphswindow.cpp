@@ -12,6 +12,7 @@
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
 
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
 #include <QtGui/QWheelEvent>
@@ -273,6 +274,8 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY2(view->measured()[1].value.contains(QStringLiteral("°C/s")) &&
                  view->measured()[1].value.contains(QStringLiteral("°C·s")),
              qPrintable(view->measured()[1].value));
+    const QRegularExpression change(QStringLiteral("^−?[0-9.]+ °C · "));
+    QVERIFY2(view->measured()[1].value.contains(change), qPrintable(view->measured()[1].value));
     // Held at its line, B is dragged; an arrow moves it by a pixel.
     const QPointF at(plot.left() + 0.8 * plot.width(), plot.center().y());
     QTest::mousePress(view, Qt::LeftButton, {}, at.toPoint());

@@ -51,6 +51,76 @@ class TestLayout : public QObject {
     QVERIFY(dock("dock.materials")->y() > dock("dock.outliner")->geometry().bottom());
   }
 
+  /// To 2 px. Graphs and timeline together: the timeline is as high as it has rows, and what it leaves the graphs take,
+  /// or the view. At 1280 the inspector is 20 wider than drawn, or its longest labels would be cut.
+  void theTableHolds_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::addColumn<int>("left");
+    QTest::addColumn<int>("right");
+    QTest::addColumn<int>("materials");
+    QTest::addColumn<int>("graphs");
+    QTest::addColumn<int>("bottom");
+    QTest::addColumn<QSize>("view");
+    QTest::newRow("1280") << QSize(1280, 800) << 204 << 332 + 20 << 0 << 152 << 152 + 96 << QSize(738 - 20, 449);
+    QTest::newRow("1600") << QSize(1600, 1000) << 236 << 392 << 252 << 178 << 178 + 124 << QSize(966, 594);
+    QTest::newRow("2560") << QSize(2560, 1440) << 300 << 460 << 252 << 260 << 260 + 160 << QSize(1794, 917);
+  }
+  void theTableHolds() {
+    QFETCH(QSize, size);
+    QFETCH(int, left);
+    QFETCH(int, right);
+    QFETCH(int, materials);
+    QFETCH(int, graphs);
+    QFETCH(int, bottom);
+    QFETCH(QSize, view);
+    open(size);
+    const auto is = [](int value, int wanted) {
+      if (std::abs(value - wanted) > 2) qWarning("%d, not %d", value, wanted);
+      return std::abs(value - wanted) <= 2;
+    };
+    QVERIFY(is(dock("dock.outliner")->width(), left));
+    QVERIFY(is(dock("dock.inspector")->width(), right));
+    QVERIFY(materials == 0 || is(dock("dock.materials")->height(), materials));
+    const int low = dock("dock.graphs")->height(), time = dock("dock.transport")->height();
+    QVERIFY(low >= graphs && low + time <= bottom + 2);
+    const QSize shown = m_window->viewport()->size();
+    QVERIFY(is(shown.width(), view.width()) && shown.height() >= view.height() - 2);
+    // Panels end in a quarter of a circle of 5 px, and 3 of the window's ground lie between them.
+    const QImage picture = m_window->grab().toImage();
+    const QColor ground = Theme::current()[Token::Window], panel = Theme::current()[Token::Panel];
+    for (const Dock* each : m_window->layoutOfDocks().docks()) {
+      if (!each->isVisible()) continue;
+      const QRect at = each->geometry();
+      for (const QPoint& corner : {at.topLeft(), at.topRight(), at.bottomLeft(), at.bottomRight()})
+        QCOMPARE(picture.pixelColor(corner), ground);
+      QCOMPARE(picture.pixelColor(at.left() + 6, at.top() + 1), panel);
+      QCOMPARE(picture.pixelColor(at.center().x(), at.top() - 2), ground);
+    }
+    for (const Dock* each : m_window->layoutOfDocks().docks())
+      QVERIFY(!each->isVisible() || each->titleBarWidget()->height() == 28 ||
+              !each->findChild<QTabBar*>()->isVisible());
+    for (const auto tab : {MainWindow::kFilmTab, MainWindow::kSketchTab, MainWindow::kTuneTab})
+      m_window->showWorkspace(tab);
+    QVERIFY(is(dock("dock.responses")->width(), left));
+    QVERIFY(is(m_window->viewport()->width(), 480));  // the least that any view has
+  }
+
+  /// No frames, arrows and panes of Qt's own, one style sheet, one family of letters.
+  void nothingLooksLikeDefaultQt() {
+    open({1280, 800});
+    const QStringList families{QStringLiteral("PhaseSketch UI"), QStringLiteral("PhaseSketch Symbols")};
+    int seen = 0;
+    for (const QWidget* widget : m_window->findChildren<QWidget*>()) {
+      const char* name = widget->metaObject()->className();
+      for (const char* foreign : {"QGroupBox", "QAbstractSpinBox", "QToolBox", "QTabWidget", "QMdiArea"})
+        QVERIFY2(!widget->inherits(foreign), name);
+      QVERIFY2(widget->styleSheet().isEmpty(), name);
+      QVERIFY2(families.contains(widget->font().family()), qPrintable(widget->font().family()));
+      ++seen;
+    }
+    QVERIFY(seen > 200);
+  }
+
   /// Inspector, view and outliner are 300, 480 and 180 wide at the least, with 3 between them.
   void theWindowCanBeSmall() {
     open({1280, 800});
@@ -236,6 +306,9 @@ class TestLayout : public QObject {
     QVERIFY(m_window->close());
     m_window.reset();
     open({1600, 1000}, true);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSketchTab);
+    QCOMPARE(shownDocks(), left);
+    m_window->showWorkspace(MainWindow::kSceneTab);
     QVERIFY(shownDocks().contains("dock.graphs"));
     m_window->showWorkspace(MainWindow::kSketchTab);
     QCOMPARE(shownDocks(), left);
@@ -280,6 +353,23 @@ class TestLayout : public QObject {
     messages->trigger();
     QVERIFY(shown());
     QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+  }
+
+  /// They kept neither workspace nor pages.
+  void layoutsOfOlderProgramsComeBack() {
+    open({1600, 1000});
+    dragBetweenLeftDocks(-60);
+    const int left = dock("dock.materials")->height();
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QVERIFY(m_window->close());
+    m_window.reset();
+    QSettings settings;
+    settings.remove(QStringLiteral("window/workspace"));
+    settings.remove(QStringLiteral("window/pages"));
+    open({1600, 1000}, true);
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+    QTRY_COMPARE(dock("dock.materials")->height(), left);
+    QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
   }
 
   void pagesOfOneDockComeBackAsThat() {

@@ -21,12 +21,14 @@
 #include "ui/window/statusline.h"
 
 #include <QtCore/QElapsedTimer>
+#include <QtGui/QImage>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QToolButton>
 
+#include <cmath>
 #include <map>
 
 using namespace ps;
@@ -179,9 +181,22 @@ class TestRecordedView : public SampleWindowTest {
     picture("tst_recordedview_keys.png");
     auto* plot = m_window->graphs()->valuesIn("K");
     plot->setRange(0, 0.2);
-    QTest::mouseClick(plot, Qt::LeftButton, {}, {plot->width() * 7 / 8, plot->height() / 2});
-    QTRY_VERIFY_WITH_TIMEOUT(shownFrame() != frame, kLong);
+    plot->grab();  // its axes find their room
+    // A click in a graph shows the frame of that time, and graph, clock, bar and ruler all stand there.
+    const QRectF area = plot->plotRect();
+    const QPoint there = (area.topLeft() + QPointF(0.75 * area.width(), area.height() / 2)).toPoint();
+    const double clicked = 0.2 * (there.x() - area.left()) / area.width();
+    const uint64_t sought = session().engine()->recording().frameAt(clicked).value();
+    QVERIFY(sought != frame);
+    QTest::mouseClick(plot, Qt::LeftButton, {}, there);
+    QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), sought, kLong);
     QVERIFY(session().recorded().isActive());
+    const double shown = session().snapshot()->stats.time;
+    QTRY_COMPARE_WITH_TIMEOUT(plot->presentTime(), shown, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(transport().timeText(), clockText(shown), kLong);
+    const QPoint onBar = transport().placeOf(shown);
+    QVERIFY(std::abs(columnOf(transport(), onBar.y(), Token::Accent) - onBar.x()) < 1.5);
+    QVERIFY(std::abs(columnOf(*rows, KeyRows::kRuler - 3, Token::SliderFill) - rows->xOf(shown)) < 1.5);
     session().recorded().showNewest();
     QTRY_COMPARE_WITH_TIMEOUT(m_window->graphs()->valuesIn("K")->presentTime(), session().newest()->stats.time, kLong);
   }
@@ -540,6 +555,16 @@ class TestRecordedView : public SampleWindowTest {
   uint64_t step() { return hands::stepKept(session()); }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport& transport() { return *m_window->transport(); }
+  /// Middle of what has a colour in a row of pixels, logical pixels; NaN: nothing has.
+  static double columnOf(QWidget& widget, int row, Token token) {
+    const double ratio = widget.devicePixelRatioF();
+    const QImage image = widget.grab().toImage().convertToFormat(QImage::Format_RGB32);
+    double sum = 0, count = 0;
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.pixelColor(x, static_cast<int>(row * ratio)) == Theme::current()[token]) sum += x + 0.5, ++count;
+    }
+    return sum / count / ratio;
+  }
   void branchAt(uint64_t frame) { hands::branchAt(*m_window, frame, 6); }
   void trigger(const char* id) { m_window->action(QLatin1String(id))->trigger(); }
   void choose(int run, const char* what) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window that is closed and opened again shows what it showed: selection, run, moment, and whether it goes on.
+// A window that is closed and opened again shows what it showed: selection, run, moment, and whether it goes on; the
+// workspace with its docks and their pages, graphs, legend and brush.
 #include "core/io/projectio.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
@@ -7,13 +8,17 @@
 #include "tests/shared/scenes.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/plot.h"
+#include "ui/panels/inspector.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/recordingfiles.h"
 #include "ui/session/selection.h"
+#include "ui/tools/favouritebrush.h"
+#include "ui/window/dock.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 
 using namespace ps;
@@ -39,6 +44,7 @@ class TestResuming : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void init() {
+    QSettings().clear();
     preferences::setWelcomeAtStart(false);
     preferences::setTourDone();
     m_directory = std::make_unique<QTemporaryDir>();
@@ -49,6 +55,7 @@ class TestResuming : public QObject {
     toTheStart();
   }
   void cleanup() { m_window.reset(); }
+  void cleanupTestCase() { QSettings().clear(); }
 
   void aPausedRunStandsWhereItWasLeft() {
     run(kLeft);
@@ -126,6 +133,75 @@ class TestResuming : public QObject {
     QVERIFY(plots.size() > 1);
     QVERIFY(plots.front()->reading(0) == 0.125 && plots.front()->reading(1) == 0.25);
     QVERIFY(!plots.back()->reading(0) && plots.back()->reading(1) == 0.5);
+  }
+
+  /// Each with what was selected, which turns the inspector to the body's page as it is selected.
+  void theWorkspaceAndPagesComeBack_data() {
+    QTest::addColumn<int>("tab");
+    for (const int tab : {MainWindow::kSceneTab, MainWindow::kTuneTab, MainWindow::kSketchTab, MainWindow::kFilmTab})
+      QTest::newRow(MainWindow::kWorkspaces[static_cast<size_t>(tab)]) << tab;
+  }
+  void theWorkspaceAndPagesComeBack() {
+    QFETCH(int, tab);
+    m_window->showWorkspace(static_cast<MainWindow::WorkspaceTab>(tab));
+    m_window->selection().select(OutlineKind::Body, "ice");
+    const QString pages[] = {QStringLiteral("Solver"), QStringLiteral("Energy")};
+    m_window->inspectorDock()->choosePage(pages[0]);
+    m_window->layoutOfDocks().dockOf(pages[1])->choosePage(pages[1]);
+    m_window->inspector().solverPanel()->setGroupFolded(QStringLiteral("Resolution"), true);
+    const QStringList docks = shownDocks();
+    const QSize size = m_window->viewport()->size();
+    const std::string before = textWithoutView();
+    reopen();
+    QCOMPARE(m_window->workspaceTab(), static_cast<MainWindow::WorkspaceTab>(tab));
+    QCOMPARE(shownDocks(), docks);
+    QVERIFY(m_window->selection().has(OutlineKind::Body, "ice"));
+    for (const QString& page : pages) QCOMPARE(m_window->layoutOfDocks().dockOf(page)->currentPage(), page);
+    QCOMPARE(m_window->inspector().solverPanel()->foldedGroups(), QStringList{QStringLiteral("Resolution")});
+    QVERIFY(m_window->inspector().materialPanel()->foldedGroups().isEmpty());
+    QCOMPARE(m_window->tools().tool().usesBrush(), tab == MainWindow::kSketchTab);
+    QTRY_COMPARE(m_window->viewport()->size(), size);
+    QVERIFY(!document().isDirty());
+    QCOMPARE(textWithoutView(), before);
+  }
+
+  void theZoomOfGraphsComesBack() {
+    const std::vector<Plot*> before = m_window->findChild<GraphsPanel*>()->plots();
+    before.front()->setRange(0.125, 0.25);
+    before.front()->setValueRange(0, std::pair(10.0, 20.0));
+    reopen();
+    const std::vector<Plot*> plots = m_window->findChild<GraphsPanel*>()->plots();
+    QCOMPARE(plots.front()->range(), (std::pair(0.125, 0.25)));
+    QCOMPARE(plots.front()->axes().front().zoom, std::optional(std::pair(10.0, 20.0)));
+    QVERIFY(plots.back()->isFitted() && !plots.back()->axes().front().zoom);
+  }
+
+  void theRangeOfTheLegendComesBack() {
+    document().setColour("temperature");
+    const auto view = [this] { return m_window->viewport(); };
+    QTRY_VERIFY_WITH_TIMEOUT(!view()->overlayHits().legendBar.isEmpty(), kLong);
+    const QRectF bar = view()->overlayHits().legendBar;
+    const QPoint end(static_cast<int>(bar.center().x()), static_cast<int>(bar.top()));
+    const double automatic = view()->legendRange().second;
+    QTest::mousePress(view(), Qt::LeftButton, {}, end);
+    QTest::mouseMove(view(), end + QPoint(0, 20));
+    QTest::mouseRelease(view(), Qt::LeftButton, {}, end + QPoint(0, 20));
+    QTRY_VERIFY(view()->legendRange().second < automatic);
+    const auto range = view()->legendRange();
+    reopen();
+    QTRY_VERIFY_WITH_TIMEOUT(!view()->overlayHits().legendBar.isEmpty(), kLong);
+    QCOMPARE(view()->legendRange(), range);
+  }
+
+  void theBrushComesBack() {
+    BrushSettings brush = m_window->tools().brush();
+    brush.shape = "cube";
+    brush.radius = 0.08;
+    brush.temperature = 300;
+    brush.held = true;
+    m_window->tools().setBrush(brush);
+    reopen();
+    QCOMPARE(QString::fromStdString(textOf(m_window->tools().brush())), QString::fromStdString(textOf(brush)));
   }
 
   void theSelectionComesBack() {
@@ -214,6 +290,18 @@ class TestResuming : public QObject {
     QVERIFY(m_window->close());
     m_window.reset();
     open();
+  }
+  std::string textWithoutView() {
+    Project project = document().project();
+    project.view = {};
+    return writeProject(project);
+  }
+  QStringList shownDocks() {
+    QStringList names;
+    for (const Dock* dock : m_window->layoutOfDocks().docks()) {
+      if (dock->isVisible()) names << dock->objectName();
+    }
+    return names;
   }
   void toTheStart() {
     const uint64_t revision = session().snapshot()->revision;

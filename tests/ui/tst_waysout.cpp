@@ -8,6 +8,7 @@
 #include "ui/document/missingplugins.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/messagespage.h"
+#include "ui/panels/outliner.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/rows/parameterrow.h"
@@ -20,12 +21,14 @@
 #include "ui/window/waysout.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QMap>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QTreeView>
 
 #include <algorithm>
 #include <clocale>
@@ -141,6 +144,31 @@ class TestWaysOut : public SampleWindowTest {
     QVERIFY(row && labelOf(*row).contains(QStringLiteral("plugin:org.example.net")));
     inspector.setMaterial("water");
     QVERIFY(!labelOf(*inspector.materialPanel()).contains(QStringLiteral("material:paste")));
+  }
+
+  /// What lacks its plugin stands still, marked in the outliner, with all that the project says of it.
+  void theRestRunsBesideWhatIsMissing() {
+    openProject(sceneOfMissing());
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->bodyIds && session().newest()->bodyIds->size() == 3, kLong);
+    const std::string kept = writeProject(document().project());
+    const Mean ice = meanOf("ice"), block = meanOf("block"), net = meanOf("net");
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > 10, kLong);
+    session().pause();
+    idsNow(session());  // no frame comes any more
+    QVERIFY(meanOf("ice").kelvin > ice.kelvin && session().newest()->stats.heat.walls > 0);
+    QCOMPARE(meanOf("block").place, block.place);
+    QCOMPARE(meanOf("net").place, net.place);
+    QMap<QString, bool> marked;
+    const QAbstractItemModel* rows = m_window->outliner()->view()->model();
+    const QModelIndex scene = rows->index(0, 0);
+    for (int row = 0; row < rows->rowCount(scene); ++row) {
+      const QModelIndex index = rows->index(row, 0, scene);
+      if (index.data(outline::kKind).toInt() == static_cast<int>(OutlineKind::Body))
+        marked[index.data(outline::kId).toString()] = index.data(outline::kPlaceholder).toBool();
+    }
+    QCOMPARE(marked, (QMap<QString, bool>{{"block", true}, {"ice", false}, {"net", true}}));
+    QCOMPARE(writeProject(document().project()), kept);
   }
 
   /// What plugins that are not here were given stands in rows that nobody can edit, and goes into the file as it was.
@@ -399,6 +427,24 @@ class TestWaysOut : public SampleWindowTest {
     QVERIFY(opened.wait(kLong));
   }
 
+  struct Mean {
+    Vector3 place{0, 0, 0};  ///< m
+    double kelvin = 0;
+  };
+  /// Of a body's particles, as the engine has published them last.
+  Mean meanOf(const std::string& body) {
+    const SnapshotPtr now = session().newest();
+    Mean mean;
+    double count = 0;
+    for (size_t i = 0; i < now->id.size(); ++i) {
+      if ((*now->bodyIds)[now->body[i]] != body) continue;
+      const api::Float4& at = now->position[i];
+      mean.place += Vector3(at.x, at.y, at.z);
+      mean.kelvin += static_cast<double>(now->temperature[i]);
+      ++count;
+    }
+    return {mean.place / count, mean.kelvin / count};
+  }
   api::Motion motionOf(const std::string& body) {
     return onEngine<api::Motion>(session(), [body](Engine& engine) {
       const ParticleStore& store = engine.solver().particles();

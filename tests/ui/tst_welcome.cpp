@@ -35,6 +35,12 @@ namespace {
 
 const QString kProjects = QStringLiteral(PS_SOURCE_DIR "/projects");
 const Address kFloor{Owner::Wall, "floor", "temperature"};
+// ms from the program's window to matter that moves. Sanitizers make that many times as long.
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr qint64 kRunsWithin = 3000;
+#else
+constexpr qint64 kRunsWithin = kLong;
+#endif
 
 }  // namespace
 
@@ -132,9 +138,12 @@ class TestWelcome : public QObject {
     QVERIFY(!m_window->tour().running());
   }
 
-  /// From the window to matter that moves, in this order, and nobody has to click for it.
+  /// From the window to matter that moves, in this order, and nobody has to click for it; then a drag turns the view at
+  /// once.
   void theFirstStartReachesARunningSample() {
     const MainWindow::Options options = starting();
+    QElapsedTimer since;
+    since.start();
     m_window = std::make_unique<MainWindow>(options);
     Session& session = m_window->session();
     const auto order = std::make_shared<QStringList>();
@@ -145,18 +154,25 @@ class TestWelcome : public QObject {
     m_window->resize(1600, 1000);
     m_window->show();
     QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    QElapsedTimer since;
-    since.start();
     m_window->start();
     QTRY_VERIFY_WITH_TIMEOUT(order->contains(QStringLiteral("shown")), kLong);
-    qInfo("the sample shows after %lld ms", since.elapsed());
+    QTRY_VERIFY_WITH_TIMEOUT(session.now() > 0, kLong);
+    const qint64 took = since.elapsed();
+    QVERIFY2(took < kRunsWithin, qPrintable(QStringLiteral("%1 ms").arg(took)));
     QCOMPARE(*order, QStringList({QStringLiteral("plugins"), QStringLiteral("opened"), QStringLiteral("shown")}));
     QCOMPARE(document().path(), options.sample);
-    QTRY_VERIFY_WITH_TIMEOUT(session.now() > 0, kLong);
     const double then = session.now();
     QTRY_VERIFY_WITH_TIMEOUT(session.now() > then, kLong);
     QVERIFY(session.playing() && !m_window->welcome().shown());
     QVERIFY(!QApplication::activeModalWidget() && !QApplication::activePopupWidget());
+    Viewport* view = m_window->viewport();
+    QTRY_VERIFY_WITH_TIMEOUT(!view->overlayHits().hintClose.isEmpty(), kLong);
+    const QPoint middle = view->rect().center();
+    const double azimuth = view->navigator().camera().azimuth;
+    QTest::mousePress(view, Qt::LeftButton, {}, middle);
+    QTest::mouseMove(view, middle + QPoint(5, 0));
+    QVERIFY(view->navigator().camera().azimuth != azimuth && session.playing());
+    QTest::mouseRelease(view, Qt::LeftButton, {}, middle + QPoint(5, 0));
   }
 
   void laterStartsShowThePage() {

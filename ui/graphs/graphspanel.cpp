@@ -140,19 +140,26 @@ GraphView* GraphsPanel::valuesIn(const std::string& unit) const {
 
 PhaseStackView* GraphsPanel::phases() const { return findChild<PhaseStackView*>(); }
 
-std::map<std::string, std::array<std::optional<double>, 2>> GraphsPanel::readings() const {
-  std::map<std::string, std::array<std::optional<double>, 2>> all;
+std::map<std::string, GraphLook> GraphsPanel::looks() const {
+  std::map<std::string, GraphLook> all;
   for (const Shown& shown : m_shown) {
-    const std::array both{shown.plot->reading(0), shown.plot->reading(1)};
-    if (both[0] || both[1]) all[shown.graph.id] = both;
+    const Plot& plot = *shown.plot;
+    GraphLook look{{plot.reading(0), plot.reading(1)}, {}};
+    if (!plot.isFitted()) look.range = plot.range();
+    for (const ValueAxis& axis : plot.axes()) look.values.push_back(axis.zoom);
+    while (!look.values.empty() && !look.values.back()) look.values.pop_back();
+    if (look != GraphLook()) all[shown.graph.id] = look;
   }
   return all;
 }
 
-void GraphsPanel::setReadings(const std::map<std::string, std::array<std::optional<double>, 2>>& readings) {
-  for (const auto& [id, both] : readings) {
+void GraphsPanel::setLooks(const std::map<std::string, GraphLook>& looks) {
+  for (const auto& [id, look] : looks) {
     Plot* of = plot(id);
-    for (size_t which = 0; of && which < both.size(); ++which) of->setReading(which, both[which]);
+    if (!of) continue;
+    for (size_t which = 0; which < look.cursors.size(); ++which) of->setReading(which, look.cursors[which]);
+    if (look.range) of->setRange(look.range->first, look.range->second);
+    for (size_t axis = 0; axis < look.values.size(); ++axis) of->setValueRange(axis, look.values[axis]);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/simulation/graphsource.h"
 #include "ui/graphs/timeplot.h"
+#include "ui/session/autosave.h"
 #include "ui/session/historyreader.h"
 
 #include <QtCore/QByteArray>
@@ -35,9 +36,9 @@ class GraphsPanel : public QWidget {
   /// The first graph over time whose first curve is in this SI unit; nullptr where there is none.
   GraphView* valuesIn(const std::string& unit) const;
   PhaseStackView* phases() const;  ///< the first of its kind; nullptr: none
-  /// Cursors A and B of those graphs that have one, by Graph::id.
-  std::map<std::string, std::array<std::optional<double>, 2>> readings() const;
-  void setReadings(const std::map<std::string, std::array<std::optional<double>, 2>>& readings);
+  /// Cursors and zoom of those graphs that have some, by Graph::id.
+  std::map<std::string, GraphLook> looks() const;
+  void setLooks(const std::map<std::string, GraphLook>& looks);
   void fit();     ///< all, up to now
   void remake();  ///< all anew: units are shown otherwise
   /// The menu of a graph; "": of the place where none is. The caller owns it.

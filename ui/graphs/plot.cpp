@@ -106,6 +106,12 @@ void Plot::fit() {
   update();
 }
 
+void Plot::setValueRange(size_t axis, const std::optional<std::pair<double, double>>& range) {
+  if (axis >= d->axes.size() || (range && !(range->second > range->first))) return;
+  d->axes[axis].zoom = range;
+  update();
+}
+
 double Plot::summaryPlace() const { return range().second; }
 
 QString Plot::summary() const {

@@ -41,7 +41,9 @@ class Plot : public QWidget {
   void setRange(double first, double last);  ///< along; a zoom by program
   std::pair<double, double> range() const;
   bool isFitted() const;  ///< the range follows the data
-  void fit();             ///< all axes
+  /// Of an axis of values, a zoom by program; nothing: it follows the data. One that there is not is ignored.
+  void setValueRange(size_t axis, const std::optional<std::pair<double, double>>& range);
+  void fit();  ///< all axes
   /// The values at the end of the data, in words: what a screen reader says.
   QString summary() const;
   /// Rectangle of the plot itself, without axes and labels.

@@ -361,7 +361,7 @@ void ParameterPanel::Private::show() {
   if (total == 0)
     empty->setText(emptyText.toHtmlEscaped());
   else if (!text.isEmpty())
-    empty->setText(QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>").arg(text.toHtmlEscaped()));
+    empty->setText(nothingCalled(text));
   else
     empty->setText(QStringLiteral("Nothing is changed."));
   showCount();
@@ -427,6 +427,12 @@ int ParameterPanel::changedCount() const {
 
 void ParameterPanel::setFilter(const QString& text) { d->filter->setText(text); }
 void ParameterPanel::setChangedOnly(bool on) { d->changed->setChecked(on); }
+
+QStringList ParameterPanel::foldedGroups() const {
+  QStringList groups(d->folded.begin(), d->folded.end());
+  groups.sort();
+  return groups;
+}
 
 void ParameterPanel::setGroupFolded(const QString& group, bool folded) {
   if (folded)

@@ -56,6 +56,7 @@ class ParameterPanel : public QWidget {
   void setFilter(const QString& text);
   void setChangedOnly(bool on);
   void setGroupFolded(const QString& group, bool folded);
+  QStringList foldedGroups() const;  ///< sorted, also of other rows that it has had
   bool isRowShown(const ParameterRow* row) const;  ///< by filter and folding
   /// Unfolds a row's group, scrolls so that its heading stands on top (unless the row would be out of sight then) and
   /// gives the row the focus where asked. False: no such row.

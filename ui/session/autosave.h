@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ps {
@@ -29,15 +30,24 @@ enum class SessionEnd {
   Closed,    ///< with the window
 };
 
+/// What a graph shows beside its curves, in the units of its axes.
+struct GraphLook {
+  std::array<std::optional<double>, 2> cursors;                    ///< A and B, along its axis
+  std::optional<std::pair<double, double>> range;                  ///< along its axis; nothing: it follows the data
+  std::vector<std::optional<std::pair<double, double>>> values{};  ///< likewise of its axes of values
+  bool operator==(const GraphLook&) const = default;
+};
+
 /// What a window showed at its end beside the project.
 struct LastLook {
   std::vector<SelectedItem> selected;
-  std::string material;           ///< the current one; "": none was said
-  bool playing = true;            ///< whether the run went on
-  std::optional<double> shownAt;  ///< s, of a recorded frame that was shown instead of the newest
-  bool hasRun = false;            ///< whether notes::runPath() is of this end
-  /// Cursors A and B of graphs, by Graph::id, along their axis.
-  std::map<std::string, std::array<std::optional<double>, 2>> readings{};
+  std::string material;                               ///< the current one; "": none was said
+  bool playing = true;                                ///< whether the run went on
+  std::optional<double> shownAt;                      ///< s, of a recorded frame that was shown instead of the newest
+  bool hasRun = false;                                ///< whether notes::runPath() is of this end
+  std::map<std::string, GraphLook> graphs{};          ///< by Graph::id
+  std::optional<std::pair<double, double>> legend{};  ///< SI units; nothing: it follows what is there
+  std::string brush{};                                ///< see textOf() of ui/tools/favouritebrush.h; "": none was said
 };
 
 /// What an earlier session left behind.

@@ -71,6 +71,37 @@ ViewState viewOf(const QJsonObject& json) {
   return view;
 }
 
+using Span = std::pair<double, double>;
+
+QJsonValue toJson(const std::optional<Span>& span) {
+  return span ? QJsonValue(QJsonArray{span->first, span->second}) : QJsonValue();
+}
+
+std::optional<Span> spanOf(const QJsonValue& json) {
+  const QJsonValue first = json[0], last = json[1];
+  return first.isDouble() && last.isDouble() ? std::optional(Span(first.toDouble(), last.toDouble())) : std::nullopt;
+}
+
+QJsonObject toJson(const GraphLook& look) {
+  QJsonArray cursors, values;
+  for (const std::optional<double>& at : look.cursors) cursors.append(at ? QJsonValue(*at) : QJsonValue());
+  for (const std::optional<Span>& span : look.values) values.append(toJson(span));
+  return {{QStringLiteral("cursors"), cursors},
+          {QStringLiteral("range"), toJson(look.range)},
+          {QStringLiteral("values"), values}};
+}
+
+GraphLook graphOf(const QJsonValue& json) {
+  GraphLook look;
+  const auto placeOf = [](const QJsonValue& at) { return at.isDouble() ? std::optional(at.toDouble()) : std::nullopt; };
+  const QJsonValue cursors = json[QStringLiteral("cursors")];
+  for (size_t which = 0; which < look.cursors.size(); ++which)
+    look.cursors[which] = placeOf(cursors[static_cast<int>(which)]);
+  look.range = spanOf(json[QStringLiteral("range")]);
+  for (const QJsonValue& span : json[QStringLiteral("values")].toArray()) look.values.push_back(spanOf(span));
+  return look;
+}
+
 constexpr const char* kKinds[] = {"scene", "group",  "body",  "emitter",     "sink",
                                   "wall",  "probes", "probe", "environment", "pin"};  // by OutlineKind
 
@@ -84,13 +115,11 @@ QJsonObject toJson(const LastLook& look) {
                    {QStringLiteral("playing"), look.playing},
                    {QStringLiteral("run"), look.hasRun}};
   if (look.shownAt) json.insert(QStringLiteral("shownAt"), *look.shownAt);
-  QJsonObject readings;
-  for (const auto& [graph, both] : look.readings) {
-    QJsonArray places;
-    for (const std::optional<double>& at : both) places.append(at ? QJsonValue(*at) : QJsonValue());
-    readings.insert(QString::fromStdString(graph), places);
-  }
-  if (!readings.isEmpty()) json.insert(QStringLiteral("cursors"), readings);
+  QJsonObject graphs;
+  for (const auto& [id, graph] : look.graphs) graphs.insert(QString::fromStdString(id), toJson(graph));
+  if (!graphs.isEmpty()) json.insert(QStringLiteral("graphs"), graphs);
+  if (look.legend) json.insert(QStringLiteral("legend"), toJson(look.legend));
+  if (!look.brush.empty()) json.insert(QStringLiteral("brush"), QString::fromStdString(look.brush));
   return json;
 }
 
@@ -108,14 +137,14 @@ LastLook lookOf(const QJsonObject& json) {
   look.hasRun = json.value(QStringLiteral("run")).toBool();
   const QJsonValue at = json.value(QStringLiteral("shownAt"));
   if (at.isDouble()) look.shownAt = at.toDouble();
-  const QJsonObject readings = json.value(QStringLiteral("cursors")).toObject();
-  for (auto graph = readings.begin(); graph != readings.end(); ++graph) {
-    auto& both = look.readings[graph.key().toStdString()];
-    for (size_t which = 0; which < both.size(); ++which) {
-      const QJsonValue place = graph.value()[static_cast<int>(which)];
-      if (place.isDouble()) both[which] = place.toDouble();
-    }
-  }
+  const QJsonObject cursors = json.value(QStringLiteral("cursors")).toObject();  // as older programs noted them
+  for (auto graph = cursors.begin(); graph != cursors.end(); ++graph)
+    look.graphs[graph.key().toStdString()] = graphOf(QJsonObject{{QStringLiteral("cursors"), graph.value()}});
+  const QJsonObject graphs = json.value(QStringLiteral("graphs")).toObject();
+  for (auto graph = graphs.begin(); graph != graphs.end(); ++graph)
+    look.graphs[graph.key().toStdString()] = graphOf(graph.value());
+  look.legend = spanOf(json.value(QStringLiteral("legend")));
+  look.brush = json.value(QStringLiteral("brush")).toString().toStdString();
   return look;
 }
 

@@ -24,18 +24,16 @@ Resuming::~Resuming() {
   if (m_session.autosave()) m_session.autosave()->setLook({});
 }
 
-void Resuming::setReadings(std::function<decltype(LastLook::readings)()> read,
-                           std::function<void(const decltype(LastLook::readings)&)> show) {
-  m_read = std::move(read);
+void Resuming::setLook(std::function<void(LastLook&)> add, std::function<void(const LastLook&)> show) {
+  m_add = std::move(add);
   m_show = std::move(show);
 }
 
 /// A record that plays comes back where it is, paused.
 LastLook Resuming::present() const {
   const RecordedView& recorded = m_session.recorded();
-  LastLook look{
-      m_selection.items(), m_selection.material(), m_session.playing() && !recorded.isActive(), {}, false, {}};
-  if (m_read) look.readings = m_read();
+  LastLook look{m_selection.items(), m_selection.material(), m_session.playing() && !recorded.isActive(), {}, false};
+  if (m_add) m_add(look);
   if (recorded.isActive()) look.shownAt = m_session.now();
   if (m_waiting) look.playing = m_waiting->playing, look.shownAt = m_waiting->shownAt;  // its run has yet to come back
   return look;
@@ -46,7 +44,7 @@ void Resuming::onOpened() {
   if (!m_left) return;
   const LastLook left = *std::exchange(m_left, std::nullopt);
   m_selection.restore(left.selected, left.material);
-  if (m_show) m_show(left.readings);
+  if (m_show) m_show(left);
   if (left.hasRun) m_waiting = left;
 }
 

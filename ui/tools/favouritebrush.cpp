@@ -111,4 +111,28 @@ std::vector<FavouriteBrush> favouritesOf(const QByteArray& text, const PluginReg
   return favourites;
 }
 
+std::string textOf(const BrushSettings& brush) {
+  const QString inHand = QStringLiteral("in hand");
+  std::vector<FavouriteBrush> shapes;
+  for (const auto& [shape, own] : brush.parameters) {
+    FavouriteBrush other{inHand, brush};
+    other.brush.shape = shape;
+    if (shape != brush.shape) shapes.push_back(std::move(other));
+  }
+  shapes.push_back({inHand, brush});
+  return textOf(shapes).toStdString();
+}
+
+BrushSettings brushOf(const std::string& text, BrushSettings inHand, const PluginRegistry& plugins,
+                      const Project& project) {
+  const std::string before = inHand.shape;
+  for (const FavouriteBrush& favourite : favouritesOf(QByteArray::fromStdString(text), plugins)) {
+    if (plugins.brush(favourite.brush.shape))
+      inHand = taken(favourite, std::move(inHand), project);
+    else
+      inHand.shape = before;
+  }
+  return inHand;
+}
+
 }  // namespace ps

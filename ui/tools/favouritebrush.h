@@ -5,6 +5,7 @@
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
 
+#include <string>
 #include <vector>
 
 namespace ps {
@@ -29,5 +30,9 @@ BrushSettings taken(const FavouriteBrush& favourite, BrushSettings inHand, const
 /// default comes back; a favourite without a name or a shape is left out.
 QByteArray textOf(const std::vector<FavouriteBrush>& favourites);
 std::vector<FavouriteBrush> favouritesOf(const QByteArray& text, const PluginRegistry& plugins);
+/// The same of a brush in hand, with the parameters of all shapes. What cannot be had any more stays as it is in hand.
+std::string textOf(const BrushSettings& brush);
+BrushSettings brushOf(const std::string& text, BrushSettings inHand, const PluginRegistry& plugins,
+                      const Project& project);
 
 }  // namespace ps

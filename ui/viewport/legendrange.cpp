@@ -35,6 +35,14 @@ void LegendRange::moveEnd(bool upper, double share) {
   m_set = true;
 }
 
+void LegendRange::set(const ParticleField& field, std::pair<double, double> range) {
+  if (!(range.second > range.first)) return;
+  m_valid = m_set = true;
+  m_name = field.name;
+  m_kelvin = field.unit == "K";
+  m_range = range;
+}
+
 std::pair<double, double> LegendRange::update(const ParticleField& field, std::pair<double, double> wanted) {
   const bool same = field.name == m_name;
   if (m_set && same) return m_range;

@@ -15,6 +15,9 @@ class LegendRange {
   std::pair<double, double> update(const ParticleField& field, std::pair<double, double> wanted);
   /// Moves one end of the range in force by a share of its width, to a round value; it stays on its side of the other.
   void moveEnd(bool upper, double share);
+  /// As somebody had set it; one without width is ignored.
+  void set(const ParticleField& field, std::pair<double, double> range);
+  std::pair<double, double> range() const { return m_range; }
   bool isSet() const { return m_set; }
   void reset() { m_valid = m_set = false; }  ///< automatic again, from nothing
 

@@ -73,6 +73,9 @@ class Viewport : public QOpenGLWidget {
   double drawMilliseconds() const { return m_drawCost; }
   const OverlayHits& overlayHits() const { return m_hits; }  ///< as painted last
   std::pair<double, double> legendRange() const { return m_range; }
+  /// The same where somebody has set it; SI units.
+  std::optional<std::pair<double, double>> ownLegendRange() const;
+  void setLegendRange(const std::pair<double, double>& range);  ///< of the field that is shown
   /// Of the picture that was drawn last, without what is selected or compared.
   Look shownLook() const;
   const std::set<std::string>& hiddenBodies() const { return m_hidden; }

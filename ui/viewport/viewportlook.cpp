@@ -51,6 +51,17 @@ Look Viewport::look() {
   return look;
 }
 
+std::optional<std::pair<double, double>> Viewport::ownLegendRange() const {
+  return m_legendRange.isSet() ? std::optional(m_legendRange.range()) : std::nullopt;
+}
+
+void Viewport::setLegendRange(const std::pair<double, double>& range) {
+  const FieldPtr field = m_session.fields().find(m_colour);
+  if (!field) return;
+  m_legendRange.set(*field, range);
+  update();
+}
+
 void Viewport::setOverlays(const OverlayChoice& overlays) {
   m_overlays = overlays;
   update();

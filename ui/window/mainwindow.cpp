@@ -20,6 +20,7 @@
 #include "ui/session/resuming.h"
 #include "ui/session/runwork.h"
 #include "ui/session/selection.h"
+#include "ui/session/wording.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/units.h"
 #include "ui/timeline/keyrows.h"
@@ -58,6 +59,7 @@
 #include "ui/window/waysout.h"
 #include "ui/window/welcome.h"
 #include "ui/window/windowactions.h"
+#include "ui/window/windowlook.h"
 #include "ui/window/workspacekeys.h"
 
 #include <QtCore/QFileInfo>
@@ -78,8 +80,14 @@
 #include <QtWidgets/QToolButton>
 
 #include <algorithm>
+#include <iterator>
 
 namespace ps {
+namespace {
+
+constexpr Workspace kWorkspaceOf[] = {Workspace::Scene, Workspace::Tune, Workspace::Sketch, Workspace::Film};  // by tab
+
+}  // namespace
 
 MainWindow::MainWindow(const Options& options)
     : m_options(options),
@@ -118,6 +126,9 @@ MainWindow::MainWindow(const Options& options)
   connect(m_vr.get(), &VrMode::refused, m_notices, &Notices::refuse);
   m_layout->applyDefault();
   m_layout->restore();
+  const auto* left = std::find(std::begin(kWorkspaceOf), std::end(kWorkspaceOf), m_layout->workspace());
+  showWorkspace(static_cast<WorkspaceTab>(left - std::begin(kWorkspaceOf)));
+  m_layout->restorePages();
   qApp->installEventFilter(this);
   updateTitle();
 }
@@ -171,9 +182,8 @@ void MainWindow::makeTopBar() {
   for (const char* name : kWorkspaces) workspaces->addTab(QString::fromLatin1(name));
   connect(workspaces, &QTabBar::currentChanged, this, [this](int index) {
     m_centre->setCurrentWidget(m_pane);
-    constexpr Workspace kOf[] = {Workspace::Scene, Workspace::Tune, Workspace::Sketch, Workspace::Film};
-    m_layout->setWorkspace(kOf[index]);
-    m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);
+    m_tools->activate(index == kSketchTab ? kBrushTool : kSelectTool);  // docks take what its buttons leave
+    m_layout->setWorkspace(kWorkspaceOf[index]);
   });
   connect(m_tools.get(), &Toolbox::toolChanged, this, &MainWindow::onTool);
 }
@@ -200,6 +210,7 @@ void MainWindow::makeMiddle() {
   m_plugins = new PluginPage(*m_session);
   m_centre->addWidget(m_pane);
   m_centre->addWidget(m_plugins);
+  roundCorners(*m_centre);
   setCentralWidget(m_centre);
   // The status line spans the window below all docks.
   m_status = new StatusLine(*m_session, viewport());
@@ -316,8 +327,7 @@ void MainWindow::connectGraphs() {
   connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {
     m_files->exportGraph(*graphs(), id.toStdString(), ending);
   });
-  m_resuming->setReadings([this] { return graphs() ? graphs()->readings() : decltype(graphs()->readings())(); },
-                          [this](const auto& readings) { graphs()->setReadings(readings); });
+  keepLook(*m_resuming, *m_session, *graphs(), *m_tools, viewport());
 }
 
 void MainWindow::connectParts() {
@@ -326,6 +336,8 @@ void MainWindow::connectParts() {
     if (std::holds_alternative<AboutChanged>(event)) outliner()->rebuild();
   });
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
+  // Its selection has turned to pages.
+  connect(&m_session->files(), &DocumentFiles::opened, m_layout, &WindowLayout::restorePages, Qt::SingleShotConnection);
   connect(&m_session->files(), &DocumentFiles::saved, this, &MainWindow::updateTitle);
   connect(&m_session->files(), &DocumentFiles::saved, outliner(), &Outliner::rebuild);  // the file names the scene
   connect(m_session.get(), &Session::projectShown, this, [this] {
@@ -339,10 +351,8 @@ void MainWindow::connectParts() {
   connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_tools.get(), &Toolbox::working, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
-  connect(m_inspector, &Inspector::keyRefused, m_notices,
-          [this](const QString& problem) { m_notices->refuse(QStringLiteral("No key was set."), problem); });
-  connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices,
-          [this](const QString& problem) { m_notices->refuse(QStringLiteral("The keys stay as they are."), problem); });
+  connect(m_inspector, &Inspector::keyRefused, m_notices, &Notices::refuse);
+  connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices, &Notices::refuse);
   connect(findChild<KeyRows*>(), &KeyRows::curveWanted, this, [this](const Address& address) {
     m_curves->chooseTrack(address);
     showWorkspace(kTuneTab);
@@ -379,7 +389,8 @@ void MainWindow::connectParts() {
           [this, view](bool acrossView) { m_tools->layPlane(view->pointerNow(), acrossView); });
   connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { m_views->openViewMenu(global); });
   connect(view, &Viewport::glFailed, this, [this](const QString& problem) {
-    m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"), problem);
+    m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"),
+                         QStringLiteral("Nothing can be drawn. %1").arg(sentence(problem)));
   });
 }
 
@@ -458,8 +469,10 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   if (!problem.isEmpty() && document.isDirty() && m_warnedAt != document.changeCount()) {
     m_warnedAt = document.changeCount();
     event->ignore();
-    m_session->log().add(MessageLevel::Error, document.title(), problem);
-    m_files->showNotSaved(problem, QStringLiteral("Your work is kept in memory; closing once more gives it up."));
+    const QString more = QStringLiteral("Your work is kept in memory; closing once more gives it up.");
+    m_session->log().add(MessageLevel::Error, document.title(),
+                         QStringLiteral("Not saved. %1 %2").arg(sentence(problem), more));
+    m_files->showNotSaved(problem, more);
     return;
   }
   QMainWindow::closeEvent(event);

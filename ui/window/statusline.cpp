@@ -137,14 +137,12 @@ void StatusLine::follow() {
     connect(&m_session, signal, this, &StatusLine::refresh);
   for (const auto signal : {&Session::valuesDue, &Session::madeOrNot})
     connect(&m_session, signal, this, [this] { m_sinceValues.start(); });
-  connect(&m_session, &Session::making, this, &StatusLine::refresh);
+  followWork();
   connect(&m_session, &Session::happened, this, [this](const EngineEvent& event) {
     const bool late = event.kind == EngineEvent::Kind::Late;
     m_late = late ? pluginLabel(m_session.plugins(), event.message) : QString();
   });
   connect(&m_session, &Session::playingChanged, this, [this] { m_sinceValues.start(); });
-  connect(&m_session.work(), &RunWork::working, this, &StatusLine::refresh);
-  connect(&m_session.work(), &RunWork::ended, this, &StatusLine::refresh);
   connect(&m_session.document(), &Document::changed, this, &StatusLine::refresh);
   const auto say = [this](const QString& what, const QTime& time) {
     m_fileText = what + time.toString(QStringLiteral("HH:mm"));
@@ -165,6 +163,20 @@ void StatusLine::follow() {
   if (m_view) connect(m_view, &Viewport::glReady, this, &StatusLine::refresh);
 }
 
+/// How long it will last is told with the progress alone.
+void StatusLine::followWork() {
+  const auto tell = [this](double& of, double left) {
+    of = left;
+    refresh();
+  };
+  connect(&m_session, &Session::making, this,
+          [=, this](const QString&, double, double left) { tell(m_makingLeft, left); });
+  connect(&m_session, &Session::madeOrNot, this, [=, this] { tell(m_makingLeft, -1); });
+  connect(&m_session.work(), &RunWork::working, this,
+          [=, this](const QString&, double, double left) { tell(m_workLeft, left); });
+  connect(&m_session.work(), &RunWork::ended, this, [=, this] { tell(m_workLeft, -1); });
+}
+
 void StatusLine::refresh() {
   State state;
   state.ready = m_session.isReady();
@@ -181,6 +193,7 @@ void StatusLine::refresh() {
   const bool own = m_session.work().isBusy();
   state.working = own ? m_session.work().percent() : m_percent;
   state.work = (own ? m_session.work().stage() : m_stage).toLower();
+  state.left = making ? m_makingLeft : own ? m_workLeft : -1;
   state.silent =
       !making && state.playing && m_sinceValues.isValid() ? static_cast<double>(m_sinceValues.elapsed()) / 1000 : 0;
   state.late = m_late;
@@ -287,16 +300,20 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
   std::vector<Part> parts;
   if (!m_state.ready) return {{QStringLiteral("Loading plugins"), {}}};
   const QString state = !m_state.late.isEmpty() ? QStringLiteral("“%1” does not come back").arg(m_state.late)
-                        : m_state.making >= 0   ? QStringLiteral("Making the scene, %1 %").arg(m_state.making)
-                        : m_state.failed        ? QStringLiteral("Paused, see above")
+                        : m_state.making >= 0
+                            ? QStringLiteral("Making the scene, ") + progressText(m_state.making / 100.0, m_state.left)
+                        : m_state.failed ? QStringLiteral("Paused, see above")
                         : m_state.silent > kSilent
                             ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
   parts.push_back({state, {}, QStringLiteral("Running")});
   if (!m_state.headset.isEmpty()) parts.push_back({m_state.headset, {}, QStringLiteral("Entering VR")});
-  if (m_state.working >= 0)
-    parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work, QStringLiteral("100 %")});
+  if (m_state.working >= 0) {
+    const bool tells = m_state.making < 0 && m_state.left >= 0;
+    const QString left = tells ? QStringLiteral(" · %1 left").arg(spanText(m_state.left)) : QString();
+    parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work + left, QStringLiteral("100 %")});
+  }
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
   parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),

@@ -29,6 +29,7 @@ class StatusLine : public QWidget {
     int making = -1;    ///< per cent of the scene that is being made; -1: none is
     int working = -1;   ///< per cent of long work; -1: there is none
     QString work;       ///< "drawing"
+    double left = -1;   ///< s, of that scene, else of that work; -1: it is too early to tell
     QString late;       ///< a plugin that does not come back
     QString headset;    ///< "In VR"
     QString graphics;   ///< "OpenGL 4.5"
@@ -65,6 +66,7 @@ class StatusLine : public QWidget {
     QString strongRoom{}, weakRoom{};  ///< the widest that usually stands there: the place is as wide from the start
   };
   void follow();
+  void followWork();
   void refresh();
   void addNote(State& state);
   void tellOfSketches(const StrokeChanged& event);
@@ -81,7 +83,8 @@ class StatusLine : public QWidget {
   bool m_recordedStays = false;  ///< something was changed that acts after what is shown
   int64_t m_step = 0;            ///< of the history, that was told of last
   QString m_stage;
-  int m_percent = -1;  ///< of setWork()
+  int m_percent = -1;                         ///< of setWork()
+  double m_makingLeft = -1, m_workLeft = -1;  ///< s, of the session's; -1: too early to tell
   MessageLevel m_saidLevel = MessageLevel::Info;
   QTimer m_saying;
   State m_state;

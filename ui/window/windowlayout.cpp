@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/windowlayout.h"
 
+#include "ui/rows/parameterpanel.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/timeline.h"
 #include "ui/viewport/viewport.h"
@@ -18,6 +19,7 @@
 #include <QtWidgets/QMainWindow>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -28,6 +30,7 @@ constexpr const char* kTheme = "look/dark";
 constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kStudio = "view/studio";
 constexpr const char *kSize = "window/size", *kOwn = "window/own", *kJoined = "window/joined";
+constexpr const char *kWorkspace = "window/workspace", *kPages = "window/pages/", *kFolded = "window/folded/";
 const QString kOutliner = QStringLiteral("Outliner"), kMaterials = QStringLiteral("Materials");
 constexpr std::pair<Workspace, const char*> kStates[] = {{Workspace::Scene, "window/state"},
                                                          {Workspace::Tune, "window/tune"},
@@ -280,19 +283,53 @@ void WindowLayout::restore() {
   const QSettings settings;
   if (!m_options.themeAsked) m_options.dark = settings.value(QLatin1String(kTheme), m_options.dark).toBool();
   if (m_options.dark != Theme::current().dark()) Theme::apply(*qApp, m_options.dark);
-  if (settings.contains(QLatin1String(kGeometry))) {
-    m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
-    m_own = settings.value(QLatin1String(kOwn), ~0).toInt();  // from before it was noted: nobody can tell
-    setJoined(settings.value(QLatin1String(kJoined), false).toBool());
-    const QByteArray state = settings.value(QLatin1String(kStates[0].second)).toByteArray();
-    m_sizeAtShow = !restoreDocks(state);
-    m_waitingSize = settings.value(QLatin1String(kSize)).toSize();
-    if (!m_sizeAtShow) m_waiting = state;
-  }
+  if (settings.contains(QLatin1String(kGeometry))) restoreWindow(settings);
   for (const auto& [workspace, key] : kStates) {
-    if (workspace != Workspace::Scene) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
+    if (workspace != m_workspace) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
   }
   if (m_view) restoreView(*m_view, settings);
+}
+
+/// Older programs kept no workspace: it was Scene that they opened in.
+void WindowLayout::restoreWindow(const QSettings& settings) {
+  m_window.restoreGeometry(settings.value(QLatin1String(kGeometry)).toByteArray());
+  m_own = settings.value(QLatin1String(kOwn), ~0).toInt();  // from before it was noted: nobody can tell
+  setJoined(settings.value(QLatin1String(kJoined), false).toBool());
+  const QString left = settings.value(QLatin1String(kWorkspace)).toString();
+  const auto* was = std::find_if(std::begin(kStates), std::end(kStates),
+                                 [&](const auto& state) { return left == QLatin1String(state.second); });
+  if (was == std::end(kStates)) was = std::begin(kStates);
+  m_workspace = was->first;
+  fitToWorkspace();
+  const QByteArray state = settings.value(QLatin1String(was->second)).toByteArray();
+  m_sizeAtShow = !restoreDocks(state);
+  m_waitingSize = settings.value(QLatin1String(kSize)).toSize();
+  if (!m_sizeAtShow) m_waiting = state;
+  if (m_workspace == Workspace::Scene) return;
+  if (m_sizeAtShow) lay();
+  Q_EMIT workspaceChanged();
+}
+
+void WindowLayout::restorePages() {
+  if (!m_options.remember) return;
+  const QSettings settings;
+  for (Dock* dock : m_docks) dock->choosePage(settings.value(QLatin1String(kPages) + dock->objectName()).toString());
+  for (const auto& [title, panel] : rowPanels()) {
+    for (const QString& group : settings.value(QLatin1String(kFolded) + title).toStringList())
+      panel->setGroupFolded(group, true);
+  }
+}
+
+std::map<QString, ParameterPanel*> WindowLayout::rowPanels() const {
+  std::map<QString, ParameterPanel*> panels;
+  for (const PanelRow& row : panelTable()) {
+    const QString title = QString::fromLatin1(row.title);
+    QWidget* page = dockOf(title) ? dockOf(title)->page(title) : nullptr;
+    auto* panel = qobject_cast<ParameterPanel*>(page);
+    if (page && !panel) panel = page->findChild<ParameterPanel*>();
+    if (panel) panels[title] = panel;
+  }
+  return panels;
 }
 
 void WindowLayout::save() const {
@@ -306,7 +343,13 @@ void WindowLayout::save() const {
   settings.setValue(QLatin1String(kSize), waits ? m_waitingSize : m_window.size());
   settings.setValue(QLatin1String(kOwn), m_own);
   settings.setValue(QLatin1String(kJoined), m_joined);
-  for (const auto& [workspace, key] : kStates) settings.setValue(QLatin1String(key), states[workspace]);
+  for (const auto& [workspace, key] : kStates) {
+    settings.setValue(QLatin1String(key), states[workspace]);
+    if (workspace == m_workspace) settings.setValue(QLatin1String(kWorkspace), QLatin1String(key));
+  }
+  for (const Dock* dock : m_docks) settings.setValue(QLatin1String(kPages) + dock->objectName(), dock->currentPage());
+  for (const auto& [title, panel] : rowPanels())
+    settings.setValue(QLatin1String(kFolded) + title, panel->foldedGroups());
   if (m_view) saveView(*m_view, settings);
 }
 

@@ -9,10 +9,12 @@
 #include <vector>
 
 class QMainWindow;
+class QSettings;
 
 namespace ps {
 
 class Dock;
+class ParameterPanel;
 class Viewport;
 struct PanelContext;
 enum class Workspace;
@@ -45,7 +47,10 @@ class WindowLayout : public QObject {
   void setWorkspace(Workspace workspace);
   void setPageTitle(const QString& title, const QString& shown);
   void applyDefault();
+  /// Workspace, docks, theme and what stands over the view, as save() kept them.
   void restore();
+  /// Pages of docks and folded groups of rows, likewise; what is selected or taken in hand turns to others.
+  void restorePages();
   void save() const;
   bool fullViewport() const { return m_full; }
   void setFullViewport(bool on);
@@ -68,6 +73,8 @@ class WindowLayout : public QObject {
   size_t indexOf(const Dock* dock) const;
   QByteArray stateNow() const;
   void restoreOrLay(const QByteArray& state);
+  std::map<QString, ParameterPanel*> rowPanels() const;  ///< by the titles of their pages
+  void restoreWindow(const QSettings& settings);
   void fitToWorkspace();  ///< what is in docks that several workspaces have
   void putAway();
   void showDocks();  ///< of this workspace
