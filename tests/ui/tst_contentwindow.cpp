@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies and materials come and go by hands in the real window; rows that follow.
 #include "core/plugin_host/registry.h"
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/graphs/energypanel.h"
@@ -15,7 +16,9 @@
 #include "ui/session/wording.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
+#include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
+#include "ui/viewport/overlays.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
@@ -35,6 +38,7 @@
 #include <QtWidgets/QScrollBar>
 #include <QtWidgets/QTreeView>
 
+#include <map>
 #include <set>
 
 using namespace ps;
@@ -575,6 +579,40 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(text(42).size(), text(41.9).size());
   }
 
+  /// While values run, whatever has as many digits as before stands where it stood: clocks, outliner, ledger, status
+  /// line, and over the scene the tag and the ends of the legend.
+  void runningDigitsStandStill() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Energy"));
+    QWidgetList watched{m_window->outliner()->view()->viewport(), m_window->findChild<StatusLine*>()};
+    watched += m_window->findChild<Transport*>()->findChildren<QWidget*>();
+    watched += m_window->findChild<EnergyPanel*>()->findChild<QLabel*>();  // a graph moves with what it shows
+    session().play();
+    for (int round = 0; round < 12; ++round) {
+      QTest::qWait(80);
+      for (QWidget* widget : watched) {
+        if (!widget->visibleRegion().isEmpty()) standsStill(*widget, paintedBy(*widget));
+      }
+    }
+    session().pause();
+    OverlayState state;
+    state.size = view()->size();
+    state.field = session().fields().find("temperature");
+    state.tag = SceneTag{{0, 0.2, 0}, QStringLiteral("Ice core"), {}};
+    for (const auto& [value, ends] : {std::pair("11.1 °C", std::pair(261.1, 431.1)), {"88.8 °C", {258.8, 458.8}}}) {
+      state.tag->value = QString::fromUtf8(value);
+      state.range = ends;
+      TextDevice device(view()->size());
+      QPainter painter(&device);
+      const OverlayHits hits = paintOverlays(painter, state);
+      // What lies along the scale moves with what it says.
+      device.texts.removeIf([&](const PaintedText& painted) {
+        return painted.place.top() > hits.legendBar.top() + 10 && hits.legend.contains(painted.place.center());
+      });
+      standsStill(*view(), device.texts);
+    }
+    QVERIFY2(m_changedInPlace > 20, qPrintable(QString::number(m_changedInPlace)));
+  }
+
   /// A row may be told of another quantity than its own, whose unit is then said.
   void limitsHaveTheirOwnUnits() {
     const Address address{Owner::Solver, "", "particle_spacing"};
@@ -606,6 +644,79 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(document().undoStack().count(), steps);
   }
 
+  /// What a brush paints of itself lies where its volume is: cross and outline at its centre, a dotted line down to
+  /// what lies below, its ring there, and its measures beside it.
+  void theBrushShowsItsTrueVolume_data() {
+    QTest::addColumn<double>("radius");
+    QTest::addColumn<bool>("erase");
+    QTest::newRow("small") << 0.04 << false;
+    QTest::newRow("large") << 0.09 << false;
+    QTest::newRow("erases") << 0.04 << true;
+  }
+  void theBrushShowsItsTrueVolume() {
+    QFETCH(double, radius);
+    QFETCH(bool, erase);
+    OverlayState state;
+    state.size = QSizeF(800, 600);
+    state.camera.target = {0, 0.15, 0};
+    state.camera.distance = 1;
+    state.camera.elevation = 25;
+    state.shown = {false, false, false, false, false, false, false};
+    BrushCursor cursor{{0.1, 0.3, 0}, Vector3::Constant(radius), 0, 0.62, false, erase};
+    state.cursor = cursor;
+    QImage image(state.size.toSize(), QImage::Format_RGB32);
+    image.fill(Qt::black);
+    QPainter painter(&image);
+    paintOverlays(painter, state);
+    painter.end();
+    const auto at = [&](const Vector3& place) {
+      const auto pixel = project(state.camera, image.width(), image.height(), place);
+      return pixel ? QPointF((*pixel)[0], (*pixel)[1]) : QPointF();
+    };
+    const QColor line = Theme::current()[erase ? Token::Error : Token::Accent], cross = Theme::current()[Token::Text];
+    // The nearest within a pixel: lines are 1 to 1.5 wide, and their edges smooth.
+    const auto shows = [&](const QPointF& point, const QColor& colour) {
+      int nearest = 255;
+      for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+          const QColor pixel = image.pixelColor(point.toPoint() + QPoint(dx, dy));
+          nearest = std::min(nearest,
+                             std::max({std::abs(pixel.red() - colour.red()), std::abs(pixel.green() - colour.green()),
+                                       std::abs(pixel.blue() - colour.blue())}));
+        }
+      }
+      return nearest < 90;
+    };
+    const QPointF centre = at(cursor.centre);
+    const CameraFrame frame = frameOf(state.camera);
+    const double reach =
+        radius / pixelSize(state.camera, image.height(), (cursor.centre - frame.eye).dot(frame.forward));
+    QVERIFY(reach > 20);
+    for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
+      QVERIFY(shows(centre + reach * way, line));
+      QVERIFY(way.y() > 0 || !(shows(centre + (reach - 6) * way, line) || shows(centre + (reach + 6) * way, line)));
+      QVERIFY(shows(centre + 4 * way, cross));
+    }
+    const Vector3 foot{cursor.centre[0], cursor.floor, cursor.centre[2]};
+    for (const Vector3& way : {Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, 0, 1), Vector3(0, 0, -1)})
+      QVERIFY(shows(at(foot + radius * way), line));
+    int dots = 0;
+    bool on = false;
+    const int x = qRound(at(foot).x());
+    for (int y = qRound(centre.y() + reach + 6); y < at(foot).y() - 2; ++y) {
+      const bool now = image.pixelColor(x, y).lightness() + image.pixelColor(x - 1, y).lightness() > 20;
+      dots += now && !on ? 1 : 0;
+      on = now;
+    }
+    QVERIFY2(dots >= 6, qPrintable(QString::number(dots)));
+    TextDevice device(image.size());
+    painter.begin(&device);
+    paintOverlays(painter, state);
+    painter.end();
+    QCOMPARE(device.texts.size(), qsizetype{1});
+    QCOMPARE(device.texts.front().text, QStringLiteral("r %1   height 300 mm   pressure 62 %").arg(lengthText(radius)));
+  }
+
  private:
   /// Paused there, nothing waits for a reset.
   void leaveTheStart() {
@@ -613,6 +724,24 @@ class TestContentWindow : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.frame > 0, kLong);
     QTRY_VERIFY(!session().appliesAtOnce());
   }
+  /// As before, where all texts of a widget have the same shape as then: the same but for which digits.
+  void standsStill(const QWidget& widget, const QList<PaintedText>& texts) {
+    static const QRegularExpression digit(QStringLiteral("\\d"));
+    QString key = QString::number(reinterpret_cast<quintptr>(&widget)) + QStringLiteral(" %1 ").arg(widget.width());
+    for (const PaintedText& painted : texts) key += QString(painted.text).replace(digit, QStringLiteral("0")) + '|';
+    const auto [before, isNew] = m_texts.try_emplace(key, texts);
+    if (isNew) return;
+    for (qsizetype k = 0; k < texts.size(); ++k) {
+      const PaintedText &now = texts[k], &then = before->second[k];
+      m_changedInPlace += now.text == then.text ? 0 : 1;
+      const QRectF a = now.place, b = then.place;
+      // Glyphs are measured in 1/64 px.
+      QVERIFY2(std::abs(a.left() - b.left()) < 0.5 && std::abs(a.right() - b.right()) < 0.5,
+               qPrintable(then.text + QStringLiteral(" → ") + now.text));
+    }
+  }
+  std::map<QString, QList<PaintedText>> m_texts;
+  int m_changedInPlace = 0;
   /// What stands beside a name in the outliner.
   QString probeDetail(const QString& name) const {
     const QAbstractItemModel* model = m_window->outliner()->view()->model();

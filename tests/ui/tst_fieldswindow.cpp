@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plugin's field is chosen, shown, plotted and read in the real window as ours are.
 #include "core/simulation/particlefield.h"
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/session/recordedview.h"
+#include "ui/viewport/overlays.h"
 
 #include <QtCore/QAbstractItemModel>
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
 #include <QtWidgets/QComboBox>
@@ -118,6 +121,15 @@ class TestFieldsWindow : public SampleWindowTest {
       QVERIFY2(field->unit == "1" || !hits.legendUnit.isEmpty(), name.constData());
       const auto [low, high] = view()->legendRange();
       QVERIFY2(high > low || !hits.legendWithout.isEmpty(), name.constData());
+      // With values, which the scene may lack now: a number at each end at least, and where it can tell a change of
+      // phase what changes there.
+      std::pair<double, double> range = high > low ? std::pair(low, high) : std::pair(0.0, 0.7);
+      if (field->name == "temperature") range = {250, 400};
+      const QStringList texts = legendTexts(field, range);
+      QVERIFY2(texts.filter(QRegularExpression(QStringLiteral("\\d"))).size() >= 2, qPrintable(texts.join('|')));
+      QVERIFY2(field->unit == "1" || texts.join('|').contains(hits.legendUnit.right(1)), qPrintable(texts.join('|')));
+      const bool both = texts.contains(QStringLiteral("melts")) && texts.contains(QStringLiteral("boils"));
+      QVERIFY2(both == (field->name == "temperature"), qPrintable(texts.join('|')));
     }
     document().setColour("temperature");
   }
@@ -174,6 +186,22 @@ class TestFieldsWindow : public SampleWindowTest {
   std::pair<QString, QString> legendNow() {
     view()->grabFramebuffer();
     return {view()->overlayHits().legendTitle, view()->overlayHits().legendUnit};
+  }
+  /// What a legend of water says.
+  QStringList legendTexts(const FieldPtr& field, std::pair<double, double> range) {
+    OverlayState state;
+    state.size = view()->size();
+    state.field = field;
+    state.range = range;
+    state.shown = {};
+    TextDevice device(view()->size());
+    QPainter painter(&device);
+    const OverlayHits hits = paintOverlays(painter, state);
+    QStringList texts;
+    for (const PaintedText& painted : device.texts) {
+      if (hits.legend.contains(painted.place.center())) texts << painted.text;
+    }
+    return texts;
   }
   static QString detailOf(const QAbstractItemModel& model, const QModelIndex& parent) {
     QString all;

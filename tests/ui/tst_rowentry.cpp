@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a row takes and tells: typing, toggles and choices, notes, assistive technology.
-#include "tests/shared/germannumbers.h"
+#include "tests/shared/localnumbers.h"
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/rowtesting.h"
 #include "ui/theme/theme.h"
 
 #include <QtGui/QAccessible>
+#include <QtGui/QImage>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
@@ -25,6 +27,8 @@ class TestRowEntry : public QObject {
   void tabGoesOn();
   void toggleAndChoiceAct();
   void mixedRowsScale();
+  void mixedRowsSayDash_data();
+  void mixedRowsSayDash();
   void derivedRowsLeadToTheirSource();
   void curvesAskForTheirEditor();
   void curvesAreScaledAndReplaced();
@@ -36,28 +40,36 @@ class TestRowEntry : public QObject {
 };
 
 void TestRowEntry::typingActsOnEnter_data() {
+  QTest::addColumn<QString>("locale");
   QTest::addColumn<QByteArray>("key");
   QTest::addColumn<QString>("text");
   QTest::addColumn<double>("value");
-  QTest::newRow("bare") << QByteArray("plate_temperature") << "120" << 393.15;
-  QTest::newRow("unit") << QByteArray("plate_temperature") << "25 °C" << 298.15;
-  QTest::newRow("other unit") << QByteArray("plate_temperature") << "300 K" << 300.0;
-  QTest::newRow("comma") << QByteArray("conductivity") << "1,5" << 1.5;
-  QTest::newRow("point") << QByteArray("conductivity") << "1.5" << 1.5;
-  QTest::newRow("quotient") << QByteArray("conductivity") << "1/3" << 1.0 / 3;
-  QTest::newRow("factor") << QByteArray("conductivity") << "*2" << 4.4;
-  QTest::newRow("beyond the soft range") << QByteArray("plate_temperature") << "900" << 1173.15;
-  QTest::newRow("prefix") << QByteArray("youngs_modulus") << "42 MPa" << 4.2e7;
-  QTest::newRow("whole") << QByteArray("substeps") << "12" << 12.0;
+  for (const char* name : kNumberLocales) {
+    const QString locale = QString::fromLatin1(name);
+    const auto row = [&](const char* what) -> QTestData& {
+      return QTest::newRow(qPrintable(QStringLiteral("%1, %2").arg(QLatin1String(what), locale))) << locale;
+    };
+    row("bare") << QByteArray("plate_temperature") << "120" << 393.15;
+    row("unit") << QByteArray("plate_temperature") << "25 °C" << 298.15;
+    row("other unit") << QByteArray("plate_temperature") << "300 K" << 300.0;
+    row("comma") << QByteArray("conductivity") << "1,5" << 1.5;
+    row("point") << QByteArray("conductivity") << "1.5" << 1.5;
+    row("quotient") << QByteArray("conductivity") << "1/3" << 1.0 / 3;
+    row("factor") << QByteArray("conductivity") << "*2" << 4.4;
+    row("beyond the soft range") << QByteArray("plate_temperature") << "900" << 1173.15;
+    row("prefix") << QByteArray("youngs_modulus") << "42 MPa" << 4.2e7;
+    row("whole") << QByteArray("substeps") << "12" << 12.0;
+  }
 }
 
-/// Key by key through the line edit, in a program and a C library that speak German.
+/// Key by key through the line edit, in a program and a C library that speak German, and English.
 void TestRowEntry::typingActsOnEnter() {
+  QFETCH(QString, locale);
   QFETCH(QByteArray, key);
   QFETCH(QString, text);
   QFETCH(double, value);
-  const GermanNumbers german;
-  if (!german.problem().isEmpty()) QSKIP(qPrintable(german.problem()));
+  const LocalNumbers local(locale);
+  QVERIFY2(local.problem().isEmpty(), qPrintable(local.problem()));
   ParameterRow row(model(key.constData()));
   show(row);
   Listener listener(row);
@@ -186,6 +198,34 @@ void TestRowEntry::mixedRowsScale() {
   QVERIFY(row.enter(QStringLiteral("3")));  // sets all
   QVERIFY(!row.has(RowState::Mixed));
   QCOMPARE(listener.sequence, QStringLiteral("BLE"));
+}
+
+void TestRowEntry::mixedRowsSayDash_data() {
+  QTest::addColumn<QByteArray>("key");
+  for (const char* key : {"plate_temperature", "conductivity", "substeps", "gravity_on", "kernel"})
+    QTest::newRow(key) << QByteArray(key);
+}
+
+/// "—" is what stands there, no value and nothing that is chosen, until one is set for all.
+void TestRowEntry::mixedRowsSayDash() {
+  QFETCH(QByteArray, key);
+  ParameterRow row(model(key.constData()));
+  show(row);
+  const auto texts = [&row] {
+    QStringList all;
+    for (const PaintedText& painted : paintedBy(row)) all << painted.text;
+    return all;
+  };
+  QVERIFY(!texts().contains(QStringLiteral("—")));
+  const Value before = row.model().value;
+  const QImage single = row.grab().toImage();
+  row.setMixed(true);
+  QVERIFY2(texts().contains(QStringLiteral("—")), qPrintable(texts().join(QLatin1Char('|'))));
+  QCOMPARE(row.valueText(), QStringLiteral("—"));
+  QVERIFY(row.grab().toImage() != single);
+  row.setValue(before);
+  row.setMixed(false);
+  QVERIFY(row.grab().toImage() == single);
 }
 
 void TestRowEntry::derivedRowsLeadToTheirSource() {

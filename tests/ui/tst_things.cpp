@@ -141,6 +141,39 @@ class TestThings : public SampleWindowTest {
     QCOMPARE(document().undoStack().index(), steps);
   }
 
+  /// Taps and drains likewise; a switch has no knob where some are open.
+  void rowsOfManyPortsEditAll() {
+    Emitter pours;
+    pours.material = "water";
+    pours.point = {0, 0.6, 0};
+    const std::string tap = document().addEmitter(pours).id, other = document().addEmitter(pours).id;
+    const std::string drain = document().addSink({}).id, closed = document().addSink({}).id;
+    const auto number = [&](const std::string& id) {
+      return std::get<double>(document().value({Owner::Emitter, id, "speed"}));
+    };
+    const auto open = [&](const std::string& id) {
+      return std::get<bool>(document().value({Owner::Sink, id, "open"}));
+    };
+    QCOMPARE(document().setParameter({Owner::Emitter, other, "speed"}, 2.0), QString());
+    QCOMPARE(document().setParameter({Owner::Sink, closed, "open"}, false), QString());
+    m_window->selection().selectAll({{OutlineKind::Emitter, tap}, {OutlineKind::Emitter, other}});
+    const QString speed = QString::fromStdString("emitter/" + other + "/speed");
+    QVERIFY(row(speed) && row(speed)->has(RowState::Mixed));
+    const int steps = document().undoStack().index();
+    QVERIFY(row(speed)->enter(QStringLiteral("*2")));
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QVERIFY(number(tap) == 2 && number(other) == 4);
+    m_window->selection().selectAll({{OutlineKind::Sink, drain}, {OutlineKind::Sink, closed}});
+    const QString switched = QString::fromStdString("sink/" + closed + "/open");
+    QVERIFY(row(switched) && row(switched)->has(RowState::Mixed));
+    QCOMPARE(row(switched)->valueText(), QStringLiteral("—"));
+    QTest::mouseClick(row(switched), Qt::LeftButton, {}, QPoint(row(switched)->fieldRect().right() - 15, 13));
+    QCOMPARE(document().undoStack().index(), steps + 2);
+    QVERIFY(open(drain) && open(closed) && !row(switched)->has(RowState::Mixed));
+    document().undoStack().undo();
+    QVERIFY(open(drain) && !open(closed) && row(switched)->has(RowState::Mixed));
+  }
+
   /// A row that is found by its name is of one body: that one is selected alone, and the row edits no other.
   void aRowThatIsRevealedIsOfOneBody() {
     const std::vector<std::string> ids = threeBalls();

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/error.h"
-#include "tests/shared/germannumbers.h"
+#include "tests/shared/localnumbers.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/legend.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/paint.h"
+#include "ui/theme/resources.h"
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
 
 #include <QtCore/QDebug>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+#include <QtCore/QRegularExpression>
 #include <QtGui/QFontInfo>
 #include <QtGui/QFontMetricsF>
 #include <QtGui/QImage>
@@ -112,15 +117,57 @@ std::vector<QColor> seriesOf(bool dark) {
 
 }  // namespace
 
+/// A selector of the style sheet, with the colours that it sets; transparent counts as none.
+struct SheetRule {
+  QString selector;
+  QColor text, ground;
+};
+
+std::vector<SheetRule> rulesOf(QString sheet) {
+  static const QRegularExpression comment(QStringLiteral("/\\*.*?\\*/"),
+                                          QRegularExpression::DotMatchesEverythingOption),
+      block(QStringLiteral("([^{}]+)\\{([^{}]*)\\}"));
+  const auto colourIn = [](const QString& body, const char* property) {
+    const QRegularExpression set(QStringLiteral("(?:^|[;\\s])%1:\\s*(#[0-9a-fA-F]+)").arg(QLatin1String(property)));
+    return QColor(set.match(body).captured(1));
+  };
+  std::vector<SheetRule> rules;
+  for (auto match = block.globalMatch(sheet.remove(comment)); match.hasNext();) {
+    const QRegularExpressionMatch found = match.next();
+    for (const QString& selector : found.captured(1).split(QLatin1Char(',')))
+      rules.push_back(
+          {selector.trimmed(), colourIn(found.captured(2), "color"), colourIn(found.captured(2), "background")});
+  }
+  return rules;
+}
+
+/// Of the rule of this selector, else of the nearest one that it narrows ("QPushButton:hover": "QPushButton").
+QColor inForce(const std::vector<SheetRule>& rules, const QString& selector, QColor SheetRule::*part,
+               QColor otherwise) {
+  qsizetype nearest = 0;
+  for (const SheetRule& rule : rules) {
+    const qsizetype size = rule.selector.size();
+    const bool narrowed = selector.startsWith(rule.selector) &&
+                          (size == selector.size() || QStringLiteral(":[#").contains(selector[size]));
+    if (!narrowed || size < nearest || !(rule.*part).isValid()) continue;
+    nearest = size;
+    otherwise = rule.*part;
+  }
+  return otherwise;
+}
+
 class TestTheme : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void contrastSuffices_data();
   void contrastSuffices();
+  void textsOfTheSheetAreRead_data();
+  void textsOfTheSheetAreRead();
   void colourBlindSightTellsColoursApart_data();
   void colourBlindSightTellsColoursApart();
   void sightIsSimulated();
   void phasesAreToldApartInGrey();
+  void guidesAreInTheAccent();
   void seriesAreVisible();
   void contrastIsWcags();
   void badTokensAreNamed_data();
@@ -131,6 +178,8 @@ class TestTheme : public QObject {
   void buttonsOfDialogsHaveWordsOnly();
   void theRingOfATabStandsAroundItsText();
   void iconsTintAndStaySharp();
+  void iconsStaySharpAtEveryScale_data();
+  void iconsStaySharpAtEveryScale();
   void numbersAreFormatted_data();
   void numbersAreFormatted();
   void prefixesKeepNumbersShort();
@@ -177,11 +226,14 @@ void TestTheme::contrastSuffices_data() {
   add(Warning, {Panel, Field, WarningGround}, 4.5);
   add(Token::Error, {Panel, Field, ErrorGround}, 4.5);
   for (const Token token : {Ok, Info, Curve, Keyframe}) add(token, {Panel}, 4.5);
+  for (const Token token : {Warning, Token::Error, Ok, Info}) add(token, {Window}, 4.5);  // status line
   // Marks: WCAG 2.2, 1.4.11 asks 3 of what must be seen to use a control.
   add(ControlEdge, {Panel, Field}, 3);
   add(SliderFill, {Panel, Field}, 3);
   add(Accent, {Window, Selection}, 3);
   add(Curve, {Field}, 3);
+  add(Keyframe, {Field}, 3);
+  for (const Token token : {AxisX, AxisY, AxisZ, AxisHover}) add(token, {Window, Panel}, 3);  // below an overlay, too
 }
 
 void TestTheme::contrastSuffices() {
@@ -193,6 +245,33 @@ void TestTheme::contrastSuffices() {
     const double ratio = contrast(theme[static_cast<Token>(foreground)], theme[static_cast<Token>(background)]);
     QVERIFY2(ratio >= least, qPrintable(QStringLiteral("%1 theme: %2").arg(dark ? "dark" : "light").arg(ratio)));
   }
+}
+
+/// Every rule of the style sheet, of what is not disabled: its text on its ground, each from the rule itself or from
+/// the one that it narrows, else text on a panel.
+void TestTheme::textsOfTheSheetAreRead_data() {
+  QTest::addColumn<bool>("dark");
+  QTest::newRow("dark") << true;
+  QTest::newRow("light") << false;
+}
+
+void TestTheme::textsOfTheSheetAreRead() {
+  QFETCH(bool, dark);
+  const Theme theme = Theme::load(dark);
+  const std::vector<SheetRule> rules = rulesOf(theme.styleSheet());
+  QVERIFY(rules.size() > 80);
+  int hovers = 0;
+  for (const SheetRule& rule : rules) {
+    const auto says = [&rule](const char* word) { return rule.selector.contains(QLatin1String(word)); };
+    if (says(":disabled") || says("QScrollBar") || says("QProgressBar") || says("separator"))
+      continue;  // the rest: bare
+    const QColor text = inForce(rules, rule.selector, &SheetRule::text, theme[Token::Text]);
+    const QColor ground = inForce(rules, rule.selector, &SheetRule::ground, theme[Token::Panel]);
+    const double ratio = contrast(text, ground);
+    QVERIFY2(ratio >= 4.5, qPrintable(QStringLiteral("%1: %2").arg(rule.selector).arg(ratio)));
+    hovers += says(":hover") && rule.ground.isValid() ? 1 : 0;
+  }
+  QVERIFY(hovers >= 5);
 }
 
 /// The figures for which the maps were made, whole numbers: a difference of 11.9 is 12.
@@ -242,6 +321,18 @@ void TestTheme::phasesAreToldApartInGrey() {
                                     contrast(colour, theme[dark ? Token::Text : Token::Panel]));
       QVERIFY2(ratio >= 3, qPrintable(QStringLiteral("%1: %2").arg(colour.name()).arg(ratio)));  // of marks
     }
+  }
+}
+
+/// The renderer reads no tokens: that colour is written twice, and no other.
+void TestTheme::guidesAreInTheAccent() {
+  const QByteArray maps = themeResource(QStringLiteral("theme/maps.json"));
+  const QJsonObject scene = QJsonDocument::fromJson(maps).object()[QStringLiteral("scene")].toObject();
+  for (const bool dark : {true, false}) {
+    const QColor accent = Theme::load(dark)[Token::Accent];
+    const QJsonObject look = scene[dark ? QStringLiteral("dark") : QStringLiteral("light")].toObject();
+    QCOMPARE(QColor(look[QStringLiteral("guide")].toString()), accent);
+    QCOMPARE(maps.toUpper().count(accent.name().toUpper().toLatin1()), qsizetype{1});
   }
 }
 
@@ -370,6 +461,37 @@ void TestTheme::iconsTintAndStaySharp() {
     QVERIFY2(image.pixelColor(0, 0).alpha() == 0, qPrintable(name + QStringLiteral(" touches the corner")));
   }
   QVERIFY(icon(QStringLiteral("no-such-icon")).isNull());
+}
+
+void TestTheme::iconsStaySharpAtEveryScale_data() {
+  QTest::addColumn<double>("scale");
+  for (const double scale : {1.0, 1.25, 1.5, 2.0, 3.0}) QTest::addRow("%g %%", 100 * scale) << scale;
+}
+
+/// Wherever one stands it is laid on device pixels, drawn for their number and not scaled: each pixel is that of the
+/// picture of its size.
+void TestTheme::iconsStaySharpAtEveryScale() {
+  QFETCH(double, scale);
+  const QColor colour = Theme::current()[Token::Text];
+  const int pixels = static_cast<int>(std::lround(16 * scale));
+  for (const QString& name : iconNames()) {
+    QImage canvas(QSize(1, 1) * static_cast<int>(std::ceil(24 * scale)), QImage::Format_ARGB32_Premultiplied);
+    canvas.setDevicePixelRatio(scale);
+    canvas.fill(Qt::transparent);
+    QPainter painter(&canvas);
+    const QPointF at(3.3, 4.6);
+    const QPointF device(snapped(painter, at.x()) * scale, snapped(painter, at.y()) * scale);
+    paintIcon(painter, QRectF(at, QSizeF(16, 16)), name, colour);
+    painter.end();
+    QVERIFY(std::abs(device.x() - std::round(device.x())) + std::abs(device.y() - std::round(device.y())) < 1e-9);
+    QImage own = iconPixmap(name, colour, 16, scale).toImage().convertToFormat(canvas.format());
+    QCOMPARE(own.size(), QSize(pixels, pixels));
+    QImage shown = canvas.copy(QRect(device.toPoint(), own.size()));
+    own.setDevicePixelRatio(1);
+    shown.setDevicePixelRatio(1);
+    QVERIFY2(shown == own, qPrintable(name));
+    QVERIFY2(own != iconPixmap(name, colour, 16, scale + 0.5).toImage().scaled(own.size()), qPrintable(name));
+  }
 }
 
 void TestTheme::numbersAreFormatted_data() {
@@ -613,9 +735,12 @@ void TestTheme::typedTextIsUnderstood() {
   };
   understood();
   if (QTest::currentTestFailed()) return;
-  const GermanNumbers german;
-  if (!german.problem().isEmpty()) QSKIP(qPrintable(german.problem()));
-  understood();
+  for (const char* name : kNumberLocales) {
+    const LocalNumbers local(QString::fromLatin1(name));
+    QVERIFY2(local.problem().isEmpty(), qPrintable(local.problem()));
+    understood();
+    if (QTest::currentTestFailed()) return;
+  }
 }
 
 void TestTheme::typedNonsenseIsRefused_data() {

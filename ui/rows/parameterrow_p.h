@@ -88,7 +88,7 @@ struct ParameterRow::Private {
   double handleX() const;
   QRect curveRect() const;  ///< the curve mark right of the field
   QRect switchRect() const;
-  /// Rectangles of the segments of a choice; empty when they do not fit (then a menu opens).
+  /// Rectangles of the segments of a choice; empty when they do not fit or none is chosen (then a menu opens).
   std::vector<QRect> segments() const;
   QStringList choiceTexts() const;  ///< as shown
   QRect choiceRect() const;         ///< of all segments, or of the menu's button

@@ -37,6 +37,14 @@ void hatch(QPainter& painter, const QRectF& rect, const QColor& colour) {
   painter.restore();
 }
 
+/// Of several of which some are on: no knob.
+void paintMixedSwitch(QPainter& painter, const QRectF& rect, bool enabled) {
+  const Theme& theme = Theme::current();
+  paintBox(painter, rect, theme[enabled ? Token::ControlEdge : Token::Line2], QColor(), rect.height() / 2);
+  paintText(painter, rect, Qt::AlignCenter, QStringLiteral("—"), Theme::font(TextRole::Medium),
+            theme[enabled ? Token::Panel : Token::Disabled]);
+}
+
 }  // namespace
 
 double ParameterRow::Private::handleX() const {
@@ -72,7 +80,7 @@ std::vector<QRect> ParameterRow::Private::segments() const {
   const int right = q->fieldRect().right() + 1;
   const QString label = QString::fromUtf8(declaration().label);
   const int labelEnd = kRowLeft + static_cast<int>(std::ceil(textWidth(label, Theme::font(TextRole::Normal)))) + 8;
-  if (names.size() > 4 || right - total < labelEnd) return {};
+  if (model.mixed || names.size() > 4 || right - total < labelEnd) return {};  // mixed: the button says "—"
   std::vector<QRect> rects;
   for (int x = right - total; const int width : widths) {
     rects.emplace_back(x, (kRowHeight - kSegmentHeight) / 2, width, kSegmentHeight);
@@ -99,7 +107,10 @@ void ParameterRow::Private::paint(QPainter& painter) const {
   const auto kind = declaration().kind;
   if (kind == api::ParameterKind::Toggle) {
     const QRectF rect = switchRect();
-    paintSwitch(painter, rect, q->number() != 0 && !model.mixed, isEditable());
+    if (model.mixed)
+      paintMixedSwitch(painter, rect, isEditable());
+    else
+      paintSwitch(painter, rect, q->number() != 0, isEditable());
     if (q->hasFocus()) paintFocusRing(painter, rect.adjusted(-3, -3, 3, 3), 11);
     return;
   }
@@ -243,7 +254,7 @@ void ParameterRow::Private::paintField(QPainter& painter) const {
 void ParameterRow::Private::paintChoice(QPainter& painter) const {
   const Theme& theme = Theme::current();
   const bool enabled = isEditable();
-  const int chosen = model.mixed ? -1 : static_cast<int>(q->number());
+  const int chosen = static_cast<int>(q->number());
   const QStringList names = choiceTexts();
   const std::vector<QRect> rects = segments();
   for (size_t i = 0; i < rects.size(); ++i) {

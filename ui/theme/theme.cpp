@@ -174,6 +174,8 @@ QString Theme::styleSheet() const {
   const QColor changed =
       contrast(colour(Token::Accent), colour(Token::Selection)) >= 4.5 ? colour(Token::Accent) : colour(Token::Text);
   sheet.replace(QStringLiteral("@changed_text"), changed.name());
+  // Darker, so that what stands on it is read in the dark theme as on accent, and in the light one better.
+  sheet.replace(QStringLiteral("@accent_hover"), colour(Token::Accent).darker(115).name());
   static const QRegularExpression placeholder(QStringLiteral("@([a-z_0-9]+)"));
   for (qsizetype from = 0;;) {
     const QRegularExpressionMatch match = placeholder.match(sheet, from);

@@ -6,6 +6,7 @@
 #include "ui/theme/theme.h"
 
 #include <QtGui/QPainter>
+#include <QtGui/QPainterPath>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QTabBar>
@@ -15,7 +16,7 @@
 namespace ps {
 namespace {
 
-constexpr int kHeader = 30;
+constexpr int kHeader = 28, kRadius = 5;  // px
 
 /// The header's ground: panel colour with a hairline below.
 class Header : public QWidget {
@@ -31,7 +32,47 @@ class Header : public QWidget {
   }
 };
 
+/// Rounds a corner of what it stands on, whatever is painted there: the window's ground shows.
+class Corner : public QWidget {
+ public:
+  Corner(QWidget* on, bool right, bool bottom) : QWidget(on), m_right(right), m_bottom(bottom) {
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    resize(kRadius, kRadius);
+    on->installEventFilter(this);
+    place();
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::ChildAdded || event->type() == QEvent::Show)
+      place();
+    return QWidget::eventFilter(watched, event);
+  }
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    QPainterPath outside;
+    outside.addRect(rect());
+    outside.addEllipse(QPointF(m_right ? 0 : kRadius, m_bottom ? 0 : kRadius), kRadius, kRadius);
+    painter.fillPath(outside, Theme::current()[Token::Window]);  // odd and even: a quarter of the circle is left out
+  }
+
+ private:
+  void place() {
+    const QSize room = parentWidget()->size();
+    move(m_right ? room.width() - kRadius : 0, m_bottom ? room.height() - kRadius : 0);
+    raise();
+  }
+  const bool m_right, m_bottom;
+};
+
 }  // namespace
+
+void roundCorners(QWidget& panel) {
+  for (const bool right : {false, true}) {
+    for (const bool bottom : {false, true}) new Corner(&panel, right, bottom);
+  }
+}
 
 Dock::Dock(const QString& name, const QString& title, QWidget* parent)
     : QDockWidget(title, parent),
@@ -55,6 +96,7 @@ Dock::Dock(const QString& name, const QString& title, QWidget* parent)
   setTitleBarWidget(m_header);
   setWidget(m_pages);
   m_pages->setAutoFillBackground(true);
+  roundCorners(*this);
   connect(m_tabs, &QTabBar::currentChanged, this, [this] {
     QWidget* page = m_pageOf.value(currentPage());
     if (page && page != m_pages->currentWidget()) {  // else its tab has moved
@@ -142,13 +184,6 @@ QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
   m_actions->addWidget(button);
   setTabOrder(before, button);  // as it is read, and not behind the pages, which were made first
   return button;
-}
-
-PanelFrame::PanelFrame(QWidget* parent) : QWidget(parent) {}
-
-void PanelFrame::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  painter.fillRect(rect(), Theme::current()[Token::Panel]);
 }
 
 }  // namespace ps

@@ -23,6 +23,7 @@ class Dock : public QDockWidget {
   void choosePage(const QString& title);    ///< shown or not
   void showPage(const QString& title);
   QString currentPage() const;
+  QWidget* page(const QString& title) const { return m_pageOf.value(title); }  ///< nullptr: there is none
   /// What F6 goes to: of the page that is shown what had the focus last, or its first widget that takes keys, else the
   /// tabs; nullptr where there is neither.
   QWidget* firstStop() const;
@@ -45,14 +46,7 @@ class Dock : public QDockWidget {
   QHash<QString, QWidget*> m_pageOf;  ///< by title
 };
 
-/// A panel with the dock's ground and rounded corners, for what stands in the middle.
-class PanelFrame : public QWidget {
-  Q_OBJECT
- public:
-  explicit PanelFrame(QWidget* parent = nullptr);
-
- protected:
-  void paintEvent(QPaintEvent* event) override;
-};
+/// Of a dock, and of what stands in the middle: the window's ground shows at its corners.
+void roundCorners(QWidget& panel);
 
 }  // namespace ps

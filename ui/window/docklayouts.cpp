@@ -14,9 +14,11 @@
 namespace ps {
 namespace {
 
-constexpr DockColumn kColumns[] = {{0, true, 204, 352, 270, 140, 194, 400, 150, 400},
-                                   {1500, false, 236, 392, 380, 252, 206, 520, 206, 500},
-                                   {2200, false, 300, 460, 520, 252, 288, 760, 288, 640}};
+// The narrow inspector has room for its longest label; graphs, for all lines of the ledger beside the energy's, take
+// what the timeline leaves as long as it has no rows.
+constexpr DockColumn kColumns[] = {{0, true, 204, 352, 270, 140, 190, 400, 150, 400},
+                                   {1500, false, 236, 392, 430, 252, 206, 520, 206, 500},
+                                   {2200, false, 300, 460, 786, 252, 288, 760, 288, 640}};
 constexpr int kBrushPanel = 324;  ///< px, in Sketch, whatever width the window has
 
 }  // namespace

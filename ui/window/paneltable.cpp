@@ -74,9 +74,7 @@ QWidget* makeBrush(const PanelContext& context) {
 }
 
 QWidget* makeFilm(const PanelContext& context) {
-  auto* film = new FilmForm(context.session, context.view);
-  film->followRun();
-  return scrolling(film);
+  return scrolling(new FilmForm(context.session, context.view));
 }
 
 }  // namespace

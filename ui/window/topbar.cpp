@@ -19,7 +19,7 @@
 namespace ps {
 namespace {
 
-constexpr int kHeight = 36;
+constexpr int kHeight = 36, kGap = 3;  // px; the gap to the docks below is part of it
 
 /// The mark of the program: a hexagon, cold on the left and hot on the right, with a peak inside.
 class Logo : public QWidget {
@@ -91,7 +91,7 @@ QToolButton* buttonFor(QAction* action, const QString& iconName) {
 
 TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, QWidget* parent)
     : QWidget(parent), m_menus(new QMenuBar), m_workspaces(new QTabBar) {
-  setFixedHeight(kHeight);
+  setFixedHeight(kHeight + kGap);
   m_menus->setNativeMenuBar(false);
   m_workspaces->setObjectName(QStringLiteral("psWorkspaces"));
   m_workspaces->setDrawBase(false);
@@ -111,7 +111,7 @@ TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, 
   right->addWidget(m_search = new SearchField(search));
   right->addWidget(buttonFor(headset, QStringLiteral("headset")));
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(4, 0, 8, 0);
+  row->setContentsMargins(4, 0, 8, kGap);
   row->addLayout(left, 1);
   row->addWidget(m_workspaces, 0, Qt::AlignVCenter);
   row->addLayout(right, 1);
@@ -119,7 +119,8 @@ TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, 
 
 void TopBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), Theme::current()[Token::Panel]);
+  painter.fillRect(rect(), Theme::current()[Token::Window]);
+  painter.fillRect(rect().adjusted(0, 0, 0, -kGap), Theme::current()[Token::Header]);
 }
 
 }  // namespace ps
