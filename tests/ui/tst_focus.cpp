@@ -183,7 +183,17 @@ class TestFocus : public SampleWindowTest {
     m_window->showWorkspace(MainWindow::kSceneTab);
   }
 
+  void partsOfTheWindowAreReachedInTurn_data() {
+    QTest::addColumn<int>("workspace");
+    QTest::newRow("Scene") << static_cast<int>(MainWindow::kSceneTab);
+    QTest::newRow("Tune") << static_cast<int>(MainWindow::kTuneTab);
+    QTest::newRow("Sketch") << static_cast<int>(MainWindow::kSketchTab);
+    QTest::newRow("Film") << static_cast<int>(MainWindow::kFilmTab);
+  }
   void partsOfTheWindowAreReachedInTurn() {
+    QFETCH(int, workspace);
+    m_window->showWorkspace(static_cast<MainWindow::WorkspaceTab>(workspace));
+    view()->setFocus();
     std::vector<QWidget*> parts;
     for (int k = 0; k < 12; ++k) {
       m_window->action(QStringLiteral("window.nextPart"))->trigger();

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each gesture of timeline, curves and graphs in the real window. What edits the document is one step, taken back and
-// done again by the keys to the same bytes; what does not edit leaves the document and its steps alone.
+// Gestures in the real window: of rows, outliner, view, timeline, curves and graphs. What edits the document is one
+// step, taken back and done again by the keys to the same bytes; what does not edit leaves the document and its steps
+// alone. No kind of edit is left out.
 #include "core/io/projectio.h"
 #include "tests/ui/curvewindow.h"
+#include "tests/ui/gizmohands.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/recordhands.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/outlinerdelegate.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/rows/parameterrow.h"
+#include "ui/session/carriedmaterial.h"
 #include "ui/session/wording.h"
 #include "ui/timeline/keyrows.h"
 #include "ui/timeline/markerrow.h"
 #include "ui/timeline/runlines.h"
+#include "ui/window/libraryactions.h"
+#include "ui/window/projectwindow.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QXmlStreamReader>
 #include <QtGui/QImage>
@@ -23,6 +30,7 @@
 
 #include <cmath>
 #include <set>
+#include <typeinfo>
 
 using namespace ps;
 
@@ -71,6 +79,7 @@ class TestGestures : public CurveWindowTest {
     const std::string after = text();
     QVERIFY(after != before);
     QCOMPARE(document().undoStack().index(), steps + 1);
+    note(*document().undoStack().command(steps));
     for (int time = 0; time < 2; ++time) {
       undo();
       QCOMPARE(text(), before);
@@ -79,6 +88,23 @@ class TestGestures : public CurveWindowTest {
       QCOMPARE(text(), after);
     }
     picture(QStringLiteral("tst_gestures_%1.png").arg(QLatin1String(gesture.name)));
+  }
+
+  /// Those that ui/document declares were all met in the rows above.
+  void everyKindOfEditHasItsGesture() {
+    QFile file(QStringLiteral(PS_SOURCE_DIR "/ui/document/commands.h"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString header = QString::fromUtf8(file.readAll());
+    static const QRegularExpression kKind(QStringLiteral("class (\\w+Command) : public"));
+    int kinds = 0;
+    QStringList missing;
+    for (auto found = kKind.globalMatch(header); found.hasNext(); ++kinds) {
+      const QString kind = found.next().captured(1);
+      const auto is = [&](const std::string& met) { return met.ends_with(kind.toStdString() + "E"); };  // ps::kind
+      if (std::none_of(m_met.begin(), m_met.end(), is)) missing << kind;
+    }
+    QVERIFY(kinds > 10);
+    QVERIFY2(missing.isEmpty(), qPrintable(missing.join(QStringLiteral(", "))));
   }
 
   /// What was edited before it can be taken back and done again after it, which rewinds no time.
@@ -121,6 +147,108 @@ class TestGestures : public CurveWindowTest {
   void redo() { QTest::keyClick(m_window.get(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier); }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport& transport() { return *m_window->transport(); }
+  /// Of what kind it is, or what it is put together from.
+  void note(const QUndoCommand& command) {
+    m_met.insert(typeid(command).name());
+    for (int k = 0; k < command.childCount(); ++k) note(*command.child(k));
+  }
+
+  // Rows.
+  void dragARow() {
+    ParameterRow* row = floorRow();
+    QVERIFY(row);
+    hands::pull(*row, row->sliderRect().center(), {30, 0});
+  }
+  void unpinARow() {
+    ParameterRow* row = floorRow();
+    QVERIFY(row);
+    hands::chooseAt(*row, row->labelRect().center(), {QStringLiteral("Remove from “Try these”")});
+  }
+  void nameTheProject() {
+    openProjectProperties(*m_window, QStringLiteral("Title"));
+    auto* dialog = m_window->findChild<QDialog*>(QStringLiteral("psProject"));
+    auto* title = dialog ? dialog->findChild<QLineEdit*>() : nullptr;
+    QVERIFY(title);
+    title->setText(QStringLiteral("Puddle"));
+    dialog->close();
+    m_window->activateWindow();
+  }
+
+  // Outliner.
+  QTreeView& tree() { return *m_window->outliner()->findChild<QTreeView*>(); }
+  void selectTheIce() { m_window->selection().selectBody("ice"); }
+  void trigger(const char* action) { m_window->action(QString::fromLatin1(action))->trigger(); }
+  void clickInItsRow(QRect (*part)(const QRect&)) {
+    const QRect row = tree().visualRect(hands::outlined(*m_window, OutlineKind::Body, "ice"));
+    QTest::mouseClick(tree().viewport(), Qt::LeftButton, {}, part(row).center());
+  }
+  void hideTheIce() { clickInItsRow(OutlinerDelegate::eyeRect); }
+  void lockTheIce() { clickInItsRow(OutlinerDelegate::lockRect); }
+  void renameTheIce() {
+    trigger("edit.rename");
+    auto* name = tree().viewport()->findChild<QLineEdit*>();
+    QVERIFY(name);
+    name->setText(QStringLiteral("Berg"));
+    QTest::keyClick(name, Qt::Key_Return);
+    QTRY_VERIFY(!tree().viewport()->findChild<QLineEdit*>());
+  }
+  void groupTheIce() { trigger("edit.group"); }
+  void deleteIt() { trigger("edit.delete"); }
+  void duplicateTheIce() { trigger("edit.duplicate"); }
+  void addAProbe() { trigger("edit.probe"); }
+  void selectTheLid() { m_window->selection().select(OutlineKind::Wall, "lid"); }
+  void loseTheLid() {
+    selectTheLid();
+    deleteIt();
+    QVERIFY(!document().wall("lid"));
+  }
+  void addTheLid() { trigger("sketch.wall.lid"); }
+  void addAMaterial() {
+    LibraryPage& page = *m_window->library().page();
+    QTRY_VERIFY_WITH_TIMEOUT(page.shown().contains(QStringLiteral("Iron")), kLong);
+    page.choose(QStringLiteral("Iron"));
+    const auto buttons = page.findChildren<QPushButton*>();
+    const auto add = std::find_if(buttons.begin(), buttons.end(), [](const QPushButton* button) {
+      return button->text() == QStringLiteral("Add to the scene");
+    });
+    QVERIFY(add != buttons.end());
+    (*add)->click();
+  }
+  void keepTheState() {
+    QSignalSpy kept(&session(), &Session::stateKept);
+    session().keepState();
+    QVERIFY(kept.wait(kLong));
+  }
+  void removeTheState() { trigger("file.removeState"); }
+
+  // View.
+  void dropMatter() {
+    QMimeData iron;
+    iron.setData(QLatin1String(kInstalledMime), "iron");
+    QVERIFY(hands::drop(*view(), iron));
+  }
+  void draw(const char* with) {
+    trigger(with);
+    QTRY_VERIFY(view()->isVisible() && view()->snapshot() == session().snapshot());
+    stroke(view()->rect().center() - QPoint(30, 0), {60, 0}, true);
+    QTRY_VERIFY(document().undoStack().canUndo());
+  }
+  void drawMatter() { draw("sketch.brush"); }
+  void eraseMatter() { draw("sketch.erase"); }
+  void takeTheHandles() {
+    selectTheIce();
+    m_window->tools().activate("move");
+    view()->setFocus();
+  }
+  void moveByAHandle() {
+    const QPoint from = hands::middleOf(*m_window, {GizmoPart::Kind::Arm, 0});
+    hands::pull(*view(), from, {40, 0});
+  }
+  void placeATap() {
+    trigger("sketch.tap");
+    QTest::mouseClick(view(), Qt::LeftButton, {}, view()->rect().center());
+    QCOMPARE(document().project().emitters.size(), size_t{1});
+  }
 
   // Keys.
   KeyRows& keyRows() { return *m_window->findChild<KeyRows*>(); }
@@ -369,11 +497,31 @@ class TestGestures : public CurveWindowTest {
   }
 
   QTemporaryDir m_folder;
+  std::set<std::string> m_met;  ///< kinds of edits
 };
 
 std::vector<TestGestures::Gesture> TestGestures::edits() {
   using T = TestGestures;
-  return {{"key by K", nullptr, &T::keyByK},
+  return {{"row dragged", nullptr, &T::dragARow},
+          {"row unpinned", nullptr, &T::unpinARow},
+          {"project named", nullptr, &T::nameTheProject},
+          {"eye", nullptr, &T::hideTheIce},
+          {"lock", nullptr, &T::lockTheIce},
+          {"body renamed", &T::selectTheIce, &T::renameTheIce},
+          {"body grouped", &T::selectTheIce, &T::groupTheIce},
+          {"body deleted", &T::selectTheIce, &T::deleteIt},
+          {"body duplicated", &T::selectTheIce, &T::duplicateTheIce},
+          {"probe added", nullptr, &T::addAProbe},
+          {"wall added", &T::loseTheLid, &T::addTheLid},
+          {"wall deleted", &T::selectTheLid, &T::deleteIt},
+          {"material added", nullptr, &T::addAMaterial},
+          {"state removed", &T::keepTheState, &T::removeTheState},
+          {"material dropped", nullptr, &T::dropMatter},
+          {"stroke", nullptr, &T::drawMatter},
+          {"stroke erased", nullptr, &T::eraseMatter},
+          {"handle dragged", &T::takeTheHandles, &T::moveByAHandle},
+          {"tap placed", nullptr, &T::placeATap},
+          {"key by K", nullptr, &T::keyByK},
           {"key by its diamond", nullptr, &T::keyByDiamond},
           {"key dragged", &T::twoKeys, &T::dragAKey},
           {"key deleted", &T::twoKeys, &T::deleteAKey},

@@ -16,6 +16,7 @@
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/commandpalette.h"
 #include "ui/window/dock.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
@@ -32,6 +33,7 @@
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
@@ -326,6 +328,44 @@ class TestInteraction : public SampleWindowTest {
                 (*seen)[1] <= view()->height());
       }
     }
+  }
+
+  /// What asks for something stands beside the window. Only the question for a file, which is the system's, holds it.
+  void noDialogHoldsTheWindow() {
+    struct Watch : QObject {
+      QStringList shown, modal;
+      bool eventFilter(QObject* watched, QEvent* event) override {
+        auto* dialog = event->type() == QEvent::Show ? qobject_cast<QDialog*>(watched) : nullptr;
+        if (qobject_cast<QFileDialog*>(dialog)) {
+          QTimer::singleShot(0, dialog, &QDialog::reject);
+        } else if (dialog) {
+          shown << dialog->windowTitle();
+          if (dialog->isModal()) modal << dialog->windowTitle();
+        }
+        return false;
+      }
+    } watch;
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > 0, kLong);
+    QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+    qApp->installEventFilter(&watch);
+    for (QAction* action : m_window->findChildren<QAction*>(Qt::FindDirectChildrenOnly)) {
+      if (action->text().endsWith(QStringLiteral("…")) || action->objectName() == QStringLiteral("help.shortcuts"))
+        action->trigger();
+    }
+    const auto buttons = m_window->library().page()->findChildren<QPushButton*>();
+    for (QPushButton* button : buttons) {
+      if (button->text().endsWith(QStringLiteral("…"))) button->click();
+    }
+    qApp->removeEventFilter(&watch);
+    qDeleteAll(m_window->findChildren<QDialog*>(QString(), Qt::FindDirectChildrenOnly));
+    m_window->palette()->hide();
+    m_window->welcome().leave();
+    QApplication::setActiveWindow(m_window.get());
+    QVERIFY2(watch.modal.isEmpty(), qPrintable(watch.modal.join(QStringLiteral(", "))));
+    for (const char* title : {"Export a film", "Export the run", "Mix two materials", "Preferences",
+                              "Project properties", "Keyboard shortcuts"})
+      QVERIFY2(watch.shown.contains(QString::fromLatin1(title)), title);
   }
 
   void themesAreMarked() {

@@ -26,6 +26,7 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QMimeData>
+#include <QtCore/QPointer>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QUrl>
 #include <QtGui/QAction>
@@ -540,6 +541,38 @@ class TestLibrary : public SampleWindowTest {
     QVERIFY(QFile::remove(library().folder() + QStringLiteral("/broken.json")));
     QTest::keyClick(m_window.get(), Qt::Key_Escape);
     QVERIFY(!page()->isVisible());
+  }
+
+  /// The window stays in use: the form's parts follow the scene, a second asking brings the same one forward, and it
+  /// goes with the material or the project that it was about.
+  void aMixStandsBesideTheScene() {
+    page()->choose(entryOf("tin")->label);
+    const QPointer<MixDialog> mix = opened(QStringLiteral("Mix…"));
+    QVERIFY(mix && !mix->isModal());
+    QVERIFY(opened(QStringLiteral("Mix…")) == mix);
+    const QString own = QStringLiteral("Water, as it is in the scene");
+    QVERIFY(mix->chooseParts(own, entryOf("ethanol")->label) && mix->problem().isEmpty());
+    const auto density = [&] {
+      const auto rows = mix->table()->findItems(QStringLiteral("Density, liquid"), Qt::MatchExactly);
+      return rows.isEmpty() ? mix->problem() : rows.front()->text(1);
+    };
+    const QString before = density();
+    const Address liquid{Owner::Material, "water", "density_liquid"};
+    QCOMPARE(document().setParameter(liquid, Response(700)), QString());
+    QTRY_VERIFY(density() != before);
+    document().undoStack().undo();
+    QTRY_COMPARE(density(), before);
+    QVERIFY(mix->chooseParts(entryOf("tin")->label, entryOf("lead")->label));
+    press(*mix, QStringLiteral("Add to the scene"));
+    QTRY_VERIFY(!mix);
+    const QPointer<MixDialog> change = opened(QStringLiteral("Change the mixture…"));
+    QVERIFY(change && change->windowTitle().contains(entryOf("lead")->label));
+    document().undoStack().undo();  // there is no such mixture any more
+    QTRY_VERIFY(!change);
+    const QPointer<MixDialog> last = opened(QStringLiteral("Mix…"));
+    QVERIFY(last);
+    m_window->openFile(kSample);
+    QTRY_VERIFY_WITH_TIMEOUT(!last, kLong);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "tests/ui/samplewindow.h"
+#include "ui/curves/curvetarget.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/graphs/graphspanel.h"
@@ -19,27 +20,35 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
+#include "ui/theme/plaintext.h"
 #include "ui/timeline/transport.h"
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/dock.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/screenshot.h"
 #include "ui/window/statusline.h"
+#include "ui/window/windowlayout.h"
 
 #include <QtCore/QTemporaryDir>
+#include <QtGui/QAccessible>
 #include <QtGui/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
+#include <QtWidgets/QTabBar>
 #include <QtWidgets/QWidgetAction>
 
 #include <algorithm>
+#include <chrono>
 #include <clocale>
 #include <cmath>
 #include <functional>
+#include <future>
+#include <memory>
 #include <set>
 
 using namespace ps;
@@ -118,6 +127,32 @@ class TestWindow : public QObject {
     QCOMPARE(std::get<double>(document().value(kFloor)), before);
     QCOMPARE(floorInEngine(session()), before);
     QTRY_COMPARE(row->number(), before);  // a gesture ends a moment after its last click
+  }
+
+  /// One of each owner that has any, while the run goes on; the sample's model of heat has none.
+  void aSliderActsWhileItRuns() {
+    const int step = document().undoStack().index();
+    Emitter tap;
+    tap.material = document().project().materials.front().id;
+    document().addEmitter(tap);
+    document().addSink({});
+    session().play();
+    std::set<Owner> moved;
+    for (const Address& address : allAddresses(document().project(), session().plugins())) {
+      if (moved.count(address.owner) || document().actsAtReset(address)) continue;
+      if (!m_window->revealParameter(address, false)) continue;
+      ParameterRow* row = m_window->inspector().panelFor(address)->row(QString::fromStdString(address.text()));
+      if (!row || row->model().declaration.kind != api::ParameterKind::Number || row->has(RowState::Disabled)) continue;
+      const QString wrong = slideWhileHeld(*row, address);
+      QVERIFY2(wrong.isEmpty(), (address.text() + ": " + wrong.toStdString()).c_str());
+      moved.insert(address.owner);
+    }
+    for (const Owner owner : {Owner::Material, Owner::Wall, Owner::Environment, Owner::Solver, Owner::Body,
+                              Owner::Emitter, Owner::Sink, Owner::Constraint, Owner::Scene})
+      QVERIFY2(moved.count(owner), std::string(ownerName(owner)).c_str());
+    session().pause();
+    while (document().undoStack().index() > step) document().undoStack().undo();
+    session().reset();
   }
 
   void aHotterFloorHeatsFaster() {
@@ -457,6 +492,72 @@ class TestWindow : public QObject {
                             .arg(missing.join(QStringLiteral(", ")), late.join(QStringLiteral(", ")))));
   }
 
+  /// What pages of docks, the library and the plugins do by a button is found, in whatever workspace it stands.
+  void thePaletteKnowsEveryButton() {
+    std::set<QString> titles;
+    for (const PaletteEntry& entry : m_window->paletteEntries()) titles.insert(entry.title);
+    QStringList missing;
+    int known = 0;
+    const auto look = [&](const QWidget& page) {
+      for (const QAbstractButton* button : page.findChildren<QAbstractButton*>()) {
+        const QString text = fromButtonText(button->text());
+        const QString name = text.isEmpty() ? button->accessibleName() : text;
+        // What scrolls tabs, and what a dock has before it gets a header of ours.
+        const QWidget* owner = button->parentWidget();
+        if (qobject_cast<const QTabBar*>(owner) || qobject_cast<const QDockWidget*>(owner) || name.isEmpty()) continue;
+        if (!titles.count(name)) missing << name;
+        ++known;
+      }
+    };
+    for (const Dock* dock : m_window->layoutOfDocks().docks()) look(*dock);
+    look(*m_window->library().page());
+    look(*m_window->pluginPage());
+    QVERIFY2(missing.isEmpty(), qPrintable(missing.join(QStringLiteral(", "))));
+    QVERIFY(known > 50);
+    for (const char* title : {"Fit law to points", "Sample law as points", "Find values", "Mix…", "Row: reset",
+                              "Export as PNG…", "Add graph: Mass by phase"})
+      QVERIFY2(titles.count(QString::fromUtf8(title)), title);
+    QVERIFY(!paletteMatches(m_window->paletteEntries(), QStringLiteral("empty the disk")).empty());  // of a dialog
+  }
+
+  /// Pressed where it stands, which is in sight then.
+  void aButtonIsPressedFromThePalette() {
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    QVERIFY(m_window->revealParameter({Owner::Material, "water", "viscosity"}));
+    m_window->curves().choose({Owner::Material, "water", "viscosity"});
+    const int steps = document().undoStack().index();
+    const auto entries = m_window->paletteEntries();
+    const auto sample = std::find_if(entries.begin(), entries.end(), [](const PaletteEntry& entry) {
+      return entry.title == QStringLiteral("Sample law as points");
+    });
+    QVERIFY(sample != entries.end() && sample->whyNot.isEmpty());
+    sample->run();
+    QCOMPARE(m_window->workspaceTab(), MainWindow::kTuneTab);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    document().undoStack().undo();
+    m_window->showWorkspace(MainWindow::kSceneTab);
+  }
+
+  /// Each row that is found is led to.
+  void whatThePaletteFindsIsShown() {
+    const auto entries = m_window->paletteEntries();
+    QStringList hidden;
+    for (const std::string& text : addressesOfRows()) {
+      const QString words = QLatin1Char(' ') + QString::fromStdString(text).replace(QLatin1Char('_'), QLatin1Char(' '));
+      const auto entry = std::find_if(entries.begin(), entries.end(),
+                                      [&](const PaletteEntry& one) { return one.words.endsWith(words); });
+      QVERIFY2(entry != entries.end(), text.c_str());
+      entry->run();
+      const auto rows = m_window->findChildren<ParameterRow*>();
+      const bool seen = std::any_of(rows.begin(), rows.end(), [&](const ParameterRow* row) {
+        return row->key() == QString::fromStdString(text) && row->isVisible() && !row->visibleRegion().isEmpty();
+      });
+      if (!seen) hidden << QString::fromStdString(text);
+    }
+    m_window->selection().clear();
+    QVERIFY2(hidden.isEmpty(), qPrintable(hidden.join(QStringLiteral(", "))));
+  }
+
   /// The scene's own, by its name and by the tags of what is installed.
   void thePaletteFindsAMaterialByItsTags() {
     m_window->selection().setMaterial({});
@@ -590,6 +691,61 @@ class TestWindow : public QObject {
     Q_EMIT(*nothing)->linkActivated(QStringLiteral("clear"));
     QVERIFY(palette->field()->text().isEmpty() && palette->shownCount() > 0 && !(*nothing)->isVisible());
     palette->hide();
+  }
+
+  /// As a screen reader meets each row of all panels: name, value and state, of one thing and of two that differ.
+  void everyRowIsAccessible() {
+    unsigned met = 0;
+    const auto look = [&] {
+      for (ParameterRow* row : m_window->findChildren<ParameterRow*>()) {
+        const QAccessibleInterface* face = QAccessible::queryAccessibleInterface(row);
+        QVERIFY2(face, qPrintable(row->key()));
+        QVERIFY2(!face->text(QAccessible::Name).isEmpty(), qPrintable(row->key()));
+        QVERIFY2(!row->valueText().isEmpty(), qPrintable(row->key()));
+        QCOMPARE(face->text(QAccessible::Value), row->valueText());
+        QCOMPARE(bool(face->state().disabled), row->has(RowState::Disabled));
+        met |= row->states();
+      }
+    };
+    m_window->selection().selectBody("ice");
+    look();
+    if (QTest::currentTestFailed()) return;
+    m_window->action(QStringLiteral("edit.duplicate"))->trigger();
+    const std::string copy = document().project().bodies.back().id;
+    QCOMPARE(document().setParameter({Owner::Body, copy, "temperature"}, 250.0), QString());
+    m_window->selection().selectAll({{OutlineKind::Body, "ice"}, {OutlineKind::Body, copy}});
+    m_window->inspectorDock()->showPage(QStringLiteral("Body"));
+    QTest::qWait(50);
+    look();
+    document().undoStack().undo();
+    document().undoStack().undo();
+    m_window->selection().clear();
+    for (const RowState state : {RowState::Mixed, RowState::Curve, RowState::Disabled, RowState::Changed})
+      QVERIFY2(met & static_cast<unsigned>(state), std::to_string(static_cast<unsigned>(state)).c_str());
+  }
+
+  /// Of the panels, the outliner, the library and the plugins, wherever they stand.
+  void everySearchSaysThatNothingIsFound() {
+    QSet<QString> said;
+    for (QLineEdit* field : m_window->findChildren<QLineEdit*>(QStringLiteral("psFilter"))) {
+      QWidget* page = field->parentWidget();
+      while (!QByteArray(page->metaObject()->className()).startsWith("ps::")) page = page->parentWidget();
+      if (!field->isVisibleTo(page)) continue;  // a panel without rows
+      const QByteArray where =
+          (page->metaObject()->className() + QStringLiteral(": ") + field->accessibleName()).toUtf8();
+      field->setText(QStringLiteral(" x<y "));
+      const auto labels = page->findChildren<QLabel*>();
+      const auto nothing = std::find_if(labels.begin(), labels.end(), [&](const QLabel* label) {
+        return label->isVisibleTo(page) && label->text().startsWith(QStringLiteral("Nothing called “x&lt;y”."));
+      });
+      QVERIFY2(nothing != labels.end(), where.constData());
+      Q_EMIT(*nothing)->linkActivated(QStringLiteral("clear"));
+      QVERIFY2(field->text().isEmpty() && !(*nothing)->isVisibleTo(page), where.constData());
+      said.insert(QString::fromLatin1(page->metaObject()->className()));
+    }
+    for (const char* page : {"ps::Outliner", "ps::LibraryPage", "ps::PluginPage"})
+      QVERIFY2(said.contains(QString::fromLatin1(page)), page);
+    QVERIFY(said.size() > 3);  // panels of rows
   }
 
   /// Where there is nothing to see it is said what to do. Outliner, panels, run and searches have tests of their own.
@@ -863,6 +1019,36 @@ class TestWindow : public QObject {
     return titles;
   }
   /// Of all that the scene declares, and of what the panels show.
+  /// The engine stands between two frames meanwhile, as long as a move takes: one that waited for it would not come
+  /// back in time. What it says is there before the next frame. Returns what is wrong.
+  QString slideWhileHeld(ParameterRow& row, const Address& address) {
+    const QPoint from = row.sliderRect().center();
+    QTest::mousePress(&row, Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 3; ++k) {
+      const auto moved = std::make_shared<std::promise<void>>();
+      const auto held = std::make_shared<std::promise<uint64_t>>(), then = std::make_shared<std::promise<uint64_t>>();
+      const auto waited = std::make_shared<std::promise<bool>>();
+      const auto value = std::make_shared<Value>();
+      session().engine()->ask([=, done = moved->get_future().share()](const Engine& engine) {
+        held->set_value(engine.solver().frame());
+        waited->set_value(done.wait_for(std::chrono::milliseconds(kLong)) == std::future_status::ready);
+      });
+      const uint64_t frame = held->get_future().get();
+      const Value before = document().value(address);
+      QTest::mouseMove(&row, from + QPoint(4 * k, 0));
+      session().engine()->ask([=, plugins = session().plugins()](const Engine& engine) {
+        *value = valueAt(engine.project(), plugins, address);
+        then->set_value(engine.solver().frame());
+      });
+      moved->set_value();
+      if (!waited->get_future().get()) return QStringLiteral("the move waited for the engine");
+      if (then->get_future().get() > frame + 1) return QStringLiteral("it came later than to the next frame");
+      if (document().value(address) == before) return QStringLiteral("the move changed nothing");
+      if (document().value(address) != *value) return QStringLiteral("the engine has another value");
+    }
+    QTest::mouseRelease(&row, Qt::LeftButton, {}, from + QPoint(12, 0));
+    return {};
+  }
   std::set<std::string> addressesOfRows() {
     std::set<std::string> rows;
     const auto add = [&](const Address& address) {

@@ -219,15 +219,29 @@ Problems words(View path, View text) {
 }
 
 Problems colours(View path, View text) {
-  if (!path.starts_with("ui/") && !path.starts_with("app/editor/")) return {};
+  if (!startsWithAny(path, {"ui/", "app/editor/", "resources/"})) return {};
+  // The two files of colours, and the icon that the desktop shows.
+  if (startsWithAny(path, {"resources/theme/tokens.json", "resources/theme/maps.json", "resources/package/"}))
+    return {};
+  static const std::regex numbers(
+      R"((Color|qRgba?|fromRgba?)\((\s*(0x)?[0-9a-fA-F]+\s*,){2,3}\s*(0x)?[0-9a-fA-F]+\s*\))");
+  static const std::regex named(R"(Qt::(dark|light)?(white|black|red|green|blue|cyan|magenta|yellow|gr[ae]y)\b)",
+                                std::regex::icase);
+  const bool picks = path == "ui/rows/colourpicker.cpp";  // paints all colours
   Problems problems;
   eachLine(text, [&](size_t number, View line) {
+    const bool mayBe = line.find("Color(") != View::npos || line.find("Rgb") != View::npos;  // expressions are slow
+    const std::string whole(line);
+    if ((mayBe && std::regex_search(whole, numbers)) ||
+        (!picks && line.find("Qt::") != View::npos && std::regex_search(whole, named)))
+      problems.push_back(at(path, number, "colours are written in resources/theme/tokens.json"));
     for (size_t p = line.find('#'); p != View::npos; p = line.find('#', p + 1)) {
       if (p > 0 && line[p - 1] == '&') continue;          // an HTML entity
       if (line.substr(0, p).ends_with("\\\"")) continue;  // quoted in a message
       const size_t end = std::min(line.find_first_not_of("0123456789abcdefABCDEF", p + 1), line.size());
       const size_t digits = end - p - 1;
-      if ((digits == 3 || digits == 6 || digits == 8) && (end == line.size() || !isWordCharacter(line[end])))
+      if ((digits == 3 || digits == 4 || digits == 6 || digits == 8) &&
+          (end == line.size() || !isWordCharacter(line[end])))
         problems.push_back(at(path, number, "colours are written in resources/theme/tokens.json"));
     }
   });
@@ -251,6 +265,43 @@ Problems boxes(View path, View text) {
   eachLine(text, [&](size_t number, View line) {
     for (const View box : {"QMessageBox", "QInputDialog", "QProgressDialog", "QErrorMessage"})
       if (hasWord(line, box)) problems.push_back(at(path, number, "no " + std::string(box) + ": see NoticeBar"));
+    // A dialog that is opened or executed holds the window; menus, which are given a place, do not.
+    const bool asksForFiles = path == "ui/window/filenames.cpp";
+    for (const View modal : {"setModal", "setWindowModality", "ApplicationModal", "WindowModal"})
+      if (hasWord(line, modal)) problems.push_back(at(path, number, std::string(modal) + " holds the window"));
+    for (const View call : {"->open()", ".open()", "->exec()", ".exec()"})
+      if (line.find(call) != View::npos && !asksForFiles)
+        problems.push_back(at(path, number, std::string(call) + " holds the window: see bringUp()"));
+  });
+  return problems;
+}
+
+Problems messages(View path, View text) {
+  if (!path.starts_with("ui/") && !path.starts_with("app/")) return {};
+  // What is said first: of a refusal its first words, of a notice those behind its level.
+  static const std::regex kShout("\"[^\"]*[A-Za-z]!( [^\"]*)?\""),
+      kTitle(
+          "(?:refuse|refuseUntilEdited)\\(\\s*QStringLiteral\\(\"([^\"]+)\"\\)|"
+          "show\\([^,;]+,\\s*MessageLevel::(?:Warning|Error),\\s*QStringLiteral\\(\"([^\"]+)\"\\)"),
+      kBare("MessageLevel::Error, [^;]*, (?:sentence\\()?problem\\)+;"),
+      kAlone("show\\([^,;]+,\\s*MessageLevel::(?:Warning|Error),\\s*[^,;]+\\);");
+  Problems problems;
+  const std::string all(text);
+  const auto lineOf = [&](std::ptrdiff_t place) {
+    return static_cast<size_t>(std::count(all.begin(), all.begin() + place, '\n')) + 1;
+  };
+  for (std::sregex_iterator it(all.begin(), all.end(), kTitle), end; it != end; ++it) {
+    const std::string title = (*it)[1].matched ? (*it)[1].str() : (*it)[2].str();
+    if (!title.ends_with('.') && !title.ends_with('?'))
+      problems.push_back(at(path, lineOf(it->position()), "\"" + title + "\" is no sentence"));
+  }
+  for (const std::regex* lacking : {&kBare, &kAlone}) {
+    for (std::sregex_iterator it(all.begin(), all.end(), *lacking), end; it != end; ++it)
+      problems.push_back(at(path, lineOf(it->position()), "says what is wrong, and not what follows or what to do"));
+  }
+  eachLine(text, [&](size_t number, View line) {
+    if (std::regex_search(line.begin(), line.end(), kShout))
+      problems.push_back(at(path, number, "messages have no exclamation marks"));
   });
   return problems;
 }

@@ -22,7 +22,7 @@ Problems licence(std::string_view path, std::string_view text);
 /// Nothing is left for later, and no path of somebody's machine is written down.
 Problems words(std::string_view path, std::string_view text);
 
-/// Colours of the interface come from resources/theme/tokens.json alone.
+/// Colours of the interface come from resources/theme/tokens.json alone; those of data from maps.json beside it.
 Problems colours(std::string_view path, std::string_view text);
 
 /// Tooltips come through ui/theme/plaintext.h, which knows what is plain text.
@@ -30,6 +30,9 @@ Problems tips(std::string_view path, std::string_view text);
 
 /// Nothing stands in the way with a question or news: notices and dialogs of our own say them.
 Problems boxes(std::string_view path, std::string_view text);
+
+/// Refusals and notices begin with a sentence and go on to say more, errors that are logged as well; nothing shouts.
+Problems messages(std::string_view path, std::string_view text);
 
 /// Markdown documents that are mentioned by name exist; `known` are the names of those that do.
 Problems documents(std::string_view path, std::string_view text, const std::vector<std::string>& known);

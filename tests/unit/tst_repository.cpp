@@ -70,9 +70,14 @@ class RepositoryTest : public QObject {
     check(sources(kHouses + QStringList{"resources", "projects"}, texts), ps::rules::words);
     check(rootFiles(), ps::rules::words);
   }
-  void coloursComeFromTheTheme() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::colours); }
+  void coloursComeFromTheTheme() {
+    check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::colours);
+    check(sources({"resources"}, {"*.qss", "*.svg", "*.json", "*.glsl", "*.vert", "*.frag", "*.comp"}),
+          ps::rules::colours);
+  }
   void tooltipsKnowWhatIsPlain() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::tips); }
   void nothingAsksInABox() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::boxes); }
+  void messagesSayWhatToDo() { check(sources({"ui", "app"}, {"*.h", "*.cpp"}), ps::rules::messages); }
   void eachNameIsOfOneThing() {
     std::map<std::string, std::string> known;
     check(sources({"app", "core", "plugins", "ui"}, {"*.h", "*.cpp"}),
@@ -177,6 +182,17 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   row("colour in the interface", "colours", "ui/panels/a.cpp", "QColor(\"#12ab9f\")\n", 1);
   row("short colour", "colours", "ui/panels/a.cpp", "\"#fff\"\n", 1);
   row("colour with alpha", "colours", "ui/panels/a.cpp", "\"#12ab9f80\"\n", 1);
+  row("short colour with alpha", "colours", "ui/panels/a.cpp", "\"#fff8\"\n", 1);
+  row("colour in numbers", "colours", "ui/panels/a.cpp", "QColor(18, 0xab, 159)\n", 1);
+  row("colour in numbers with alpha", "colours", "ui/panels/a.cpp", "qRgba(18, 171, 159, 128)\n", 1);
+  row("a share of a colour", "colours", "ui/panels/a.cpp", "QColor(0, 0, 0, kOpacity)\n", 0);
+  row("colour by name", "colours", "ui/panels/a.cpp", "painter.setPen(Qt::darkGray);\n", 1);
+  row("no colour by name", "colours", "ui/panels/a.cpp", "Qt::transparent, Qt::Key_Red\n", 0);
+  row("all colours", "colours", "ui/rows/colourpicker.cpp", "across.setColorAt(0, Qt::white);\n", 0);
+  row("colour in the style sheet", "colours", "resources/theme/style.qss", "QMenu { color: #12ab9f; }\n", 1);
+  row("colour in an icon", "colours", "resources/icons/a.svg", "<path fill=\"#12ab9f\"/>\n", 1);
+  row("colour in a shader", "colours", "resources/shaders/a.frag", "// as #12ab9f\n", 1);
+  row("colour of data", "colours", "resources/theme/maps.json", "\"#12ab9f\"\n", 0);
   row("a directive is no colour", "colours", "ui/panels/a.cpp", "#define x\n#if add\n", 0);
   row("colour elsewhere", "colours", "core/io/a.cpp", "\"#12ab9f\"\n", 0);
   row("a tooltip past its door", "tips", "ui/panels/a.cpp", "QToolTip::showText(at, text, this);\n", 1);
@@ -184,7 +200,26 @@ void RepositoryTest::rulesCatchWhatTheyForbid_data() {
   row("a question in a box", "boxes", "ui/window/a.cpp", "#include <QtWidgets/QMessageBox>\n", 1);
   row("a box that waits", "boxes", "app/editor/a.cpp", "QProgressDialog dialog(this);\n", 1);
   row("a dialog of our own", "boxes", "ui/window/a.cpp", "class RunDialog : public QDialog {\n", 0);
+  row("a dialog that holds the window", "boxes", "ui/window/a.cpp", "  (new RunDialog(form))->open();\n", 1);
+  row("a dialog that waits", "boxes", "ui/library/a.cpp", "  if (dialog.exec() == QDialog::Accepted) return;\n", 1);
+  row("a modal dialog", "boxes", "ui/window/a.cpp", "  dialog->setWindowModality(Qt::WindowModal);\n", 2);
+  row("a question for a file", "boxes", "ui/window/filenames.cpp", "  return dialog.exec();\n", 0);
+  row("a menu at its place", "boxes", "ui/window/a.cpp", "  menu.exec(event->globalPos());\n", 0);
+  row("a file that is opened", "boxes", "ui/window/a.cpp", "  if (!file.open(QIODevice::ReadOnly)) return;\n", 0);
   row("a box in a test", "boxes", "tests/ui/a.cpp", "QMessageBox box;\n", 0);
+  row("a title that is no sentence", "messages", "ui/window/a.cpp",
+      "  m_notices.refuse(QStringLiteral(\"Not done\"), why);\n", 1);
+  row("a title that is one", "messages", "ui/window/a.cpp",
+      "  m_notices.refuse(QStringLiteral(\"Nothing was done.\"), why);\n", 0);
+  row("a notice's title that is no sentence", "messages", "ui/window/a.cpp",
+      "  bar.show(kTopic, MessageLevel::Warning,\n           QStringLiteral(\"A plugin\"), text);\n", 1);
+  row("a notice of a title alone", "messages", "ui/window/a.cpp", "  bar.show(kTopic, MessageLevel::Error, title);\n",
+      1);
+  row("a notice with more", "messages", "ui/window/a.cpp", "  bar.show(kTopic, MessageLevel::Error, title, text);\n",
+      0);
+  row("a bare error", "messages", "ui/window/a.cpp", "  log().add(MessageLevel::Error, what, problem);\n", 1);
+  row("a shout", "messages", "ui/window/a.cpp", "  say(QStringLiteral(\"Oh no! It is gone.\"));\n", 1);
+  row("no shout", "messages", "ui/window/a.cpp", "  if (!a || text != \"b\") return say(\"c\");\n", 0);
   row("missing document", "documents", "core/io/a.cpp", QStringLiteral("// see NOWHERE.") + "md\n", 1);
   row("a name that is taken", "names", "ui/a.h", "namespace ps {\n\nstruct Taken {\n};\n\n}  // namespace ps\n", 1);
   row("a class of that name", "names", "ui/a.h", "namespace ps {\nclass Taken : public QObject {\n", 1);
@@ -218,6 +253,8 @@ void RepositoryTest::rulesCatchWhatTheyForbid() {
     found = ps::rules::tips(p, t);
   else if (rule == "boxes")
     found = ps::rules::boxes(p, t);
+  else if (rule == "messages")
+    found = ps::rules::messages(p, t);
   else if (rule == "names")
     found = ps::rules::names(p, t, taken);
   else

@@ -7,6 +7,7 @@
 #include "ui/library/flow.h"
 #include "ui/library/materialcard.h"
 #include "ui/library/phaseview.h"
+#include "ui/rows/filterfield.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
@@ -111,6 +112,7 @@ LibraryPage::LibraryPage(MaterialLibrary& library, Session& session, Selection& 
       m_search(new QLineEdit),
       m_name(new QLineEdit),
       m_words(new QLineEdit),
+      m_nothing(new NothingFound(*m_search)),
       m_cards(new CardList(library, [this](QMimeData* carried) { carry(carried); })),
       m_table(new QTreeWidget),
       m_title(new QLabel),
@@ -163,6 +165,7 @@ QWidget* LibraryPage::makeLeft() {
   m_cards->setSelectionMode(QAbstractItemView::ExtendedSelection);
   m_cards->setAccessibleName(QStringLiteral("Materials"));
   column->addWidget(m_cards, 1);
+  column->addWidget(m_nothing, 1);
   m_hint->setProperty("role", "muted");
   m_hint->setWordWrap(true);
   column->addWidget(m_hint);
@@ -311,6 +314,7 @@ void LibraryPage::filter() {
     item->setHidden(!all.contains(m_search->text().trimmed(), Qt::CaseInsensitive) ||
                     (!m_tag.isEmpty() && !entry.tags.contains(m_tag)));
   }
+  m_nothing->standFor(*m_cards, !shown().isEmpty());
 }
 
 QStringList LibraryPage::shown() const {

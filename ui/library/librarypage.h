@@ -17,6 +17,7 @@ class QTreeWidget;
 namespace ps {
 
 class Flow;
+class NothingFound;
 class PhaseView;
 class Selection;
 class SwatchView;
@@ -64,6 +65,7 @@ class LibraryPage : public QWidget {
   Session& m_session;
   Selection& m_selection;
   QLineEdit *m_search, *m_name, *m_words;
+  NothingFound* m_nothing;
   QString m_wordsOf;  ///< whose tags the line has, by the key of its card
   Flow* m_chips = nullptr;
   QButtonGroup* m_tags = nullptr;

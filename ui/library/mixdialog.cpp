@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/matter/mixture.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/compile.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
@@ -15,6 +16,7 @@
 #include "ui/theme/numbers.h"
 #include "ui/theme/units.h"
 
+#include <QtCore/QSignalBlocker>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QHBoxLayout>
@@ -26,11 +28,13 @@
 #include <QtWidgets/QTreeWidget>
 
 #include <algorithm>
+#include <array>
 
 namespace ps {
 namespace {
 
 constexpr int kGap = 8, kEdge = 16, kLabelWidth = 110, kWidestColumn = 190;
+constexpr int kLate = 200;  // ms
 constexpr QSize kSize{860, 700};
 constexpr const char* kLimits =
     "The rules know the parts alone, not how they act on each other: no eutectics (solder melts some 60 K lower than "
@@ -76,6 +80,13 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
   m_grid->setColumnMinimumWidth(0, kLabelWidth);
   m_grid->setColumnStretch(1, 1);
   resize(kSize);
+  m_late.setSingleShot(true);
+  m_late.setInterval(kLate);
+  connect(&m_late, &QTimer::timeout, this, &MixDialog::readSources);
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event) || isGone()) return reject();
+    if (m_changed.empty()) m_late.start();
+  });
 }
 
 MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& selection, const QString& first,
@@ -97,17 +108,18 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
   addButtons();
   chooseParts(first, second);
   for (QComboBox* box : {m_first, m_second}) connect(box, &QComboBox::currentIndexChanged, this, &MixDialog::refresh);
+  connect(&library, &MaterialLibrary::changed, &m_late, qOverload<>(&QTimer::start));
   refresh();
 }
 
 MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& selection, const std::string& material,
                      QWidget* parent)
     : MixDialog(library, session, selection, parent) {
-  setWindowTitle(QStringLiteral("Change the mixture"));
   m_changed = material;
   for (const SceneMaterial& own : session.document().project().materials) {
     if (own.id != material) continue;
     if (!own.mixture) continue;
+    setWindowTitle(QStringLiteral("Change the mixture “%1”").arg(QString::fromStdString(shownName(own))));
     const Mixture& mixture = *own.mixture;
     for (const auto& [box, part] : {std::pair(m_first, mixture.first), std::pair(m_second, mixture.second)}) {
       m_sources.push_back({QString::fromStdString(part.label), part});
@@ -136,12 +148,50 @@ void MixDialog::addSources() {
   for (const SceneMaterial& own : project.materials) {
     try {
       const Material values = compileMaterial(project, own, *m_session.plugins(), evaluated);
-      m_sources.push_back(
-          {QStringLiteral("%1, as it is in the scene").arg(QString::fromStdString(values.label)), partOf(values)});
+      m_sources.push_back({QStringLiteral("%1, as it is in the scene").arg(QString::fromStdString(values.label)),
+                           partOf(values), own.id});
     } catch (const Error&) {
       continue;  // what is broken in the scene is told there
     }
   }
+}
+
+/// What is chosen stays so, with the values that it had where it is gone.
+void MixDialog::readSources() {
+  std::array<Source, 2> kept{chosen(*m_first), chosen(*m_second)};
+  m_sources.clear();
+  addSources();
+  const std::array<QComboBox*, 2> boxes{m_first, m_second};
+  std::array<int, 2> places{};
+  for (size_t k = 0; k < boxes.size(); ++k) {
+    const auto same = [&](const Source& each) {
+      return each.own == kept[k].own && (!each.own.empty() || each.label == kept[k].label);
+    };
+    auto found = std::find_if(m_sources.begin(), m_sources.end(), same);
+    if (found == m_sources.end()) {
+      kept[k].label.replace(QStringLiteral("as it is in"), QStringLiteral("as it was in"));
+      found = m_sources.insert(found, {kept[k].label, kept[k].part, kept[k].own});
+    }
+    places[k] = static_cast<int>(found - m_sources.begin());
+  }
+  for (size_t k = 0; k < boxes.size(); ++k) {
+    const QSignalBlocker quiet(boxes[k]);
+    boxes[k]->clear();
+    for (const Source& source : m_sources) boxes[k]->addItem(source.label);
+    boxes[k]->setCurrentIndex(places[k]);
+  }
+  refresh();
+}
+
+bool MixDialog::isGone() const {
+  const auto& all = m_session.document().project().materials;
+  return !m_changed.empty() && std::none_of(all.begin(), all.end(), [&](const SceneMaterial& each) {
+    return each.id == m_changed && each.mixture;
+  });
+}
+
+const MixDialog::Source& MixDialog::chosen(const QComboBox& box) const {
+  return m_sources[static_cast<size_t>(std::max(0, box.currentIndex()))];
 }
 
 void MixDialog::addRow(const QString& label, QWidget* field) {
@@ -216,10 +266,7 @@ bool MixDialog::chooseParts(const QString& first, const QString& second) {
 Mixture MixDialog::mixture() const {
   if (m_sources.empty()) return {};
   if (!m_changed.empty()) return {m_share->number(), m_sources[0].part, m_sources[1].part, {}};
-  return {m_share->number(),
-          m_sources[static_cast<size_t>(std::max(0, m_first->currentIndex()))].part,
-          m_sources[static_cast<size_t>(std::max(0, m_second->currentIndex()))].part,
-          {}};
+  return {m_share->number(), chosen(*m_first).part, chosen(*m_second).part, {}};
 }
 
 QString MixDialog::name() const {

@@ -3,6 +3,7 @@
 #include "core/io/mixing.h"
 #include "ui/library/materiallibrary.h"
 
+#include <QtCore/QTimer>
 #include <QtWidgets/QDialog>
 
 #include <string>
@@ -23,7 +24,8 @@ class Selection;
 
 /// Makes a material of two, or changes the share of one that was mixed: which two, how much of the second, what each
 /// property comes to and by which rule, and how it melts and boils beside its parts. It becomes a material of the scene
-/// or a preset; what makes no mixture is said, and nothing can then be made.
+/// or a preset; what makes no mixture is said, and nothing can then be made. The window stays in use meanwhile: what
+/// can be mixed follows library and scene, and it closes where another project is opened or its material is gone.
 class MixDialog : public QDialog {
   Q_OBJECT
  public:
@@ -44,8 +46,12 @@ class MixDialog : public QDialog {
   struct Source {
     QString label;
     Mixture::Part part;
+    std::string own{};  ///< of the scene's material; "": of the library
   };
   void addSources();
+  void readSources();
+  bool isGone() const;  ///< the mixture that is to be changed
+  const Source& chosen(const QComboBox& box) const;
   void addRow(const QString& label, QWidget* field);
   void addShare(double share);
   void addResult();
@@ -63,6 +69,7 @@ class MixDialog : public QDialog {
   Selection& m_selection;
   std::string m_changed;  ///< of the scene, whose share it is; "": a new one
   std::vector<Source> m_sources;
+  QTimer m_late;  ///< many edits are followed once
   QGridLayout* m_grid;
   QComboBox *m_first, *m_second;
   ParameterRow* m_share = nullptr;

@@ -50,16 +50,16 @@ class Inspector : public QObject {
   /// How often one of several things was looked for by its id, to find the rows that they share.
   size_t searchedThings() const { return m_searched; }
 
-  /// A key of the row under the pointer, or of the one that has the focus; false: there is none.
-  bool toggleKey();
+  /// The one under the pointer, or the one that has the focus; nullptr: there is none.
+  ParameterRow* rowAtHand() const;
 
   /// Operating points and notes of limits; comes by itself a few times a second.
   void setSnapshot(const Snapshot& snapshot);
 
  Q_SIGNALS:
-  void curveWanted(const ps::Address& address);  ///< of a response: the small curve in its row was clicked
-  void wayOutWanted(const QString& link);        ///< see ui/panels/wayout.h
-  void keyRefused(const QString& problem);
+  void curveWanted(const ps::Address& address);               ///< of a response: the small curve in its row was clicked
+  void wayOutWanted(const QString& link);                     ///< see ui/panels/wayout.h
+  void keyRefused(const QString& title, const QString& why);  ///< "No key was set.", why not
 
  private:
   void onChanged(const ChangeEvent& event);

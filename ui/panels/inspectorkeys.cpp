@@ -13,7 +13,7 @@ namespace ps {
 
 double Inspector::now() const { return m_session.now(); }
 
-bool Inspector::toggleKey() {
+ParameterRow* Inspector::rowAtHand() const {
   ParameterRow* wanted = nullptr;
   for (const ParameterPanel* panel : panels()) {
     if (!panel->isVisible()) continue;
@@ -22,8 +22,7 @@ bool Inspector::toggleKey() {
       if (row->isHovered()) break;
     }
   }
-  if (wanted) wanted->toggleKey();
-  return wanted != nullptr;
+  return wanted;
 }
 
 void Inspector::onKey(const QString& key, const Value& shown) {
@@ -37,7 +36,7 @@ void Inspector::onKey(const QString& key, const Value& shown) {
     return;
   }
   const QString problem = m_document.putKey(*address, now(), numberOfValue(*declaration, shown, 293.15));
-  if (!problem.isEmpty()) Q_EMIT keyRefused(problem);
+  if (!problem.isEmpty()) Q_EMIT keyRefused(QStringLiteral("No key was set."), problem);
 }
 
 /// What has keys over time gets one at the time that is shown, or where a drag began: its own value would be hidden by

@@ -5,6 +5,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/document.h"
+#include "ui/rows/filterfield.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/session.h"
 #include "ui/session/worker.h"
@@ -66,6 +67,7 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
       m_summary(new QLabel),
       m_details(new QLabel),
       m_filter(new QLineEdit),
+      m_nothing(new NothingFound(*m_filter)),
       m_again(new QPushButton),
       m_folder(new QPushButton(QStringLiteral("Look in a folder…"))) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // no page makes the window wider while another shows
@@ -80,6 +82,7 @@ PluginPage::PluginPage(Session& session, QWidget* parent)
   m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
   m_view->setAccessibleName(QStringLiteral("Plugins"));
   column->addWidget(m_view, 1);
+  column->addWidget(m_nothing, 1);
   column->addLayout(makeFoot());
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &PluginPage::showDetails);
   connect(&session, &Session::ready, this, [this, &session] {
@@ -317,13 +320,18 @@ void PluginPage::tryAgain() {
   });
 }
 
-void PluginPage::filter(const QString& wanted) {
+void PluginPage::filter(const QString& text) {
+  const QString wanted = text.trimmed();
+  bool any = false;
   for (int row = 0; row < m_model->rowCount(); ++row) {
     const PluginInfo* info = pluginAt(m_model->index(row, 0));
     QString all = QString::fromStdString((info ? info->author + " " : std::string()) + idAt(row));
     for (int c = 0; c < m_model->columnCount(); ++c) all += QLatin1Char(' ') + m_model->item(row, c)->text();
-    m_view->setRowHidden(row, {}, !all.contains(wanted, Qt::CaseInsensitive));
+    const bool meant = all.contains(wanted, Qt::CaseInsensitive);
+    m_view->setRowHidden(row, {}, !meant);
+    any = any || meant;
   }
+  m_nothing->standFor(*m_view, any);
 }
 
 QStringList PluginPage::lines() const {

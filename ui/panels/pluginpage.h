@@ -17,6 +17,7 @@ class QTreeView;
 
 namespace ps {
 
+class NothingFound;
 class PluginRegistry;
 struct PluginInfo;
 class Session;
@@ -63,6 +64,7 @@ class PluginPage : public QWidget {
   QTreeView* m_view;
   QLabel *m_summary, *m_details;
   QLineEdit* m_filter;
+  NothingFound* m_nothing;
   QPushButton *m_again, *m_folder;
   std::vector<MissingPlugin> m_missing;  ///< that the list has no other row for
   bool m_trying = false;                 ///< in a process of its own

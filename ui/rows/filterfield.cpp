@@ -28,4 +28,27 @@ void FilterField::keyPressEvent(QKeyEvent* event) {
     QLineEdit::keyPressEvent(event);
 }
 
+QString nothingCalled(const QString& wanted) {
+  return QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>")
+      .arg(wanted.trimmed().toHtmlEscaped());
+}
+
+NothingFound::NothingFound(QLineEdit& search) : m_search(search) {
+  setTextFormat(Qt::RichText);
+  setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  setWordWrap(true);
+  hide();
+  connect(this, &QLabel::linkActivated, &search, [&search] {
+    search.clear();
+    search.setFocus(Qt::OtherFocusReason);
+  });
+}
+
+void NothingFound::standFor(QWidget& list, bool any) {
+  const bool said = !any && !m_search.text().trimmed().isEmpty();
+  setText(nothingCalled(m_search.text()));
+  setVisible(said);
+  list.setVisible(!said);
+}
+
 }  // namespace ps

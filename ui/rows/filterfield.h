@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
 namespace ps {
@@ -16,6 +17,20 @@ class FilterField : public QLineEdit {
 
  private:
   QString m_icon;
+};
+
+/// What is said where a search leaves nothing, rich text; its link clears what was typed.
+QString nothingCalled(const QString& wanted);
+
+/// Stands in the place of a list in which a search has found nothing.
+class NothingFound : public QLabel {
+  Q_OBJECT
+ public:
+  explicit NothingFound(QLineEdit& search);
+  void standFor(QWidget& list, bool any);  ///< `any`: something is left in the list, which shows then
+
+ private:
+  QLineEdit& m_search;
 };
 
 }  // namespace ps

@@ -381,7 +381,8 @@ std::string BodyActions::add(Body body, const std::string& without) {
 }
 
 void BodyActions::onUnread(const MeshQueue::File& file, const QString& problem) {
-  m_session.log().add(MessageLevel::Error, file.name(), problem);
+  m_session.log().add(MessageLevel::Error, file.name(),
+                      QStringLiteral("Nothing was imported. %1").arg(sentence(problem)));
 }
 
 void BodyActions::onRead(const MeshQueue::File& file, const ImportedMesh& imported) {

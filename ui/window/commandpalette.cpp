@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/commandpalette.h"
 
+#include "ui/rows/filterfield.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
@@ -146,8 +147,7 @@ void CommandPalette::refresh() {
   if (any) m_list->setCurrentRow(0);
   m_list->setVisible(any);
   m_nothing->setVisible(!any);
-  m_nothing->setText(QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>")
-                         .arg(m_field->text().trimmed().toHtmlEscaped()));
+  m_nothing->setText(nothingCalled(m_field->text()));
 }
 
 void CommandPalette::runCurrent() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/dialogrow.h"
 
+#include <QtWidgets/QDialog>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLabel>
 
@@ -32,6 +33,12 @@ void focusDialogRow(const QWidget& dialog, const QString& label) {
     (*first)->setFocus(Qt::OtherFocusReason);
     return;
   }
+}
+
+void bringUp(QDialog& dialog) {
+  dialog.show();
+  dialog.raise();
+  dialog.activateWindow();
 }
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #pragma once
 #include <QtCore/QString>
 
+class QDialog;
 class QGridLayout;
 class QWidget;
 
@@ -17,5 +18,7 @@ struct DialogRow {
 };
 /// Gives the field of that name the focus, or the first of its parts that takes it; "": nothing happens.
 void focusDialogRow(const QWidget& dialog, const QString& label);
+/// In front, beside the window, which stays in use: no dialog of ours holds it.
+void bringUp(QDialog& dialog);
 
 }  // namespace ps

@@ -15,6 +15,7 @@ class Document;
 class Inspector;
 class Notices;
 class Outliner;
+class ParameterRow;
 class Selection;
 
 /// What is done with the scene's things: the menu Edit but for undo, and the walls.
@@ -33,6 +34,9 @@ class EditActions {
   void openItemMenu(const QPoint& global) const;  ///< of what is selected
 
  private:
+  /// The row of a parameter that is meant; nullptr: there is none, which is said.
+  ParameterRow* rowAtHand(const QString& refusal);
+  void addRowCommands();
   void addProbe();
   void addRoundWall(WallForm form);                      ///< see roundWall()
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides

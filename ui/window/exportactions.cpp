@@ -6,6 +6,7 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/window/actions.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/exportform.h"
 #include "ui/window/filmform.h"
 #include "ui/window/noticebar.h"
@@ -46,15 +47,16 @@ ExportActions::ExportActions(Session& session, const Actions& actions, Notices& 
     m_notices.bar().show(kTopic, MessageLevel::Info, what, text);
   });
   connect(&work, &RunWork::failed, this, [this](const QString& what, const QString& problem) {
-    m_session.log().add(MessageLevel::Error, what, sentence(problem));
-    m_notices.bar().show(kTopic, MessageLevel::Error, QStringLiteral("“%1” came to nothing.").arg(what),
-                         sentence(problem));
+    const QString title = QStringLiteral("“%1” came to nothing.").arg(what);
+    const QString text = sentence(problem) + QStringLiteral(" Another place or fewer frames may do.");
+    m_session.log().add(MessageLevel::Error, what, title + QLatin1Char(' ') + text);
+    m_notices.bar().show(kTopic, MessageLevel::Error, title, text);
   });
 }
 
 void ExportActions::addTo(QMenu* menu, const Viewport* view) {
   const auto add = [&](const QString& name, const QString& text, const QString& tip, std::function<QDialog*()> make) {
-    m_actions.add(menu, name, text, {}, [this, make = std::move(make)] { open(make); });
+    m_actions.add(menu, name, text, {}, [this, name, make = std::move(make)] { open(name, make); });
     m_actions.find(name)->setToolTip(tip);
   };
   QMainWindow* window = &m_actions.window();
@@ -71,13 +73,18 @@ void ExportActions::setEnabled(bool on) {
   for (const char* name : {"file.film", "file.export"}) m_actions.find(QString::fromLatin1(name))->setEnabled(on);
 }
 
-void ExportActions::open(const std::function<QDialog*()>& make) {
+/// One form of each name: what is open already comes to the front as it was left.
+void ExportActions::open(const QString& name, const std::function<QDialog*()>& make) {
+  if (auto* dialog = m_actions.window().findChild<QDialog*>(name)) return bringUp(*dialog);
   const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
   const QString why = m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
                       : any                     ? QString()
                                                 : QStringLiteral("Nothing has been recorded of a run.");
   m_notices.refuse(QStringLiteral("Nothing is exported."), why);
-  if (why.isEmpty()) make()->open();
+  if (!why.isEmpty()) return;
+  QDialog* dialog = make();
+  dialog->setObjectName(name);
+  bringUp(*dialog);
 }
 
 void ExportActions::onWorking(const QString& stage, double done, double left) {

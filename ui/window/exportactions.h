@@ -25,7 +25,7 @@ class ExportActions : public QObject {
   void setEnabled(bool on);  ///< what needs plugins
 
  private:
-  void open(const std::function<QDialog*()>& make);
+  void open(const QString& name, const std::function<QDialog*()>& make);
   void onWorking(const QString& stage, double done, double left);
 
   Session& m_session;

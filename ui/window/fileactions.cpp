@@ -271,7 +271,9 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
     Q_EMIT startFailed(problem);
     return;
   }
-  m_session.log().add(MessageLevel::Error, nameOf(path), problem);
+  const QString title = QStringLiteral("“%1” was not opened.").arg(nameOf(path));
+  const QString text = sentence(problem) + (first ? QString() : QStringLiteral(" The present scene is unchanged."));
+  m_session.log().add(MessageLevel::Error, nameOf(path), title + QLatin1Char(' ') + text);
   std::vector<NoticeBar::Button> buttons{{QStringLiteral("Open another…"), [this] { chooseOpen(); }}};
   if (DocumentFiles::lacksRequired(problem))
     buttons.insert(buttons.begin(), {QStringLiteral("Open anyway"), [this] { m_session.files().openAnyway(); }});
@@ -281,9 +283,7 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
     if (!m_options.sample.isEmpty() && !m_session.files().isSample(path))
       buttons.push_back({QStringLiteral("Open the sample"), [this] { open(m_options.sample); }});
   }
-  m_notices.bar().show(
-      QStringLiteral("open"), MessageLevel::Error, QStringLiteral("“%1” was not opened.").arg(nameOf(path)),
-      sentence(problem) + (first ? QString() : QStringLiteral(" The present scene is unchanged.")), std::move(buttons));
+  m_notices.bar().show(QStringLiteral("open"), MessageLevel::Error, title, text, std::move(buttons));
 }
 
 void FileActions::onSaved(const QString& path, bool present) {
@@ -320,7 +320,8 @@ void FileActions::onStateLeftOut(const QString& path, const QString& why, bool p
 }
 
 void FileActions::onSaveFailed(const QString& path, const QString& problem, bool present) {
-  m_session.log().add(MessageLevel::Error, nameOf(path), problem);
+  m_session.log().add(MessageLevel::Error, nameOf(path),
+                      QStringLiteral("Not saved: %1 Save elsewhere.").arg(sentence(problem)));
   if (!present) {
     m_restore.showReplaced(QStringLiteral("“%1” was not saved: %2").arg(nameOf(path), sentence(problem)));
     return;
@@ -349,7 +350,8 @@ void FileActions::writeFile(const QString& path, std::function<QByteArray()> con
         m_session.log().add(MessageLevel::Ok, what, text);
         m_notices.bar().show(QStringLiteral("written"), MessageLevel::Ok, what, text);
       } else {
-        m_notices.message(MessageLevel::Error, what, problem);
+        m_notices.message(MessageLevel::Error, what,
+                          QStringLiteral("Not written: %1 Choose another place.").arg(sentence(problem)));
       }
     });
   });

@@ -5,6 +5,7 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/session.h"
 #include "ui/window/actions.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
@@ -20,6 +21,7 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
                                QStackedWidget& centre, QWidget& scene, const QString& presets, QObject* parent)
     : QObject(parent),
       m_session(session),
+      m_selection(selection),
       m_actions(actions),
       m_centre(centre),
       m_library(session, presets),
@@ -29,13 +31,8 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
   connect(m_page, &LibraryPage::carrying, this, [&centre, &scene] { centre.setCurrentWidget(&scene); });
   connect(m_page, &LibraryPage::broughtBack, this, [this] { m_centre.setCurrentWidget(m_page); });
   connect(m_page, &LibraryPage::importWanted, this, &LibraryActions::chooseImport);
-  connect(m_page, &LibraryPage::mixWanted, this,
-          [this, &session, &selection](const QString& one, const QString& other) {
-            (new MixDialog(m_library, session, selection, one, other, &m_actions.window()))->open();
-          });
-  connect(m_page, &LibraryPage::mixtureWanted, this, [this, &session, &selection](const std::string& material) {
-    (new MixDialog(m_library, session, selection, material, &m_actions.window()))->open();
-  });
+  connect(m_page, &LibraryPage::mixWanted, this, &LibraryActions::openMix);
+  connect(m_page, &LibraryPage::mixtureWanted, this, &LibraryActions::openMixture);
   connect(m_page, &LibraryPage::exportWanted, this, &LibraryActions::chooseExport);
   connect(&m_library, &MaterialLibrary::said, this, [&notices](bool failed, const QString& text) {
     notices.message(failed ? MessageLevel::Warning : MessageLevel::Ok, QStringLiteral("Materials"), text);
@@ -46,6 +43,28 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
 void LibraryActions::addTo(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {},
                 [this] { m_centre.setCurrentWidget(m_page); });
+}
+
+void LibraryActions::openMix(const QString& first, const QString& second) {
+  const QString name = QStringLiteral("psMix");
+  auto* dialog = m_actions.window().findChild<MixDialog*>(name);
+  if (dialog) {
+    dialog->chooseParts(first, second);
+  } else {
+    dialog = new MixDialog(m_library, m_session, m_selection, first, second, &m_actions.window());
+    dialog->setObjectName(name);
+  }
+  bringUp(*dialog);
+}
+
+void LibraryActions::openMixture(const std::string& material) {
+  const QString name = QStringLiteral("psMixture ") + QString::fromStdString(material);
+  auto* dialog = m_actions.window().findChild<MixDialog*>(name);
+  if (!dialog) {
+    dialog = new MixDialog(m_library, m_session, m_selection, material, &m_actions.window());
+    dialog->setObjectName(name);
+  }
+  bringUp(*dialog);
 }
 
 /// The scene's own matter changes when somebody says so.

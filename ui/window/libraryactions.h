@@ -27,10 +27,14 @@ class LibraryActions : public QObject {
   MaterialLibrary& library() { return m_library; }
 
  private:
+  /// Two labels, "" for any. One form: what is open already takes them.
+  void openMix(const QString& first, const QString& second);
+  void openMixture(const std::string& material);  ///< of the scene, a form for each
   void offerWaiting(NoticeBar& bar);
   void chooseImport();
   void chooseExport(const LibraryEntry& entry);
   Session& m_session;
+  Selection& m_selection;
   const Actions& m_actions;
   QStackedWidget& m_centre;
   MaterialLibrary m_library;

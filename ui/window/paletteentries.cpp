@@ -8,28 +8,39 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/presets.h"
+#include "ui/graphs/graphspanel.h"
 #include "ui/panels/brushpanel.h"
+#include "ui/panels/pluginpage.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/plaintext.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/actions.h"
 #include "ui/window/dialogrow.h"
+#include "ui/window/dock.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/mainwindow.h"
+#include "ui/window/paneltable.h"
 #include "ui/window/preferenceswindow.h"
 #include "ui/window/projectwindow.h"
 #include "ui/window/welcome.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QPointer>
 #include <QtGui/QAction>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QTabBar>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -145,23 +156,25 @@ void showThing(MainWindow& window, const SelectedItem& item) {
 }
 
 void addThings(Entries& entries, MainWindow& window) {
-  const auto add = [&](const auto& items, OutlineKind kind, const char* what) {
+  const auto add = [&](const auto& items, OutlineKind kind) {
     for (const auto& item : items) {
-      const QString name = nameOf(item), whatItIs = QString::fromLatin1(what);
+      const SelectedItem thing{kind, item.id};
+      const auto address = thingOf(thing);  // of a group there is none
+      const QString name = nameOf(item), what = address ? kindOf(address->owner) : QStringLiteral("Group");
       entries.push_back({name,
-                         beside(name, {whatItIs, QStringLiteral("In the scene")}),
+                         beside(name, {what, QStringLiteral("In the scene")}),
                          {},
                          QString::fromStdString(item.id),
-                         [&window, thing = SelectedItem{kind, item.id}] { showThing(window, thing); }});
+                         [&window, thing] { showThing(window, thing); }});
     }
   };
   const Project& project = window.session().document().project();
-  add(project.groups, OutlineKind::Group, "Group");
-  add(project.bodies, OutlineKind::Body, "Body");
-  add(project.emitters, OutlineKind::Emitter, "Tap");
-  add(project.sinks, OutlineKind::Sink, "Drain");
-  add(project.environment.walls, OutlineKind::Wall, "Wall");
-  add(project.probes, OutlineKind::Probe, "Probe");
+  add(project.groups, OutlineKind::Group);
+  add(project.bodies, OutlineKind::Body);
+  add(project.emitters, OutlineKind::Emitter);
+  add(project.sinks, OutlineKind::Sink);
+  add(project.environment.walls, OutlineKind::Wall);
+  add(project.probes, OutlineKind::Probe);
 }
 
 void addFavourites(Entries& entries, MainWindow& window) {
@@ -202,6 +215,94 @@ void addDialogs(Entries& entries, MainWindow& window) {
     entries.push_back({row.label, QStringLiteral("Project properties"), {}, row.words, [&window, label = row.label] {
                          openProjectProperties(window, label);
                        }});
+}
+
+/// In sight, in another workspace where this one has no place for it.
+void showPage(MainWindow& window, const QString& title) {
+  window.welcome().leave();
+  WindowLayout& layout = window.layoutOfDocks();
+  if (!layout.dockOf(title)) return;
+  for (const auto tab : {MainWindow::kSceneTab, MainWindow::kTuneTab, MainWindow::kFilmTab, MainWindow::kSketchTab}) {
+    if (layout.offersPage(title)) break;
+    window.showWorkspace(tab);
+  }
+  layout.openPage(title);
+}
+
+/// What can be done by a button of this page alone; it is in sight when it is pressed.
+void addButtons(Entries& entries, QWidget& page, const QString& where, const std::function<void()>& show) {
+  for (QAbstractButton* button : page.findChildren<QAbstractButton*>()) {
+    if (qobject_cast<QTabBar*>(button->parentWidget())) continue;  // it scrolls the tabs
+    const QString text = fromButtonText(button->text());
+    const QString title = text.isEmpty() ? button->accessibleName() : text;
+    const auto isKnown = [&](const PaletteEntry& entry) { return entry.title == title; };
+    if (title.isEmpty() || std::any_of(entries.begin(), entries.end(), isKnown)) continue;
+    const bool can = button->isEnabled() && button->isVisibleTo(&page);
+    entries.push_back({title,
+                       beside(title, {where}),
+                       {},
+                       button->toolTip(),
+                       [show, button = QPointer(button)] {
+                         show();
+                         if (button) button->click();
+                       },
+                       false,
+                       can ? QString() : QStringLiteral("Not possible at present")});
+  }
+}
+
+/// What a menu that comes by a right-click offers, and its submenus that are filled.
+void addMenu(Entries& entries, const std::shared_ptr<QMenu>& menu, const QString& where,
+             const std::function<void()>& show) {
+  const auto add = [&](QAction* action, const QString& before) {
+    if (action->isSeparator() || action->menu()) return;
+    entries.push_back({before + cleanText(*action),
+                       where,
+                       {},
+                       {},
+                       [show, menu, action] {
+                         show();
+                         action->trigger();
+                       },
+                       false,
+                       action->isEnabled() ? QString() : QStringLiteral("Not possible at present")});
+  };
+  for (QAction* action : menu->actions()) {
+    add(action, {});
+    if (!action->menu()) continue;
+    for (QAction* inner : action->menu()->actions()) add(inner, fromButtonText(action->text()) + QStringLiteral(": "));
+  }
+}
+
+void addPages(Entries& entries, MainWindow& window, const Actions& actions) {
+  for (const DockRow& row : dockTable()) {
+    const Dock* dock = window.layoutOfDocks().dock(QString::fromLatin1(row.name));
+    const QString title = QString::fromLatin1(row.title);
+    addButtons(entries, *dock->titleBarWidget(), title, [&window, title] { showPage(window, title); });
+  }
+  for (const PanelRow& row : panelTable()) {
+    const QString title = QString::fromLatin1(row.title);
+    const Dock* dock = window.layoutOfDocks().dockOf(title);
+    if (QWidget* page = dock ? dock->page(title) : nullptr)
+      addButtons(entries, *page, title, [&window, title] { showPage(window, title); });
+  }
+  addButtons(entries, *window.library().page(), QStringLiteral("Materials of the library"),
+             [open = actions.find(QStringLiteral("add.library"))] { open->trigger(); });
+  addButtons(entries, *window.pluginPage(), QStringLiteral("Plugins"),
+             [open = actions.find(QStringLiteral("help.plugins"))] { open->trigger(); });
+  GraphsPanel* graphs = window.graphs();
+  std::vector<std::string> ids{{}};  // of the place where none is, too
+  for (const Graph& graph : window.session().document().graphs()) ids.push_back(graph.id);
+  for (const std::string& id : ids) {
+    const std::shared_ptr<QMenu> menu(graphs->makeMenu(id));
+    menu->setParent(nullptr);  // it lasts as long as what is found
+    const Plot* plot = graphs->plot(id);
+    addMenu(entries, menu, plot ? QStringLiteral("Graph “%1”").arg(plot->title()) : QStringLiteral("Graphs"),
+            [&window] { showPage(window, QStringLiteral("Graphs")); });
+  }
+  const auto runs = std::make_shared<QMenu>();
+  window.transport()->fillMenu(*runs);
+  addMenu(entries, runs, QStringLiteral("Timeline"), [] {});
 }
 
 QString wordsOf(const std::string& id, const std::vector<std::string>& tags) {
@@ -262,6 +363,7 @@ std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& acti
   addBrush(entries, window);
   addFavourites(entries, window);
   addDialogs(entries, window);
+  addPages(entries, window, actions);
   addActions(entries, window, actions, true);
   return entries;
 }

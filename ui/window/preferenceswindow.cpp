@@ -365,9 +365,7 @@ void Preferences::refresh() {
 void openPreferences(MainWindow& window, const QString& row) {
   auto* dialog = window.findChild<QDialog*>(kName);
   if (!dialog) dialog = new Preferences(window);
-  dialog->show();
-  dialog->raise();
-  dialog->activateWindow();
+  bringUp(*dialog);
   focusDialogRow(*dialog, row);
 }
 
@@ -384,7 +382,7 @@ std::vector<DialogRow> preferenceRows() {
           {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
           {QStringLiteral("Keeps at most"), QStringLiteral("undo memory steps")},
           {QStringLiteral("In memory, at most"), QStringLiteral("recording of a run")},
-          {QStringLiteral("On the disk, at most"), QStringLiteral("recording of a run")},
+          {QStringLiteral("On the disk, at most"), QStringLiteral("recording of a run, empty the disk")},
           {QStringLiteral("Folder"), QStringLiteral("recording of a run disk")},
           {QStringLiteral("Projects"), QStringLiteral("folder files")},
           {QStringLiteral("Presets"), QStringLiteral("folder materials library")},

@@ -229,9 +229,7 @@ void ProjectProperties::done(int result) {
 void openProjectProperties(MainWindow& window, const QString& row) {
   auto* dialog = window.findChild<QDialog*>(kName);
   if (!dialog) dialog = new ProjectProperties(window);
-  dialog->show();
-  dialog->raise();
-  dialog->activateWindow();
+  bringUp(*dialog);
   focusDialogRow(*dialog, row);
 }
 

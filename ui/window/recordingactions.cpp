@@ -42,13 +42,13 @@ RecordingActions::RecordingActions(Session& session, const Actions& actions, Not
                             .arg(path, countText(frames, QStringLiteral("frame"), QStringLiteral("frames"))));
   });
   connect(&files, &RecordingFiles::saveFailed, this, [this](const QString& path, const QString& problem, bool kept) {
-    m_session.log().add(MessageLevel::Error, nameOf(path), problem);
+    const QString title = QStringLiteral("The recording is not saved.");
+    const QString text =
+        sentence(problem) + (kept ? QStringLiteral(" It is kept as long as the scene is open.") : QString());
+    m_session.log().add(MessageLevel::Error, nameOf(path), title + QLatin1Char(' ') + text);
     std::vector<NoticeBar::Button> buttons;
     if (kept) buttons.push_back({QStringLiteral("Save elsewhere…"), [this] { chooseSave(); }});
-    m_notices.bar().show(
-        QStringLiteral("save"), MessageLevel::Error, QStringLiteral("The recording is not saved."),
-        sentence(problem) + (kept ? QStringLiteral(" It is kept as long as the scene is open.") : QString()),
-        std::move(buttons));
+    m_notices.bar().show(QStringLiteral("save"), MessageLevel::Error, title, text, std::move(buttons));
   });
   connect(&files, &RecordingFiles::opened, this, &RecordingActions::onOpened);
   connect(&files, &RecordingFiles::openFailed, this, [this](const QString& path, const QString& problem) {

@@ -55,6 +55,8 @@ RunForm::RunForm(Session& session)
     if (const QString chosen = choosePlace(); !chosen.isEmpty()) setPlace(chosen);
   });
   connect(m_begin, &QPushButton::clicked, this, [this] {
+    refresh();  // the run, the folder or other work may have gone on since
+    if (!m_begin->isEnabled()) return;
     begin();
     refresh();
     Q_EMIT begun();
@@ -91,6 +93,7 @@ void RunForm::addRange() {
   addRates();
   showAll();
   refresh();
+  followRun();
 }
 
 void RunForm::addRates() {
@@ -194,12 +197,13 @@ void RunForm::refresh() {
   if (!m_chosen) m_place = suggestedPlace();
   showPlace();
   const size_t count = frames();
-  const QString limited = count > 0 ? limits() : QString();
+  const bool busy = m_session.work().isBusy();
+  const QString limited = busy ? QStringLiteral("Other work is still going on.") : count > 0 ? limits() : QString();
   m_summary->setText(count == 0 ? QStringLiteral("Nothing was recorded then: both times are numbers of seconds, the "
                                                  "second not before the first.")
                      : limited.isEmpty() ? summary()
                                          : summary() + QLatin1Char(' ') + limited);
-  m_begin->setEnabled(count > 0 && isPossible() && !m_session.work().isBusy());
+  m_begin->setEnabled(count > 0 && isPossible() && !busy);
 }
 
 void RunForm::showPlace() {

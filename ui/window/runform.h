@@ -18,7 +18,8 @@ namespace ps {
 class Session;
 
 /// Asks what of the recorded run is to be written, and where: rows of its own kind, then from when to when, which
-/// frames, the place, and what will come of it in words. In a dialog, or as a page of a dock.
+/// frames, the place, and what will come of it in words. In a dialog, or as a page of a dock: it stays open while a run
+/// goes on and projects come and go. For as long as nobody types a range it is all that has been recorded by then.
 class RunForm : public QWidget {
   Q_OBJECT
  public:
@@ -26,9 +27,6 @@ class RunForm : public QWidget {
 
   /// As if somebody had chosen it.
   void setPlace(const QString& place);
-  /// For as long as nobody types a range it is all that has been recorded by then: what stays open while a run goes on
-  /// and projects come and go.
-  void followRun();
   QHBoxLayout& buttons() const { return *m_buttons; }
   QPushButton& exportButton() const { return *m_begin; }
 
@@ -64,6 +62,7 @@ class RunForm : public QWidget {
  private:
   QLineEdit* addTime(const QString& label, const QString& tip);
   void addRates();
+  void followRun();
   void showAll();  ///< as the range
   /// What a field was filled in with.
   struct ShownTime {
@@ -87,7 +86,7 @@ class RunForm : public QWidget {
   double m_shownLength = 0;  ///< s of a frame, by which rates are told
 };
 
-/// A form to be answered or given up.
+/// A form to be answered or given up; the window stays in use meanwhile.
 class RunDialog : public QDialog {
   Q_OBJECT
  public:

@@ -7,6 +7,7 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/actions.h"
+#include "ui/window/dialogrow.h"
 #include "ui/window/mainwindow.h"
 #include "ui/window/workspacekeys.h"
 
@@ -108,9 +109,7 @@ void openShortcuts(MainWindow& window) {
     column->addWidget(list);
     dialog->resize(520, 640);
   }
-  dialog->show();
-  dialog->raise();
-  dialog->activateWindow();
+  bringUp(*dialog);
 }
 
 }  // namespace ps
