@@ -64,32 +64,45 @@ void Neighbours::build(const ParticleStore& store) {
   makeLists(placesOf(store), store.period());
 }
 
-/// Chunks are searched twice: how much room they need is not known from the last time, and what is known of others is
-/// kept for the lists of all.
 void Neighbours::buildOf(const ParticleStore& store, size_t first) {
-  const size_t n = store.size(), count = n - first;
-  if (2 * count >= n) return build(store);
+  const size_t n = store.size();
+  if (searchesAll(n - first, n)) return build(store);
   assignCells(placesOf(store), store.period());
   m_built.clear();
   loadSlots(placesOf(store), store.period());
   for (std::vector<uint32_t>* v : {&m_begin, &m_last, &m_end}) v->assign(n, 0);
-  const SearchGrid grid = searchGrid(store.period());
-  std::vector<Room> rooms(chunkCount(count, grain::kNeighbours));
-  const auto search = [&](size_t begin, size_t end) {
-    Room& mine = rooms[begin / grain::kNeighbours];
-    const ListRoom room{mine.first, mine.count, m_index.data(), m_begin.data(), m_last.data(), m_end.data(), dummy()};
-    const size_t needed = searchLists(grid, first + begin, first + end, room);
-    if (mine.count == 0) mine.count = static_cast<uint32_t>(needed);
-  };
-  forChunks(count, grain::kNeighbours, search);
   m_slots = 0;
-  for (Room& room : rooms) {
-    room.first = static_cast<uint32_t>(m_slots);
-    m_slots += room.count;
-  }
+  std::vector<uint32_t> which(n - first);
+  std::iota(which.begin(), which.end(), static_cast<uint32_t>(first));
+  searchEach(searchGrid(store.period()), which);
+  std::vector<uint8_t> isNear(first, 0);
+  for (size_t i = first; i < n; ++i)
+    for (uint32_t q = m_begin[i]; q < m_last[i]; ++q)
+      if (m_index[q] < first) isNear[m_index[q]] = 1;
+  findIndices(first, which, [&](size_t i) { return isNear[i] != 0; });
+  searchEach(searchGrid(store.period()), which);
+}
+
+/// Behind what there is. Each is searched twice: how much room it needs is not known from the last time, and what is
+/// known of chunks is kept for the lists of all.
+void Neighbours::searchEach(const SearchGrid& grid, std::span<const uint32_t> which) {
+  std::vector<Room> rooms(which.size());
+  Progress* progress = t_progress;  // of this thread; others help it
+  const auto search = [&](size_t k) {
+    const size_t i = which[k];
+    return searchLists(
+        grid, i, i + 1,
+        {rooms[k].first, rooms[k].count, m_index.data(), m_begin.data(), m_last.data(), m_end.data(), dummy()});
+  };
+  forChunks(which.size(), grain::kNeighbours, [&](size_t begin, size_t end) {
+    if (progress) progress->advance(end - begin);
+    for (size_t k = begin; k < end; ++k) rooms[k].count = static_cast<uint32_t>(search(k));
+  });
+  for (Room& room : rooms) room = takeRoom(room.count);
   makeRoom();
-  forChunks(count, grain::kNeighbours, search);
-  advance(count);
+  forChunks(which.size(), grain::kNeighbours, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) search(k);
+  });
 }
 
 void Neighbours::save(StateWriter& writer, bool valid) const {
@@ -136,10 +149,13 @@ void Neighbours::layOut(size_t chunks) {
 
 /// At the end, for so many entries.
 void Neighbours::giveRoom(size_t chunk, size_t entries) {
-  const size_t count = (entries + kListPad - 1) / kListPad * kListPad;
-  m_rooms[chunk] = {static_cast<uint32_t>(m_slots), static_cast<uint32_t>(count)};
-  m_slots += count;
-  if (m_slots <= std::numeric_limits<uint32_t>::max() - kListPad) return;
+  m_rooms[chunk] = takeRoom((entries + kListPad - 1) / kListPad * kListPad);
+}
+
+Neighbours::Room Neighbours::takeRoom(size_t entries) {
+  const Room room{static_cast<uint32_t>(m_slots), static_cast<uint32_t>(entries)};
+  m_slots += entries;
+  if (m_slots <= std::numeric_limits<uint32_t>::max() - kListPad) return room;
   m_needs.clear();  // they say nothing of matter that has been mended
   throw Error("particles have more neighbours than lists can hold (" + std::to_string(m_slots / 1000000) +
               " million): make the particle spacing larger, or look for matter that has been pressed together");

@@ -26,9 +26,11 @@ class Neighbours {
   void sortAndBuild(ParticleStore& store);
   /// Rebuilds the lists in the present order.
   void build(const ParticleStore& store);
-  /// Makes the lists of the particles from `first` on alone, those of all others are empty: for matter that has just
-  /// been added, before build() or sortAndBuild() makes all.
+  /// Makes the lists of the particles from `first` on, and of those that these name: for matter that has just been
+  /// added, before build() or sortAndBuild() makes all. The others' may be empty.
   void buildOf(const ParticleStore& store, size_t first);
+  /// Whether that takes the search for all, of whom so many are new.
+  static bool searchesAll(size_t added, size_t all) { return 2 * added >= all; }
   /// True when a particle has moved more than half the skin since the last build, or their number has changed.
   bool stale(const ParticleStore& store) const { return !know(store, m_support); }
   /// Whether the lists, of the present order, hold all pairs that are no farther apart than `reach`, m: they do until a
@@ -54,7 +56,10 @@ class Neighbours {
  private:
   void assignCells(std::span<const api::Float4> position, const Period& period);
   void layOut(size_t chunks);
+  struct Room;
   void giveRoom(size_t chunk, size_t entries);
+  Room takeRoom(size_t entries);
+  void searchEach(const SearchGrid& grid, std::span<const uint32_t> which);
   bool giveMoreRoom();
   void makeRoom();
   void makeLists(std::span<const api::Float4> position, const Period& period);

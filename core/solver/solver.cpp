@@ -250,7 +250,8 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   }
   m->motion.adopt(store, first, last, m->time);
   if (!spawn.constraintSets.empty()) {
-    beginStage("Finding neighbours", static_cast<double>(count), static_cast<double>(count));
+    const size_t searched = Neighbours::searchesAll(count, store.size()) ? 2 * store.size() : count;
+    beginStage("Finding neighbours", static_cast<double>(count), static_cast<double>(searched));
     m->neighbours.buildOf(store, first);
     for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
   }

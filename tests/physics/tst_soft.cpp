@@ -157,6 +157,28 @@ class TestSoft : public QObject {
     QVERIFY(std::abs(length / kLength - 1) < 0.005);
   }
 
+  /// Springs over a seam as everywhere else, also where little is added beside much that is there.
+  void aSheetGrowsPieceByPiece() {
+    const ClothModel cloth;
+    const auto springsOf = [&](int pieces, int others) {
+      Solver solver;
+      prepare(solver, settingsOf(0.02), matter(50));
+      const uint32_t set = solver.addConstraintSet(&cloth, "cloth", parametersOf(cloth));
+      if (others > 0) {
+        ps::Spawn beside = solid(grid(others, others, others, 0.02, {1, 0, 0}), set, 1);
+        beside.constraintSets.clear();
+        solver.spawn(beside);
+      }
+      for (int k = 0; k < pieces; ++k)
+        solver.spawn(solid(grid(12 / pieces, 1, 12, 0.02, {0.02 * (12 / pieces) * k, 0, 0}), set));
+      return solver.constraintCount();
+    };
+    const size_t whole = springsOf(1, 0);
+    QVERIFY(whole > 500);
+    for (const int pieces : {2, 4, 12})
+      for (const int others : {0, 10}) QCOMPARE(springsOf(pieces, others), whole);
+  }
+
   void freeClothKeepsItsMomentum() {
     const ClothModel cloth;
     Solver solver;

@@ -9,7 +9,7 @@ namespace {
 
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
-constexpr double kTieReach = 2;  ///< spacings, of what structure ties
+constexpr double kTieReach = 1.6;  ///< spacings, of what structure ties where it touches
 
 }  // namespace
 

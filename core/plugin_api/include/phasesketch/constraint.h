@@ -129,7 +129,7 @@ class StructuralPlugin : public ConstraintPlugin {
  public:
   /// False when there is nothing to tell, which refuses the plugin: `return fill(out, {...});`
   virtual bool traits(StructuralTraits* out) const = 0;
-  /// Makes the constraints of newly created particles `members` (ascending indices). Others have no lists here.
+  /// Makes the constraints of newly created particles `members`, ascending; they and those near them have lists.
   virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
                      ConstraintSink&) const = 0;
   /// Once per substep and batch, before the first iteration: resets multipliers, refreshes rest values.
@@ -152,7 +152,7 @@ inline constexpr const char* kWeldsMatter = "welds_matter";
 class Welding {
  public:
   /// Between two frames: ties those of `members` (ascending indices of solid or fixed particles, all of bodies that use
-  /// the plugin) to each other that touch, at rest as they stand; lists hold those two spacings apart. May throw.
+  /// the plugin) to each other that touch, at rest as they stand; lists hold those 1.6 spacings apart. May throw.
   virtual void weld(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
                     ConstraintSink&) const = 0;
 
@@ -238,7 +238,7 @@ class GroupPlugin : public ConstraintPlugin {
   /// False when there is nothing to tell, which refuses the plugin: `return fill(out, {...});`
   virtual bool traits(GroupTraits* out) const = 0;
   /// Makes the groups of newly created particles `members` (ascending indices); may replace groups of `all`, so that
-  /// matter added to a body joins it. Other particles have no lists here.
+  /// matter added to a body joins it. Lists are as in StructuralPlugin::build().
   virtual void build(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
                      const GroupBatch& all, GroupSink&) const = 0;
   /// Once per substep and batch, before the first iteration; the particles have moved by their velocities already.
