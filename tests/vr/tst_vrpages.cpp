@@ -11,6 +11,7 @@
 #include "ui/session/selection.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/markerrow.h"
 #include "ui/timeline/timeline.h"
 #include "ui/tools/toolbox.h"
 #include "ui/window/vrwithout.h"
@@ -47,6 +48,7 @@ class VrPagesTest : public PanelsTest {
   void theTimelineIsScrubbed_data();
   void theTimelineIsScrubbed();
   void theTimelinesTargetsAreLargeEnough();
+  void marksOfRowsAreLargeEnough();
   void aPointOfACurveIsMoved_data();
   void aPointOfACurveIsMoved();
   void aGraphIsZoomed_data();
@@ -155,6 +157,35 @@ void VrPagesTest::theTimelinesTargetsAreLargeEnough() {
     panels().widget(vr::kPalette)->grab().save(folder + "/vr-palette-pages.png");
   }
   session().recorded().showNewest();
+}
+
+/// The diamond is smaller than what is taken as it: 26 pixels, which are 2.6 degrees. So are rows of keys and markers.
+void VrPagesTest::marksOfRowsAreLargeEnough() {
+  const Address floor{Owner::Wall, "floor", "temperature"};
+  enterWithout();
+  panels().showPage(QStringLiteral("Material"));
+  QTest::qWait(100);
+  ParameterRow* row = rowOf(QStringLiteral("wall/floor/temperature"));
+  QVERIFY(row);
+  const QRect end(row->width() - 26, 0, 26, row->height());
+  QVERIFY(end.contains(row->keyRect()) && end.left() > row->fieldRect().right());
+  for (const QPoint corner : {end.topLeft(), end.topRight(), end.bottomLeft(), end.bottomRight()}) {
+    for (const bool pressed : {false, true, false}) at(vr::kBoard, *row, corner, pressed);
+    QTRY_COMPARE(document().project().tracks.size(), size_t{1});
+    document().undoStack().undo();
+    QVERIFY(document().project().tracks.empty());
+  }
+  QCOMPARE(document().putKey(floor, 5, 400), QString());
+  document().addMarker(3);
+  panels().showPage(QStringLiteral("Transport"));
+  QTest::qWait(100);
+  const QWidget* board = panels().widget(vr::kBoard);
+  const auto* keys = board->findChild<KeyRows*>();
+  const auto* markers = board->findChild<MarkerRow*>();
+  QVERIFY(keys && markers && markers->isVisible());
+  QVERIFY(keys->rowHeight() >= 26 && keys->ruler() >= 26 && markers->height() >= 26);
+  document().undoStack().undo();
+  document().undoStack().undo();
 }
 
 void VrPagesTest::aPointOfACurveIsMoved_data() {

@@ -87,6 +87,8 @@ struct ParameterRow::Private {
   void dragTo(double x, Qt::KeyboardModifiers modifiers);
   double handleX() const;
   QRect curveRect() const;  ///< the curve mark right of the field
+  /// Where a click means a mark right of the field: what a beam or a fingertip meets in a headset, too.
+  QRect targetOf(const QRect& mark) const;
   QRect switchRect() const;
   /// Rectangles of the segments of a choice; empty when they do not fit or none is chosen (then a menu opens).
   std::vector<QRect> segments() const;

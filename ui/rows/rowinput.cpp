@@ -93,7 +93,7 @@ void ParameterRow::Private::pressed(const QPoint& at, Qt::KeyboardModifiers modi
   const bool onField = q->fieldRect().contains(at), onSlider = grown(q->sliderRect()).contains(at);
   if (onField) {
     q->startTyping();
-  } else if (showsCurve() && curveRect().contains(at)) {
+  } else if (showsCurve() && targetOf(curveRect()).contains(at)) {
     Q_EMIT q->curveRequested(model.key);
   } else if (onSlider) {
     begin();
@@ -125,7 +125,7 @@ void ParameterRow::mousePressEvent(QMouseEvent* event) {
   event->accept();
   if (!d->model.derivedFrom.isEmpty() && event->position().x() > labelRect().right()) {
     Q_EMIT sourceRequested(key());
-  } else if (d->takesKeys() && keyRect().contains(event->position().toPoint())) {
+  } else if (d->takesKeys() && d->targetOf(keyRect()).contains(event->position().toPoint())) {
     toggleKey();
   } else if (d->isEditable()) {
     d->finish();
@@ -141,7 +141,7 @@ bool ParameterRow::Private::leadsTo(const QPoint& at) const {
   if (at.x() <= q->labelRect().right()) return false;
   if (!model.derivedFrom.isEmpty())
     return q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::sourceRequested));
-  return hasEditor() && (grown(q->sliderRect()).contains(at) || curveRect().contains(at));
+  return hasEditor() && (grown(q->sliderRect()).contains(at) || targetOf(curveRect()).contains(at));
 }
 
 void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
@@ -152,7 +152,7 @@ void ParameterRow::mouseMoveEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
   const bool types = d->isEditable() && d->isNumeric() && fieldRect().contains(at),
              scales = d->isEditable() && d->showsCurve() && grown(sliderRect()).contains(at);
-  const bool keys = d->takesKeys() && keyRect().contains(at);
+  const bool keys = d->takesKeys() && d->targetOf(keyRect()).contains(at);
   setCursor(keys             ? Qt::PointingHandCursor
             : types          ? Qt::IBeamCursor
             : d->leadsTo(at) ? Qt::PointingHandCursor

@@ -57,6 +57,11 @@ QRect ParameterRow::Private::curveRect() const {
   return {field.right() + 5, (kRowHeight - 16) / 2, 16, 16};
 }
 
+QRect ParameterRow::Private::targetOf(const QRect& mark) const {
+  const int left = std::min(mark.center().x() - kRowHeight / 2, q->width() - kRowHeight);
+  return {std::max(left, q->fieldRect().right() + 1), 0, kRowHeight, kRowHeight};
+}
+
 QRect ParameterRow::Private::switchRect() const {
   return {q->fieldRect().right() + 1 - 34, (kRowHeight - 16) / 2, 28, 16};
 }

@@ -106,7 +106,7 @@ void KeyRows::chooseIn(const QRect& box) {
 void KeyRows::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   const QPoint at = event->position().toPoint();
-  m_scrubs = at.y() < kRuler && at.x() >= kLabel;
+  m_scrubs = at.y() < m_ruler && at.x() >= kLabel;
   if (m_scrubs) return m_session.recorded().showAt(secondsAt(event->position().x()));
   const auto under = keyUnder(at);
   if (!under) {

@@ -44,7 +44,8 @@ QString secondsText(double seconds) { return formatShort(seconds, 6) + QStringLi
 
 }  // namespace
 
-KeyRows::KeyRows(Session& session, QWidget* parent) : QWidget(parent), m_session(session) {
+KeyRows::KeyRows(Session& session, int least, QWidget* parent)
+    : QWidget(parent), m_session(session), m_ruler(std::max(kRuler, least)), m_row(std::max(kRow, least)) {
   setAccessibleName(QStringLiteral("Keys over time"));
   connect(&session.document(), &Document::changed, this, &KeyRows::onChanged);
   connect(&session, &Session::valuesDue, this, qOverload<>(&QWidget::update));
@@ -101,13 +102,13 @@ QPoint KeyRows::placeOf(const Address& address, size_t key) const {
   for (size_t r = 0; r < m_rows.size(); ++r) {
     if (!(m_rows[r].address == address) || key >= keysOf(m_rows[r].address).size()) continue;
     return {static_cast<int>(std::lround(xOf(keysOf(m_rows[r].address)[key].time))),
-            kRuler + static_cast<int>(r) * kRow + kRow / 2};
+            m_ruler + static_cast<int>(r) * m_row + m_row / 2};
   }
   return {-1, -1};
 }
 
 const KeyRows::Row* KeyRows::rowAt(const QPoint& at) const {
-  const int row = at.y() < kRuler ? -1 : (at.y() - kRuler) / kRow;
+  const int row = at.y() < m_ruler ? -1 : (at.y() - m_ruler) / m_row;
   return row < 0 || row >= rowCount() ? nullptr : &m_rows[static_cast<size_t>(row)];
 }
 
@@ -148,11 +149,11 @@ void KeyRows::paintRuler(QPainter& painter) const {
   const double step = roundStep(kTickRoom / std::max(perSecond, 1e-9));
   for (int tick = 0; tick * step <= span() * (1 + 1e-9); ++tick) {
     const double x = xOf(tick * step);
-    paintVerticalLine(painter, x - 0.5, kRuler - 5, kRuler, theme[Token::Muted]);
+    paintVerticalLine(painter, x - 0.5, m_ruler - 5, m_ruler, theme[Token::Muted]);
     const QString text = secondsText(tick * step);
     const QFont font = Theme::font(TextRole::Small);
     const bool fits = x + 3 + textWidth(text, font) < width();
-    const QRectF room(fits ? x + 3 : x - 3 - kTickRoom, 0, kTickRoom, kRuler - 3);
+    const QRectF room(fits ? x + 3 : x - 3 - kTickRoom, 0, kTickRoom, m_ruler - 3);
     paintText(painter, room, (fits ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter, text, font,
               theme[Token::Muted]);
   }
@@ -160,9 +161,9 @@ void KeyRows::paintRuler(QPainter& painter) const {
 
 void KeyRows::paintRow(QPainter& painter, const Row& row, int top) const {
   const Theme& theme = Theme::current();
-  const double middle = top + kRow / 2.0;
+  const double middle = top + m_row / 2.0;
   paintHorizontalLine(painter, 0, width(), top, theme[Token::Line]);
-  paintText(painter, QRectF(12, top, kLabel - 24, kRow), Qt::AlignLeft | Qt::AlignVCenter, row.title,
+  paintText(painter, QRectF(12, top, kLabel - 24, m_row), Qt::AlignLeft | Qt::AlignVCenter, row.title,
             Theme::font(TextRole::Normal), theme[Token::Text2]);
   const std::vector<TrackKey>& keys = keysOf(row.address);
   painter.save();
@@ -187,8 +188,8 @@ void KeyRows::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
   paintRuler(painter);
-  for (size_t r = 0; r < m_rows.size(); ++r) paintRow(painter, m_rows[r], kRuler + static_cast<int>(r) * kRow);
-  paintVerticalLine(painter, xOf(std::min(m_session.now(), span())) - 0.5, kRuler - 5, height(),
+  for (size_t r = 0; r < m_rows.size(); ++r) paintRow(painter, m_rows[r], m_ruler + static_cast<int>(r) * m_row);
+  paintVerticalLine(painter, xOf(std::min(m_session.now(), span())) - 0.5, m_ruler - 5, height(),
                     theme[Token::SliderFill]);
   if (m_box) paintBox(painter, QRectF(*m_box), QColor(), theme[Token::Accent], 0);
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 2);

@@ -23,7 +23,8 @@ class KeyRows : public QWidget {
   static constexpr int kRuler = 18, kRow = 24, kLabel = 176,
                        kEnd = 16;  ///< logical pixels; the last: right of the last second
 
-  explicit KeyRows(Session& session, QWidget* parent = nullptr);
+  /// `least`: logical pixels that the ruler and each row are high at least, where hands point at them.
+  explicit KeyRows(Session& session, int least = 0, QWidget* parent = nullptr);
   struct Chosen {
     Address address;
     size_t key = 0;
@@ -31,7 +32,9 @@ class KeyRows : public QWidget {
   };
   std::vector<Chosen> chosen() const;
   int rowCount() const { return static_cast<int>(m_rows.size()); }
-  int wantedHeight() const { return kRuler + (m_rowsShown ? kRow * rowCount() : 0); }
+  int ruler() const { return m_ruler; }  ///< logical pixels that it is high
+  int rowHeight() const { return m_row; }
+  int wantedHeight() const { return m_ruler + (m_rowsShown ? m_row * rowCount() : 0); }
   void setRowsShown(bool shown);  ///< else the ruler alone
   double xOf(double seconds) const;
   double secondsAt(double x) const;
@@ -83,6 +86,7 @@ class KeyRows : public QWidget {
   double span() const;  ///< s, from the left end to the right one
 
   Session& m_session;
+  const int m_ruler, m_row;
   std::vector<Row> m_rows;
   bool m_rowsShown = true;
   /// What it was when it was chosen, to find it again among keys that others change.

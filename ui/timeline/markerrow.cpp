@@ -35,7 +35,7 @@ QString nameOf(const Marker& marker) { return QString::fromStdString(marker.name
 
 MarkerRow::MarkerRow(Session& session, const KeyRows& scale, QWidget* parent)
     : QWidget(parent), m_session(session), m_scale(scale), m_known(session.document().project().markers) {
-  setFixedHeight(kHeight);
+  setFixedHeight(std::max(kHeight, scale.rowHeight()));
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAccessibleName(QStringLiteral("Markers"));
@@ -68,14 +68,15 @@ QRectF MarkerRow::flagOf(size_t marker) const {
   const Marker& shown = m_session.document().project().markers[marker];
   const double x = m_scale.xOf(shown.time), wide = textWidth(nameOf(shown), Theme::font(TextRole::Small)) + 2;
   const bool fits = x + kFlag + 3 + wide < width();
-  return fits ? QRectF(x - kFlag, 0, 2 * kFlag + 3 + wide, kHeight)
-              : QRectF(x - kFlag - 3 - wide, 0, 2 * kFlag + 3 + wide, kHeight);
+  return fits ? QRectF(x - kFlag, 0, 2 * kFlag + 3 + wide, height())
+              : QRectF(x - kFlag - 3 - wide, 0, 2 * kFlag + 3 + wide, height());
 }
 
 QPoint MarkerRow::placeOf(size_t marker) const {
   const auto& markers = m_session.document().project().markers;
-  return marker < markers.size() ? QPoint(static_cast<int>(std::lround(m_scale.xOf(markers[marker].time))), kHeight / 2)
-                                 : QPoint(-1, -1);
+  return marker < markers.size()
+             ? QPoint(static_cast<int>(std::lround(m_scale.xOf(markers[marker].time))), height() / 2)
+             : QPoint(-1, -1);
 }
 
 /// Its flag before any name that lies over it.
@@ -147,7 +148,7 @@ void MarkerRow::mouseDoubleClickEvent(QMouseEvent* event) {
 void MarkerRow::editName(size_t marker) {
   const auto& markers = m_session.document().project().markers;
   if (marker >= markers.size()) return;
-  const QRect place(static_cast<int>(flagOf(marker).left()), 2, 0, kHeight - 4);
+  const QRect place(static_cast<int>(flagOf(marker).left()), 2, 0, height() - 4);
   nameInPlace(*this, place, nameOf(markers[marker]), QStringLiteral("Name of the marker"),
               [this, marker](const QString& name) {
                 const auto& now = m_session.document().project().markers;
@@ -222,13 +223,13 @@ void MarkerRow::paintEvent(QPaintEvent*) {
   const Theme& theme = Theme::current();
   painter.fillRect(rect(), theme[Token::Panel]);
   paintHorizontalLine(painter, 0, width(), 0, theme[Token::Line]);
-  paintText(painter, QRectF(12, 0, KeyRows::kLabel - 24, kHeight), Qt::AlignLeft | Qt::AlignVCenter,
+  paintText(painter, QRectF(12, 0, KeyRows::kLabel - 24, height()), Qt::AlignLeft | Qt::AlignVCenter,
             QStringLiteral("Markers"), Theme::font(TextRole::Normal), theme[Token::Text2]);
   const auto& markers = m_session.document().project().markers;
   painter.setRenderHint(QPainter::Antialiasing);
   for (size_t k = 0; k < markers.size(); ++k) {
     const QRectF flag = flagOf(k);
-    const double x = m_scale.xOf(markers[k].time), middle = kHeight / 2.0;
+    const double x = m_scale.xOf(markers[k].time), middle = height() / 2.0;
     const bool chosen = m_chosen == k;
     if (chosen) paintBox(painter, flag.adjusted(-1, 3, 2, -3), theme[Token::Selection], QColor(), 3);
     QPainterPath shape(QPointF(x - kFlag + 1, middle - 5));  // a tag that points at its time
@@ -242,7 +243,7 @@ void MarkerRow::paintEvent(QPaintEvent*) {
     paintText(painter, after ? flag.adjusted(2 * kFlag + 1, 0, 0, 0) : flag.adjusted(0, 0, -2 * kFlag - 1, 0),
               Qt::AlignLeft | Qt::AlignVCenter, nameOf(markers[k]), Theme::font(TextRole::Small), theme[Token::Text]);
   }
-  paintVerticalLine(painter, m_scale.xOf(m_session.now()) - 0.5, 0, kHeight, theme[Token::SliderFill]);
+  paintVerticalLine(painter, m_scale.xOf(m_session.now()) - 0.5, 0, height(), theme[Token::SliderFill]);
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 2);
 }
 

@@ -12,13 +12,14 @@
 namespace ps {
 namespace {
 
-constexpr int kMostRows = 4;  ///< that are shown without scrolling
+constexpr int kMostRows = 4;    ///< that are shown without scrolling
+constexpr int kHandLeast = 26;  ///< logical pixels, which are 2.5 degrees on the board in a headset
 
 }  // namespace
 
 Timeline::Timeline(Session& session, PointedBy by, QWidget* parent)
     : QWidget(parent),
-      m_keys(new KeyRows(session)),
+      m_keys(new KeyRows(session, by == PointedBy::Hand ? kHandLeast : 0)),
       m_markers(new MarkerRow(session, *m_keys)),
       m_scroll(new QScrollArea),
       m_transport(new Transport(session, by)) {
@@ -59,10 +60,10 @@ void Timeline::setSlim(bool slim) {
 
 /// The ruler stays where there are no keys: markers and the recorded part are on its scale.
 void Timeline::fit() {
-  const int most = KeyRows::kRuler + kMostRows * KeyRows::kRow;
+  const int most = m_keys->ruler() + kMostRows * m_keys->rowHeight();
   const int height = std::min(m_keys->wantedHeight(), most);
   m_scroll->setFixedHeight(height);
-  const int all = m_transport->minimumHeight() + (m_markers->isHidden() ? 0 : MarkerRow::kHeight) + height;
+  const int all = m_transport->minimumHeight() + (m_markers->isHidden() ? 0 : m_markers->height()) + height;
   setFixedHeight(all);
   Q_EMIT heightChanged(all);
 }

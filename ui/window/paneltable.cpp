@@ -23,6 +23,7 @@
 #include "ui/window/filmform.h"
 
 #include <QtWidgets/QScrollArea>
+#include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -51,6 +52,14 @@ QWidget* makePoints(const PanelContext& context) {
   return scrolling(page);
 }
 
+/// Arrows of the tree are as wide as a level of it.
+QWidget* makeOutliner(const PanelContext& context) {
+  auto* outliner = new Outliner(context.session, context.selection);
+  constexpr int kHandLevel = 26;  // pixels, which are 2.5 degrees on the board in a headset
+  if (context.by == PointedBy::Hand) outliner->view()->setIndentation(kHandLevel);
+  return outliner;
+}
+
 QWidget* makeMaterials(const PanelContext& context) {
   auto* materials = new MaterialsPanel(context.session, context.selection);
   QScrollArea* scroll = scrolling(materials);
@@ -73,17 +82,14 @@ QWidget* makeBrush(const PanelContext& context) {
   return page;
 }
 
-QWidget* makeFilm(const PanelContext& context) {
-  return scrolling(new FilmForm(context.session, context.view));
-}
+QWidget* makeFilm(const PanelContext& context) { return scrolling(new FilmForm(context.session, context.view)); }
 
 }  // namespace
 
 const std::vector<PanelRow>& panelTable() {
   using Context = const PanelContext&;
   static const std::vector<PanelRow> kTable{
-      {"dock.outliner", "Outliner", [](Context c) -> QWidget* { return new Outliner(c.session, c.selection); },
-       "scene"},
+      {"dock.outliner", "Outliner", makeOutliner, "scene"},
       {"dock.materials", "Materials", makeMaterials, "tuning"},
       {"dock.inspector", "Body", [](Context c) -> QWidget* { return c.inspector.bodyPanel(); }, "scene"},
       {"dock.inspector", "Material", [](Context c) -> QWidget* { return c.inspector.materialPanel(); }, "tuning"},
