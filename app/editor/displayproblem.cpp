@@ -24,7 +24,7 @@ bool isReached() {
 
 std::string displayProblem(int argc, char** argv) {
   const bool isAsked = std::any_of(argv + 1, argv + argc, [](std::string_view argument) {
-    return argument == "-platform" || argument == "--platform";
+    return argument == "-platform" || argument == "--platform" || argument == "-display" || argument == "--display";
   });
   if (isAsked || isSet("QT_QPA_PLATFORM") || isSet("WAYLAND_DISPLAY")) return {};
   constexpr const char* kInstead = "start it in a desktop session; phasesketch-cli needs no display";

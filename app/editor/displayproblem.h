@@ -5,7 +5,8 @@
 namespace ps {
 
 /// "" where there is a display to open a window on, else what is missing and what to do, one line: Qt would end the
-/// program without a word of use. A platform that was asked for by QT_QPA_PLATFORM or `-platform` is Qt's to judge.
+/// program without a word of use. What was asked for by QT_QPA_PLATFORM, `-platform` or `-display` is Qt's to
+/// judge.
 std::string displayProblem(int argc, char** argv);
 
 }  // namespace ps

