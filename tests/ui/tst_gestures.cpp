@@ -69,6 +69,7 @@ class TestGestures : public CurveWindowTest {
   void anEditIsOneStepThereAndBack_data() { rows(edits()); }
   void anEditIsOneStepThereAndBack() {
     QFETCH(int, number);
+    m_rows.insert(number);
     const Gesture gesture = edits()[static_cast<size_t>(number)];
     if (gesture.before) (this->*gesture.before)();
     if (QTest::currentTestFailed()) return;
@@ -90,8 +91,9 @@ class TestGestures : public CurveWindowTest {
     picture(QStringLiteral("tst_gestures_%1.png").arg(QLatin1String(gesture.name)));
   }
 
-  /// Those that ui/document declares were all met in the rows above.
+  /// Those that ui/document declares were all met in the rows above. Only some of these say nothing about it.
   void everyKindOfEditHasItsGesture() {
+    if (m_rows.size() < edits().size()) return;
     QFile file(QStringLiteral(PS_SOURCE_DIR "/ui/document/commands.h"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString header = QString::fromUtf8(file.readAll());
@@ -497,6 +499,7 @@ class TestGestures : public CurveWindowTest {
   }
 
   QTemporaryDir m_folder;
+  std::set<int> m_rows;         ///< of edits() that were begun
   std::set<std::string> m_met;  ///< kinds of edits
 };
 

@@ -107,6 +107,10 @@ class TestGraphsWindow : public SampleWindowTest {
   void aQuantityIsPlottedByTheMenu() {
     const std::string before = json();
     const size_t probes = document().project().probes.size();
+    // Ctrl+K has the menu of every graph: whose they are is listed when it is asked for.
+    const std::unique_ptr<QMenu> menu(graphs()->makeMenu(first()));
+    for (const QMenu* list : menu->findChildren<QMenu*>())
+      QVERIFY(list->title() != QStringLiteral("Body") || list->isEmpty());
     choose(first(), {"Plot", "Body", "Ice block", "Speed", "Highest speed"});
     QCOMPARE(document().project().probes.size(), probes + 1);
     const Probe made = document().project().probes.back();

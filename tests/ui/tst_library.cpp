@@ -31,6 +31,7 @@
 #include <QtCore/QUrl>
 #include <QtGui/QAction>
 #include <QtGui/QDropEvent>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QPushButton>
@@ -490,7 +491,7 @@ class TestLibrary : public SampleWindowTest {
     page()->choose(entryOf("lead")->label, true);
     const size_t before = document().project().materials.size();
     MixDialog* dialog = opened(QStringLiteral("Mix…"));
-    QVERIFY(dialog && dialog->chooseParts(entryOf("tin")->label, entryOf("lead")->label));
+    QVERIFY(dialog && dialog->chooseParts(entryOf("tin")->key(), entryOf("lead")->key()));
     QVERIFY(dialog->share()->enterNumber(0.37));
     QCOMPARE(dialog->problem(), QString());
     const auto rows = dialog->table()->findItems(QStringLiteral("Density, solid"), Qt::MatchExactly);
@@ -524,10 +525,53 @@ class TestLibrary : public SampleWindowTest {
     library().removePreset(*entry(QStringLiteral("Solder")));
     QTRY_VERIFY_WITH_TIMEOUT(!entry(QStringLiteral("Solder")), kLong);
     MixDialog* never = opened(QStringLiteral("Mix…"));
-    QVERIFY(never && never->chooseParts(entryOf("iron")->label, QStringLiteral("Water")));
+    QVERIFY(never && never->chooseParts(entryOf("iron")->key(), entryOf("water")->key()));
     QVERIFY2(never->problem().contains(QStringLiteral("boils before")), qPrintable(never->problem()));
     QVERIFY(never->preview()->curve(MixPreview::Mixed).empty());
     press(*never, QStringLiteral("Cancel"));
+  }
+
+  /// A form that is open before the library has come has its materials then. Of two with one label each stays itself.
+  void aMixFollowsTheLibrary() {
+    Session::Options options;
+    options.autosave = false;
+    Session early(options);
+    MaterialLibrary empty(early, m_folder.filePath(QStringLiteral("presets")));
+    Selection none(early.document());
+    MixDialog waits(empty, early, none, QString(), QString());
+    QSignalSpy filled(waits.table()->model(), &QAbstractItemModel::modelReset);
+    Q_EMIT empty.changed();
+    QTest::qWait(300);  // it reads 0.2 s later
+    QVERIFY(filled.isEmpty());
+    early.start();
+    QTRY_VERIFY_WITH_TIMEOUT(!filled.isEmpty(), kLong);
+    QCOMPARE(waits.findChildren<QComboBox*>().back()->currentIndex(), 1);
+
+    SceneMaterial other = entryOf("tin")->material;
+    other.properties.values["density_solid"] = 6000.0;
+    library().savePreset(other, entryOf("tin")->label);
+    const auto preset = [&]() -> const LibraryEntry* {
+      for (const LibraryEntry& each : library().entries())
+        if (each.label == entryOf("tin")->label && !each.file.isEmpty()) return &each;
+      return nullptr;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(preset(), kLong);
+    MixDialog* mix = opened(QStringLiteral("Mix…"));
+    QVERIFY(mix && mix->chooseParts(preset()->key(), entryOf("lead")->key()));
+    const auto density = [&] {
+      const auto rows = mix->table()->findItems(QStringLiteral("Density, solid"), Qt::MatchExactly);
+      return rows.isEmpty() ? mix->problem() : rows.front()->text(1);
+    };
+    const QString chosen = density();
+    QSignalSpy again(mix->table()->model(), &QAbstractItemModel::modelReset);
+    library().read();
+    QTRY_VERIFY_WITH_TIMEOUT(!again.isEmpty(), kLong);
+    QCOMPARE(density(), chosen);
+    QVERIFY(mix->chooseParts(entryOf("tin")->key(), entryOf("lead")->key()));
+    QVERIFY(density() != chosen);
+    press(*mix, QStringLiteral("Cancel"));
+    library().removePreset(*preset());
+    QTRY_VERIFY_WITH_TIMEOUT(!preset(), kLong);
   }
 
   /// Said, and nothing else is lost.
@@ -550,8 +594,8 @@ class TestLibrary : public SampleWindowTest {
     const QPointer<MixDialog> mix = opened(QStringLiteral("Mix…"));
     QVERIFY(mix && !mix->isModal());
     QVERIFY(opened(QStringLiteral("Mix…")) == mix);
-    const QString own = QStringLiteral("Water, as it is in the scene");
-    QVERIFY(mix->chooseParts(own, entryOf("ethanol")->label) && mix->problem().isEmpty());
+    const QString own = QStringLiteral("scene:water");
+    QVERIFY(mix->chooseParts(own, entryOf("ethanol")->key()) && mix->problem().isEmpty());
     const auto density = [&] {
       const auto rows = mix->table()->findItems(QStringLiteral("Density, liquid"), Qt::MatchExactly);
       return rows.isEmpty() ? mix->problem() : rows.front()->text(1);
@@ -562,7 +606,13 @@ class TestLibrary : public SampleWindowTest {
     QTRY_VERIFY(density() != before);
     document().undoStack().undo();
     QTRY_COMPARE(density(), before);
-    QVERIFY(mix->chooseParts(entryOf("tin")->label, entryOf("lead")->label));
+    QSignalSpy filled(mix->table()->model(), &QAbstractItemModel::modelReset);
+    const std::string colour = document().project().view.colour;
+    document().setColour("pressure");  // which no material has to do with
+    document().setColour(colour);
+    QTest::qWait(300);  // what it follows, it follows 0.2 s later
+    QVERIFY(filled.isEmpty());
+    QVERIFY(mix->chooseParts(entryOf("tin")->key(), entryOf("lead")->key()));
     press(*mix, QStringLiteral("Add to the scene"));
     QTRY_VERIFY(!mix);
     const QPointer<MixDialog> change = opened(QStringLiteral("Change the mixture…"));

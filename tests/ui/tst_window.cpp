@@ -28,6 +28,7 @@
 #include "ui/window/dock.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/paneltable.h"
 #include "ui/window/screenshot.h"
 #include "ui/window/statusline.h"
 #include "ui/window/windowlayout.h"
@@ -35,11 +36,14 @@
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAccessible>
 #include <QtGui/QAction>
+#include <QtGui/QClipboard>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QToolTip>
 #include <QtWidgets/QWidgetAction>
 
 #include <algorithm>
@@ -50,6 +54,8 @@
 #include <future>
 #include <memory>
 #include <set>
+#include <tuple>
+#include <utility>
 
 using namespace ps;
 
@@ -492,32 +498,90 @@ class TestWindow : public QObject {
                             .arg(missing.join(QStringLiteral(", ")), late.join(QStringLiteral(", ")))));
   }
 
-  /// What pages of docks, the library and the plugins do by a button is found, in whatever workspace it stands.
+  /// What pages of docks, the library and the plugins do by a button is found, in whatever workspace it stands, and by
+  /// its place: a thing of the scene that is called as a button is does not take it away.
   void thePaletteKnowsEveryButton() {
+    Body body = *document().body("ice");
+    body.id = "find";
+    body.name = "Find values";
+    document().addBody(body);
+    std::set<std::pair<QString, QString>> found;
     std::set<QString> titles;
-    for (const PaletteEntry& entry : m_window->paletteEntries()) titles.insert(entry.title);
+    for (const PaletteEntry& entry : m_window->paletteEntries()) {
+      found.emplace(entry.title, entry.where);
+      titles.insert(entry.title);
+    }
+    document().undoStack().undo();
     QStringList missing;
     int known = 0;
-    const auto look = [&](const QWidget& page) {
+    const auto look = [&](const QWidget& page, const QString& place) {
       for (const QAbstractButton* button : page.findChildren<QAbstractButton*>()) {
-        const QString text = fromButtonText(button->text());
+        const auto* tool = qobject_cast<const QToolButton*>(button);
+        const QString text =
+            tool && tool->menu() && !button->accessibleName().isEmpty() ? QString() : fromButtonText(button->text());
         const QString name = text.isEmpty() ? button->accessibleName() : text;
-        // What scrolls tabs, and what a dock has before it gets a header of ours.
-        const QWidget* owner = button->parentWidget();
-        if (qobject_cast<const QTabBar*>(owner) || qobject_cast<const QDockWidget*>(owner) || name.isEmpty()) continue;
-        if (!titles.count(name)) missing << name;
+        // What scrolls tabs, and what filters.
+        if (qobject_cast<const QTabBar*>(button->parentWidget()) || button->objectName() == QStringLiteral("psChip") ||
+            name.isEmpty())
+          continue;
+        const bool saysIt = (QLatin1Char(' ') + name).contains(QLatin1Char(' ') + place, Qt::CaseInsensitive);
+        if (!found.count({name, saysIt ? QString() : place})) missing << name + QStringLiteral(" / ") + place;
         ++known;
       }
     };
-    for (const Dock* dock : m_window->layoutOfDocks().docks()) look(*dock);
-    look(*m_window->library().page());
-    look(*m_window->pluginPage());
+    const WindowLayout& layout = m_window->layoutOfDocks();
+    for (const DockRow& row : dockTable())
+      look(*layout.dock(QString::fromLatin1(row.name))->titleBarWidget(), QString::fromLatin1(row.title));
+    for (const PanelRow& row : panelTable()) {
+      const QString title = QString::fromLatin1(row.title);
+      look(*layout.dockOf(title)->page(title), title);
+    }
+    look(*m_window->library().page(), QStringLiteral("Materials of the library"));
+    look(*m_window->pluginPage(), QStringLiteral("Plugins"));
     QVERIFY2(missing.isEmpty(), qPrintable(missing.join(QStringLiteral(", "))));
     QVERIFY(known > 50);
-    for (const char* title : {"Fit law to points", "Sample law as points", "Find values", "Mix…", "Row: reset",
-                              "Export as PNG…", "Add graph: Mass by phase"})
+    QVERIFY(found.count({QStringLiteral("Find values"), QStringLiteral("Draw the result")}));
+    for (const char* title : {"Fit law to points", "Sample law as points", "Mix…", "Row: reset", "Export as PNG…",
+                              "Add graph: Mass by phase"})
       QVERIFY2(titles.count(QString::fromUtf8(title)), title);
+    QVERIFY(!titles.count(QStringLiteral("1×")));
     QVERIFY(!paletteMatches(m_window->paletteEntries(), QStringLiteral("empty the disk")).empty());  // of a dialog
+  }
+
+  /// What the menu of a row may not do is refused by Ctrl+K too, and said.
+  void rowCommandsSayWhyNot() {
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    m_window->activateWindow();
+    const int steps = document().undoStack().index();
+    Inspector& inspector = m_window->inspector();
+    const auto tried = [&](const Address& address, const char* command) {
+      const QString key = QString::fromStdString(address.text());
+      if (!m_window->revealParameter(address)) return QStringLiteral("no such row");
+      ParameterPanel* panel = address.owner == Owner::Material ? inspector.materialPanel() : inspector.scenePanel();
+      for (const int x : {20, 24}) QTest::mouseMove(panel->row(key), QPoint(x, 12));
+      if (!QTest::qWaitFor([&] { return inspector.rowAtHand() && inspector.rowAtHand()->key() == key; }))
+        return QStringLiteral("not at hand");
+      m_window->action(QStringLiteral("edit.row.") + QLatin1String(command))->trigger();
+      const QString said = m_window->notice()->isVisible() ? m_window->notice()->text() : QString();
+      return said.startsWith(QStringLiteral("Nothing was done.")) ? said : QString();
+    };
+    QGuiApplication::clipboard()->setText(QStringLiteral("1"));
+    const Address curve{Owner::Material, "water", "viscosity"}, choice{Owner::Wall, "floor", "shape"};
+    for (const auto& [address, command, why] : {std::tuple(kFloor, "constant", "It is no curve"),
+                                                {kFloor, "keys", "It has no keys"},
+                                                {choice, "paste", "Only numbers are pasted"},
+                                                {choice, "plot", "Only numbers and switches are plotted"},
+                                                {curve, "plot", "Tune shows its curve"}}) {
+      const QString said = tried(address, command);
+      QVERIFY2(said.contains(QLatin1String(why)), qPrintable(QLatin1String(command) + QStringLiteral(": ") + said));
+    }
+    QCOMPARE(document().undoStack().index(), steps);
+    QCOMPARE(tried(kFloor, "explain"), QString());
+    QTRY_VERIFY(QToolTip::isVisible());
+    QToolTip::hideText();
+    QCOMPARE(tried(kFloor, "plot"), QString());
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    document().undoStack().undo();
   }
 
   /// Pressed where it stands, which is in sight then.
@@ -1018,7 +1082,6 @@ class TestWindow : public QObject {
     walk(m_window->findChild<QMenuBar*>()->actions());
     return titles;
   }
-  /// Of all that the scene declares, and of what the panels show.
   /// The engine stands between two frames meanwhile, as long as a move takes: one that waited for it would not come
   /// back in time. What it says is there before the next frame. Returns what is wrong.
   QString slideWhileHeld(ParameterRow& row, const Address& address) {
@@ -1049,6 +1112,7 @@ class TestWindow : public QObject {
     QTest::mouseRelease(&row, Qt::LeftButton, {}, from + QPoint(12, 0));
     return {};
   }
+  /// Of all that the scene declares, and of what the panels show.
   std::set<std::string> addressesOfRows() {
     std::set<std::string> rows;
     const auto add = [&](const Address& address) {

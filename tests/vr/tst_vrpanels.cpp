@@ -547,7 +547,6 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   document().undoStack().undo();
 }
 
-/// What opens at a press there is seen and pressed like a panel; the press itself lasts until the menu closes.
 /// Those of the material and the brush; a material that the scene has not yet comes from its page.
 void VrPanelsTest::namesLeadToTheirPages() {
   enterWithout();
@@ -578,6 +577,7 @@ void VrPanelsTest::namesLeadToTheirPages() {
   document().undoStack().undo();
 }
 
+/// What opens at a press there is seen and pressed like a panel; the press itself lasts until the menu closes.
 void VrPanelsTest::menusComeAlong() {
   enterWithout();
   panels().showPage(QStringLiteral("Brush"));

@@ -155,24 +155,26 @@ void GraphMenu::addParameters(QMenu& menu, const std::string& graph) const {
   });
 }
 
-/// What no probe measures yet gets one.
+/// What no probe measures yet gets one. By whose it is: made when it is opened, there are many.
 void GraphMenu::addTargets(QMenu& menu, const std::string& graph) const {
-  const Project& project = m_document.project();
   addQuantities(*menu.addMenu(QStringLiteral("All matter")), graph, {}, QStringLiteral("All"));
-  const auto each = [&](const QString& title, const auto& items, std::string Probe::*member, auto name) {
-    if (items.empty()) return;
+  const auto each = [&](const QString& title, auto items, std::string Probe::*member, auto name) {
+    if ((m_document.project().*items).empty()) return;
     QMenu* list = menu.addMenu(title);
-    for (const auto& item : items) {
-      Probe of;
-      of.*member = item.id;
-      const QString called = name(item);
-      addQuantities(*list->addMenu(asButtonText(called)), graph, of, called);
-    }
+    QObject::connect(list, &QMenu::aboutToShow, list, [list, graph, items, member, name, own = *this] {
+      if (!list->isEmpty()) return;
+      for (const auto& item : own.m_document.project().*items) {
+        Probe of;
+        of.*member = item.id;
+        const QString called = name(item);
+        own.addQuantities(*list->addMenu(asButtonText(called)), graph, of, called);
+      }
+    });
   };
   const auto named = [](const auto& item) { return nameOf(item); };
-  each(QStringLiteral("Body"), project.bodies, &Probe::body, named);
-  each(QStringLiteral("Tap"), project.emitters, &Probe::body, named);
-  each(QStringLiteral("Material"), project.materials, &Probe::material,
+  each(QStringLiteral("Body"), &Project::bodies, &Probe::body, named);
+  each(QStringLiteral("Tap"), &Project::emitters, &Probe::body, named);
+  each(QStringLiteral("Material"), &Project::materials, &Probe::material,
        [](const SceneMaterial& material) { return QString::fromStdString(shownName(material)); });
 }
 

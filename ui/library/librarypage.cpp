@@ -230,8 +230,9 @@ QWidget* LibraryPage::makeRight() {
   connect(import, &QPushButton::clicked, this, &LibraryPage::importWanted);
   connect(back, &QPushButton::clicked, this, &LibraryPage::closeRequested);
   connect(mix, &QPushButton::clicked, this, [this] {
-    const QStringList labels = compared();
-    Q_EMIT mixWanted(labels.value(0), labels.value(1));
+    QStringList keys;
+    for (const LibraryEntry* entry : chosen()) keys << entry->key();
+    Q_EMIT mixWanted(keys.value(0), keys.value(1));
   });
   connectChosen();
   return right;

@@ -42,7 +42,7 @@ class LibraryPage : public QWidget {
   void carrying();     ///< a card is dragged, onto a body perhaps, which has to be seen
   void broughtBack();  ///< and was let go where nothing takes it
   void importWanted();
-  void mixWanted(const QString& first, const QString& second);  ///< labels; "" for any
+  void mixWanted(const QString& first, const QString& second);  ///< keys; "" for any
   void mixtureWanted(const std::string& material);              ///< of the scene, whose share is to change
   void exportWanted(const ps::LibraryEntry& entry);
 

@@ -34,6 +34,8 @@ struct LibraryEntry {
   QStringList tags;  ///< words to choose by: what it is by its values, and those of its file
   QColor colour;
   std::vector<PhaseBand> bands;  ///< coldest first
+  /// Which one it is: several may have one label.
+  QString key() const { return file + QLatin1Char('/') + QString::fromStdString(material.id); }
 };
 
 /// Installed materials, and the presets of the user's folder. Files of both are read again when they change; of one

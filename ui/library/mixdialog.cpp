@@ -85,7 +85,10 @@ MixDialog::MixDialog(MaterialLibrary& library, Session& session, Selection& sele
   connect(&m_late, &QTimer::timeout, this, &MixDialog::readSources);
   connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event) || isGone()) return reject();
-    if (m_changed.empty()) m_late.start();
+    const auto* parameter = std::get_if<ParameterChanged>(&event);
+    const bool follows =
+        std::holds_alternative<MaterialsChanged>(event) || (parameter && parameter->address.owner == Owner::Material);
+    if (follows && m_changed.empty()) m_late.start();
   });
 }
 
@@ -141,7 +144,7 @@ void MixDialog::addSources() {
   for (const LibraryEntry& entry : m_library.entries()) {
     Material values = entry.values;
     values.label = entry.label.toStdString();
-    m_sources.push_back({entry.label, partOf(values)});
+    m_sources.push_back({entry.label, partOf(values), entry.key()});
   }
   const Project& project = m_session.document().project();
   EvaluatedMaterials evaluated;
@@ -149,30 +152,29 @@ void MixDialog::addSources() {
     try {
       const Material values = compileMaterial(project, own, *m_session.plugins(), evaluated);
       m_sources.push_back({QStringLiteral("%1, as it is in the scene").arg(QString::fromStdString(values.label)),
-                           partOf(values), own.id});
+                           partOf(values), QStringLiteral("scene:") + QString::fromStdString(own.id)});
     } catch (const Error&) {
       continue;  // what is broken in the scene is told there
     }
   }
 }
 
-/// What is chosen stays so, with the values that it had where it is gone.
+/// What is chosen stays so, with the values that it had where it is gone. Before the library has come there is nothing.
 void MixDialog::readSources() {
-  std::array<Source, 2> kept{chosen(*m_first), chosen(*m_second)};
+  const bool begins = m_sources.empty();
+  std::array<Source, 2> kept;
+  if (!begins) kept = {chosen(*m_first), chosen(*m_second)};
   m_sources.clear();
   addSources();
+  if (begins && m_sources.empty()) return;
   const std::array<QComboBox*, 2> boxes{m_first, m_second};
-  std::array<int, 2> places{};
-  for (size_t k = 0; k < boxes.size(); ++k) {
-    const auto same = [&](const Source& each) {
-      return each.own == kept[k].own && (!each.own.empty() || each.label == kept[k].label);
-    };
-    auto found = std::find_if(m_sources.begin(), m_sources.end(), same);
-    if (found == m_sources.end()) {
-      kept[k].label.replace(QStringLiteral("as it is in"), QStringLiteral("as it was in"));
-      found = m_sources.insert(found, {kept[k].label, kept[k].part, kept[k].own});
-    }
-    places[k] = static_cast<int>(found - m_sources.begin());
+  std::array<int, 2> places{0, std::min(1, static_cast<int>(m_sources.size()) - 1)};
+  for (size_t k = 0; !begins && k < boxes.size(); ++k) {
+    places[k] = indexOf(kept[k].key);
+    if (places[k] >= 0) continue;
+    places[k] = static_cast<int>(m_sources.size());
+    kept[k].label.replace(QStringLiteral("as it is in"), QStringLiteral("as it was in"));
+    m_sources.push_back(kept[k]);
   }
   for (size_t k = 0; k < boxes.size(); ++k) {
     const QSignalBlocker quiet(boxes[k]);
@@ -188,6 +190,12 @@ bool MixDialog::isGone() const {
   return !m_changed.empty() && std::none_of(all.begin(), all.end(), [&](const SceneMaterial& each) {
     return each.id == m_changed && each.mixture;
   });
+}
+
+int MixDialog::indexOf(const QString& key) const {
+  const auto found =
+      std::find_if(m_sources.begin(), m_sources.end(), [&](const Source& each) { return each.key == key; });
+  return found == m_sources.end() ? -1 : static_cast<int>(found - m_sources.begin());
 }
 
 const MixDialog::Source& MixDialog::chosen(const QComboBox& box) const {
@@ -257,7 +265,7 @@ void MixDialog::addButtons() {
 }
 
 bool MixDialog::chooseParts(const QString& first, const QString& second) {
-  const int one = m_first->findText(first), other = m_second->findText(second);
+  const int one = indexOf(first), other = indexOf(second);
   if (one >= 0) m_first->setCurrentIndex(one);
   if (other >= 0) m_second->setCurrentIndex(other);
   return one >= 0 && other >= 0;

@@ -29,7 +29,7 @@ class Selection;
 class MixDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `first`, `second`: labels of the library that are chosen to begin with; "" for any.
+  /// `first`, `second`: keys of the library's entries that are chosen to begin with; "" for any.
   MixDialog(MaterialLibrary& library, Session& session, Selection& selection, const QString& first,
             const QString& second, QWidget* parent = nullptr);
   /// Of a mixture of the scene, which keeps its parts.
@@ -38,19 +38,21 @@ class MixDialog : public QDialog {
   ParameterRow* share() const { return m_share; }
   QTreeWidget* table() const { return m_table; }
   MixPreview* preview() const { return m_preview; }
-  QString problem() const { return m_problem; }                   ///< "" or why there is no such mixture
-  bool chooseParts(const QString& first, const QString& second);  ///< by their labels; false: there are none
+  QString problem() const { return m_problem; }  ///< "" or why there is no such mixture
+  /// By the keys of the library's entries, or "scene:" and the id of a material of the scene; false: there are none.
+  bool chooseParts(const QString& first, const QString& second);
 
  private:
   MixDialog(MaterialLibrary& library, Session& session, Selection& selection, QWidget* parent);
   struct Source {
     QString label;
     Mixture::Part part;
-    std::string own{};  ///< of the scene's material; "": of the library
+    QString key{};  ///< see chooseParts()
   };
   void addSources();
   void readSources();
-  bool isGone() const;  ///< the mixture that is to be changed
+  bool isGone() const;                    ///< the mixture that is to be changed
+  int indexOf(const QString& key) const;  ///< among the sources; -1: there is none
   const Source& chosen(const QComboBox& box) const;
   void addRow(const QString& label, QWidget* field);
   void addShare(double share);

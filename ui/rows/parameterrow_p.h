@@ -96,7 +96,6 @@ struct ParameterRow::Private {
   QRect choiceRect() const;         ///< of all segments, or of the menu's button
   void openChoiceMenu();
   void openContextMenu(const QContextMenuEvent& event);
-  void explain(const QPoint& global);  ///< the tip, asked for
   void pressed(const QPoint& at, Qt::KeyboardModifiers modifiers);
   bool editKey(int key);  ///< of the line edit; true: handled
   void startTyping(const QString& text);

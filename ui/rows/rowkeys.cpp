@@ -2,6 +2,7 @@
 // The last column of a row: where its parameter stands among its keys over time.
 #include "core/scene/track.h"
 #include "ui/rows/parameterrow_p.h"
+#include "ui/rows/rowcommands.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
@@ -108,7 +109,7 @@ void ParameterRow::Private::addKeyEntries(QMenu* menu) {
     }
   }
   QAction* all = menu->addAction(QStringLiteral("Remove all keys"));
-  QObject::connect(all, &QAction::triggered, q, [this] { Q_EMIT q->keysRemoved(model.key); });
+  QObject::connect(all, &QAction::triggered, q, [this] { perform(*q, RowCommand::RemoveKeys, {}); });
 }
 
 }  // namespace ps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/rows/parameterrow_p.h"
+#include "ui/rows/rowcommands.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
@@ -8,17 +9,12 @@
 
 #include <QtCore/QMetaMethod>
 #include <QtCore/QPointer>
-#include <QtCore/QTimer>
-#include <QtGui/QClipboard>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QCursor>
-#include <QtGui/QGuiApplication>
 #include <QtWidgets/QMenu>
 
 namespace ps {
 namespace {
-
-constexpr int kMenuGone = 100;  ///< ms after which a closed menu's events have come
 
 QString line(const char* head, const QString& text) {
   if (text.isEmpty()) return {};
@@ -86,51 +82,31 @@ void ParameterRow::Private::openContextMenu(const QContextMenuEvent& event) {
   const QPoint global = event.globalPos();
   const bool byKey = event.reason() == QContextMenuEvent::Keyboard;
   const QPointer<QMenu> menu(new QMenu(q));
-  QAction* copy = menu->addAction(QStringLiteral("Copy value"));
-  QAction* paste = menu->addAction(QStringLiteral("Paste value"));
-  paste->setEnabled(isEditable() && isNumeric() && !QGuiApplication::clipboard()->text().isEmpty());
-  QAction* resetAction = menu->addAction(QStringLiteral("Reset"));
-  resetAction->setEnabled(isEditable() && (q->isChanged() || model.together));
-  QAction* constant =
-      showsCurve() && isEditable() && !model.mixed ? menu->addAction(QStringLiteral("Make constant")) : nullptr;
+  const auto may = [this](RowCommand command) { return whyNot(*q, command).isEmpty(); };
+  const auto add = [&menu](const QString& text, RowCommand command) {
+    QAction* action = menu->addAction(text);
+    action->setData(static_cast<int>(command));
+    return action;
+  };
+  add(QStringLiteral("Copy value"), RowCommand::Copy);
+  add(QStringLiteral("Paste value"), RowCommand::Paste)->setEnabled(may(RowCommand::Paste));
+  add(QStringLiteral("Reset"), RowCommand::Reset)->setEnabled(may(RowCommand::Reset));
+  if (may(RowCommand::MakeConstant)) add(QStringLiteral("Make constant"), RowCommand::MakeConstant);
   menu->addSeparator();
-  const auto offered = [this](const QMetaMethod& signal) { return q->isSignalConnected(signal); };
-  QAction* pin = nullptr;
-  QAction* plot = nullptr;
-  if ((!model.kept || model.isPinned) && offered(QMetaMethod::fromSignal(&ParameterRow::pinToggled))) {
-    pin = menu->addAction(model.isPinned ? QStringLiteral("Remove from “Try these”")
-                                         : QStringLiteral("Pin to “Try these”"));
-  }
-  const bool plots =
-      !model.kept && ((isNumeric() && !showsCurve()) || declaration().kind == api::ParameterKind::Toggle);
-  if (plots && offered(QMetaMethod::fromSignal(&ParameterRow::plotRequested)))
-    plot = menu->addAction(QStringLiteral("Plot"));
+  if (may(RowCommand::Pin) && q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::pinToggled)))
+    add(model.isPinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"),
+        RowCommand::Pin);
+  if (may(RowCommand::Plot) && q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::plotRequested)))
+    add(QStringLiteral("Plot"), RowCommand::Plot);
   addKeyEntries(menu);
   menu->addSeparator();
-  QAction* explain = menu->addAction(QStringLiteral("Explain"));
+  add(QStringLiteral("Explain"), RowCommand::Explain);
   const QAction* chosen = menu->exec(global);
   if (!menu) return;  // the row went while its menu was open
   menu->deleteLater();
-  if (!chosen) return;
-  if (chosen == copy)
-    QGuiApplication::clipboard()->setText(q->valueText());
-  else if (chosen == paste)
-    q->enter(QGuiApplication::clipboard()->text().trimmed());
-  else if (chosen == resetAction)
-    q->reset();
-  else if (chosen == constant)
-    single(valueOfNumber(declaration(), q->number()));
-  else if (chosen == pin)
-    Q_EMIT q->pinToggled(model.key, !model.isPinned);
-  else if (chosen == plot)
-    Q_EMIT q->plotRequested(model.key);
-  else if (chosen == explain)
-    this->explain(byKey ? global : QCursor::pos());  // a tip beneath the pointer is taken away by it
-}
-
-/// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
-void ParameterRow::Private::explain(const QPoint& global) {
-  QTimer::singleShot(kMenuGone, q, [this, global] { showRichTip(global, toolTipText(), q); });
+  if (!chosen || !chosen->data().isValid()) return;  // keys have their own
+  // A tip beneath the pointer is taken away by it.
+  perform(*q, static_cast<RowCommand>(chosen->data().toInt()), byKey ? global : QCursor::pos());
 }
 
 void ParameterRow::contextMenuEvent(QContextMenuEvent* event) { d->openContextMenu(*event); }

@@ -2,30 +2,22 @@
 #include "ui/window/editactions.h"
 
 #include "core/scene/scenewall.h"
-#include "core/simulation/graphsource.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
 #include "ui/rows/parameterrow.h"
+#include "ui/rows/rowcommands.h"
 #include "ui/session/selection.h"
 #include "ui/window/actions.h"
 #include "ui/window/notices.h"
 
 #include <QtGui/QAction>
-#include <QtGui/QClipboard>
-#include <QtGui/QHelpEvent>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
 namespace ps {
-namespace {
-
-bool isCurve(const ParameterRow& row) { return std::holds_alternative<Response>(row.model().value); }
-
-}  // namespace
 
 void EditActions::makeMenu(QMenu* menu) {
   menu->addAction(m_actions.find(QStringLiteral("edit.undo")));
@@ -55,29 +47,25 @@ ParameterRow* EditActions::rowAtHand(const QString& refusal) {
 
 /// What the menu of a row has, for Ctrl+K: no menu of the window has rows.
 void EditActions::addRowCommands() {
-  const auto add = [this](const char* name, const char* text, void (*act)(ParameterRow&)) {
-    m_actions.add(nullptr, QStringLiteral("edit.row.") + QLatin1String(name), QString::fromUtf8(text), {}, [this, act] {
-      if (ParameterRow* row = rowAtHand(QStringLiteral("Nothing was done."))) act(*row);
-    });
+  const auto add = [this](const char* name, const char* text, RowCommand command) {
+    m_actions.add(nullptr, QStringLiteral("edit.row.") + QLatin1String(name), QString::fromUtf8(text), {},
+                  [this, command] {
+                    const QString refusal = QStringLiteral("Nothing was done.");
+                    ParameterRow* row = rowAtHand(refusal);
+                    if (!row) return;
+                    const QString why = whyNot(*row, command);
+                    m_notices.refuse(refusal, why);
+                    if (why.isEmpty()) perform(*row, command, row->mapToGlobal(row->labelRect().bottomLeft()));
+                  });
   };
-  add("copy", "Row: copy value", [](ParameterRow& row) { QGuiApplication::clipboard()->setText(row.valueText()); });
-  add("paste", "Row: paste value",
-      [](ParameterRow& row) { row.enter(QGuiApplication::clipboard()->text().trimmed()); });
-  add("reset", "Row: reset", [](ParameterRow& row) { row.reset(); });
-  add("constant", "Row: make constant", [](ParameterRow& row) {
-    if (isCurve(row) && !row.model().mixed) row.enterNumber(row.number());
-  });
-  add("pin", "Row: pin to “Try these”, or remove from there",
-      [](ParameterRow& row) { Q_EMIT row.pinToggled(row.key(), !row.model().isPinned); });
-  add("plot", "Row: plot", [](ParameterRow& row) {
-    if (!isCurve(row) && canBePlotted(row.model().declaration)) Q_EMIT row.plotRequested(row.key());
-  });
-  add("keys", "Row: remove all keys", [](ParameterRow& row) { Q_EMIT row.keysRemoved(row.key()); });
-  add("explain", "Row: explain", [](ParameterRow& row) {
-    const QPoint at = row.labelRect().bottomLeft();
-    QHelpEvent asked(QEvent::ToolTip, at, row.mapToGlobal(at));
-    QApplication::sendEvent(&row, &asked);
-  });
+  add("copy", "Row: copy value", RowCommand::Copy);
+  add("paste", "Row: paste value", RowCommand::Paste);
+  add("reset", "Row: reset", RowCommand::Reset);
+  add("constant", "Row: make constant", RowCommand::MakeConstant);
+  add("pin", "Row: pin to “Try these”, or remove from there", RowCommand::Pin);
+  add("plot", "Row: plot", RowCommand::Plot);
+  add("keys", "Row: remove all keys", RowCommand::RemoveKeys);
+  add("explain", "Row: explain", RowCommand::Explain);
 }
 
 void EditActions::makeWallMenu(QMenu* menu) {

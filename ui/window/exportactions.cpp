@@ -48,7 +48,8 @@ ExportActions::ExportActions(Session& session, const Actions& actions, Notices& 
   });
   connect(&work, &RunWork::failed, this, [this](const QString& what, const QString& problem) {
     const QString title = QStringLiteral("“%1” came to nothing.").arg(what);
-    const QString text = sentence(problem) + QStringLiteral(" Another place or fewer frames may do.");
+    // What would help, the problem says itself: another place or a program, which differs.
+    const QString text = sentence(problem) + QStringLiteral(" The scene and its run stay as they were.");
     m_session.log().add(MessageLevel::Error, what, title + QLatin1Char(' ') + text);
     m_notices.bar().show(kTopic, MessageLevel::Error, title, text);
   });

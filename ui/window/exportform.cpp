@@ -9,7 +9,6 @@
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtWidgets/QComboBox>
 
@@ -38,11 +37,12 @@ QString ExportForm::summary() const {
   const ExportFormat& chosen = format();
   QString text = QStringLiteral("%1, %2.").arg(countText(frames(), QStringLiteral("file"), QStringLiteral("files")),
                                                QString::fromUtf8(chosen.help));
-  const QStringList names{QString::fromLatin1(chosen.first) + QStringLiteral("-*.") +
-                          QString::fromLatin1(chosen.ending)};
-  if (!QDir(place()).entryList(names, QDir::Files).isEmpty())
-    text += QStringLiteral(" The folder has files of these names: they are replaced.");
+  if (replaces()) text += QStringLiteral(" The folder has files of these names: they are replaced.");
   return text;
+}
+
+QString ExportForm::fileNames() const {
+  return QString::fromLatin1(format().first) + QStringLiteral("-*.") + QString::fromLatin1(format().ending);
 }
 
 void ExportForm::begin() {

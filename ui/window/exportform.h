@@ -15,6 +15,7 @@ class ExportForm : public RunForm {
   QString suggestedPlace() const override;
   QString choosePlace() override;
   QString summary() const override;
+  QString fileNames() const override;
   void begin() override;
 
  private:

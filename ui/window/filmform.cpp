@@ -15,7 +15,6 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/filenames.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QStandardPaths>
 #include <QtWidgets/QComboBox>
@@ -79,16 +78,17 @@ QString FilmForm::choosePlace() {
 QString FilmForm::summary() const {
   const QString pictures = countText(frames(), QStringLiteral("picture"), QStringLiteral("pictures"));
   if (!film()) {
-    const bool replaces = !QDir(place()).entryList({QStringLiteral("frame-*.png")}, QDir::Files).isEmpty();
     return QStringLiteral("%1, from the view and %2").arg(pictures, colours()) +
-           (replaces ? QStringLiteral(" The folder has some of these names: they are replaced.") : QString());
+           (replaces() ? QStringLiteral(" The folder has some of these names: they are replaced.") : QString());
   }
   if (!m_hasFfmpeg)
     return QStringLiteral("Films need the program ffmpeg, which is not installed. Install it, or choose pictures.");
   const double seconds = static_cast<double>(frames()) / framesPerSecond();
   return QStringLiteral("%1, %2 s, from the view and %3").arg(pictures, formatShort(seconds, 3), colours()) +
-         (QFileInfo::exists(place()) ? QStringLiteral(" The file there is replaced.") : QString());
+         (replaces() ? QStringLiteral(" The file there is replaced.") : QString());
 }
+
+QString FilmForm::fileNames() const { return film() ? QString() : QStringLiteral("frame-*.png"); }
 
 /// A frame without the field is drawn in the colours of matter: nobody shall find that out from the film.
 QString FilmForm::colours() const {

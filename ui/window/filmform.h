@@ -18,6 +18,7 @@ class FilmForm : public RunForm {
   QString suggestedPlace() const override;
   QString choosePlace() override;
   QString summary() const override;
+  QString fileNames() const override;
   bool isPossible() const override;
   void begin() override;
 

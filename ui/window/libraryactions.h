@@ -27,7 +27,7 @@ class LibraryActions : public QObject {
   MaterialLibrary& library() { return m_library; }
 
  private:
-  /// Two labels, "" for any. One form: what is open already takes them.
+  /// Keys of two entries, "" for any. One form: what is open already takes them.
   void openMix(const QString& first, const QString& second);
   void openMixture(const std::string& material);  ///< of the scene, a form for each
   void offerWaiting(NoticeBar& bar);

@@ -32,10 +32,12 @@
 #include "ui/window/windowlayout.h"
 
 #include <QtCore/QPointer>
+#include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
 
 #include <algorithm>
 #include <functional>
@@ -229,22 +231,38 @@ void showPage(MainWindow& window, const QString& title) {
   layout.openPage(title);
 }
 
+/// Titles of actions and buttons, and what stands beside them. A thing or a row of the same name is something else.
+using Known = std::set<std::pair<QString, QString>>;
+
+/// Its menu where a press opens one: a click alone does nothing there.
+void press(QAbstractButton& button) {
+  auto* tool = qobject_cast<QToolButton*>(&button);
+  if (tool && tool->menu())
+    QTimer::singleShot(0, tool, &QToolButton::showMenu);  // it has a loop of its own
+  else
+    button.click();
+}
+
 /// What can be done by a button of this page alone; it is in sight when it is pressed.
-void addButtons(Entries& entries, QWidget& page, const QString& where, const std::function<void()>& show) {
+void addButtons(Entries& entries, Known& known, QWidget& page, const QString& where,
+                const std::function<void()>& show) {
   for (QAbstractButton* button : page.findChildren<QAbstractButton*>()) {
-    if (qobject_cast<QTabBar*>(button->parentWidget())) continue;  // it scrolls the tabs
-    const QString text = fromButtonText(button->text());
-    const QString title = text.isEmpty() ? button->accessibleName() : text;
-    const auto isKnown = [&](const PaletteEntry& entry) { return entry.title == title; };
-    if (title.isEmpty() || std::any_of(entries.begin(), entries.end(), isKnown)) continue;
+    if (qobject_cast<QTabBar*>(button->parentWidget())) continue;    // it scrolls the tabs
+    if (button->objectName() == QStringLiteral("psChip")) continue;  // a filter of what is shown
+    const auto* tool = qobject_cast<QToolButton*>(button);
+    // What stands on the button of a menu may be what is chosen there.
+    const bool named = tool && tool->menu() && !button->accessibleName().isEmpty();
+    const QString text = named ? QString() : fromButtonText(button->text());
+    const QString title = text.isEmpty() ? button->accessibleName() : text, place = beside(title, {where});
+    if (title.isEmpty() || !known.emplace(title, place).second) continue;
     const bool can = button->isEnabled() && button->isVisibleTo(&page);
     entries.push_back({title,
-                       beside(title, {where}),
+                       place,
                        {},
                        button->toolTip(),
                        [show, button = QPointer(button)] {
                          show();
-                         if (button) button->click();
+                         if (button) press(*button);
                        },
                        false,
                        can ? QString() : QStringLiteral("Not possible at present")});
@@ -274,21 +292,21 @@ void addMenu(Entries& entries, const std::shared_ptr<QMenu>& menu, const QString
   }
 }
 
-void addPages(Entries& entries, MainWindow& window, const Actions& actions) {
+void addPages(Entries& entries, Known& known, MainWindow& window, const Actions& actions) {
   for (const DockRow& row : dockTable()) {
     const Dock* dock = window.layoutOfDocks().dock(QString::fromLatin1(row.name));
     const QString title = QString::fromLatin1(row.title);
-    addButtons(entries, *dock->titleBarWidget(), title, [&window, title] { showPage(window, title); });
+    addButtons(entries, known, *dock->titleBarWidget(), title, [&window, title] { showPage(window, title); });
   }
   for (const PanelRow& row : panelTable()) {
     const QString title = QString::fromLatin1(row.title);
     const Dock* dock = window.layoutOfDocks().dockOf(title);
     if (QWidget* page = dock ? dock->page(title) : nullptr)
-      addButtons(entries, *page, title, [&window, title] { showPage(window, title); });
+      addButtons(entries, known, *page, title, [&window, title] { showPage(window, title); });
   }
-  addButtons(entries, *window.library().page(), QStringLiteral("Materials of the library"),
+  addButtons(entries, known, *window.library().page(), QStringLiteral("Materials of the library"),
              [open = actions.find(QStringLiteral("add.library"))] { open->trigger(); });
-  addButtons(entries, *window.pluginPage(), QStringLiteral("Plugins"),
+  addButtons(entries, known, *window.pluginPage(), QStringLiteral("Plugins"),
              [open = actions.find(QStringLiteral("help.plugins"))] { open->trigger(); });
   GraphsPanel* graphs = window.graphs();
   std::vector<std::string> ids{{}};  // of the place where none is, too
@@ -357,13 +375,15 @@ void addMaterials(Entries& entries, MainWindow& window) {
 std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& actions) {
   Entries entries;
   addActions(entries, window, actions, false);
+  Known known;
+  for (const PaletteEntry& entry : entries) known.emplace(entry.title, entry.where);
   addParameters(entries, window);
   addMaterials(entries, window);
   addThings(entries, window);
   addBrush(entries, window);
   addFavourites(entries, window);
   addDialogs(entries, window);
-  addPages(entries, window, actions);
+  addPages(entries, known, window, actions);
   addActions(entries, window, actions, true);
   return entries;
 }

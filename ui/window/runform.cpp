@@ -16,6 +16,7 @@
 #include "ui/window/filenames.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QDirIterator>
 #include <QtCore/QFileInfo>
 #include <QtCore/QSignalBlocker>
 #include <QtCore/QTimer>
@@ -55,6 +56,7 @@ RunForm::RunForm(Session& session)
     if (const QString chosen = choosePlace(); !chosen.isEmpty()) setPlace(chosen);
   });
   connect(m_begin, &QPushButton::clicked, this, [this] {
+    m_looked.clear();
     refresh();  // the run, the folder or other work may have gone on since
     if (!m_begin->isEnabled()) return;
     begin();
@@ -135,8 +137,15 @@ void RunForm::followRun() {
     refresh();
   });
   clock->start();
+  connect(&m_session.work(), &RunWork::ended, this, [this] { m_looked.clear(); });
+  // Until a project's first frame has come, the run that is recorded is that of the one before.
+  connect(&m_session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (!std::holds_alternative<ProjectOpened>(event)) return;
+    m_opens = true;
+    refresh();
+  });
   connect(&m_session, &Session::projectShown, this, [this] {
-    m_rangeTyped = m_chosen = false;
+    m_rangeTyped = m_chosen = m_opens = false;
     addRates();
     showAll();
     refresh();
@@ -196,14 +205,18 @@ void RunForm::refresh() {
   if (!m_summary) return;  // not whole yet
   if (!m_chosen) m_place = suggestedPlace();
   showPlace();
+  lookAtPlace();
   const size_t count = frames();
   const bool busy = m_session.work().isBusy();
-  const QString limited = busy ? QStringLiteral("Other work is still going on.") : count > 0 ? limits() : QString();
+  const QString limited = m_opens     ? QStringLiteral("The project is still being opened.")
+                          : busy      ? QStringLiteral("Other work is still going on.")
+                          : count > 0 ? limits()
+                                      : QString();
   m_summary->setText(count == 0 ? QStringLiteral("Nothing was recorded then: both times are numbers of seconds, the "
                                                  "second not before the first.")
                      : limited.isEmpty() ? summary()
                                          : summary() + QLatin1Char(' ') + limited);
-  m_begin->setEnabled(count > 0 && isPossible() && !busy);
+  m_begin->setEnabled(count > 0 && isPossible() && !busy && !m_opens);
 }
 
 void RunForm::showPlace() {
@@ -211,6 +224,14 @@ void RunForm::showPlace() {
   const int room = std::max(0, m_where->width() - 2 * kEdge);
   m_where->setText(asButtonText(m_where->fontMetrics().elidedText(shown, Qt::ElideMiddle, room)));
   m_where->setToolTip(shown + QStringLiteral("\nA click chooses another place."));
+}
+
+/// Once for each place, for the clock asks again and again.
+void RunForm::lookAtPlace() {
+  const QString names = fileNames(), asked = m_place + QLatin1Char('/') + names;
+  if (asked == m_looked) return;
+  m_looked = asked;
+  m_replaces = names.isEmpty() ? QFileInfo::exists(m_place) : QDirIterator(m_place, {names}, QDir::Files).hasNext();
 }
 
 void RunForm::resizeEvent(QResizeEvent* event) {
@@ -232,6 +253,9 @@ RunDialog::RunDialog(RunForm* form, const QString& title, QWidget* window) : QDi
   form->exportButton().setDefault(true);
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
   connect(form, &RunForm::begun, this, &QDialog::accept);
+  connect(&form->session().document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (std::holds_alternative<ProjectOpened>(event)) reject();
+  });
 }
 
 }  // namespace ps

@@ -18,8 +18,8 @@ namespace ps {
 class Session;
 
 /// Asks what of the recorded run is to be written, and where: rows of its own kind, then from when to when, which
-/// frames, the place, and what will come of it in words. In a dialog, or as a page of a dock: it stays open while a run
-/// goes on and projects come and go. For as long as nobody types a range it is all that has been recorded by then.
+/// frames, the place, and what will come of it in words. In a dialog, or as a page of a dock, where projects come and
+/// go; it stays open while a run goes on. For as long as nobody types a range it is all that has been recorded by then.
 class RunForm : public QWidget {
   Q_OBJECT
  public:
@@ -29,6 +29,7 @@ class RunForm : public QWidget {
   void setPlace(const QString& place);
   QHBoxLayout& buttons() const { return *m_buttons; }
   QPushButton& exportButton() const { return *m_begin; }
+  Session& session() const { return m_session; }
 
  Q_SIGNALS:
   void begun();  ///< what was asked for is being done
@@ -51,10 +52,12 @@ class RunForm : public QWidget {
   virtual QString suggestedPlace() const = 0;
   virtual QString choosePlace() = 0;  ///< "" where it was given up
   virtual QString summary() const = 0;
+  /// Of the files in the folder that the place is, "frame-*.png"; "": the place is a file.
+  virtual QString fileNames() const = 0;
   virtual bool isPossible() const { return true; }
   virtual void begin() = 0;
 
-  Session& session() const { return m_session; }
+  bool replaces() const { return m_replaces; }  ///< files that were at the place when it was last looked at
 
   /// "25 frames written to …."
   static QString writtenText(size_t frames, const QString& where);
@@ -71,6 +74,7 @@ class RunForm : public QWidget {
   };
   static std::optional<double> timeIn(const QLineEdit& field, const ShownTime& shown);  ///< s; nothing: no number
   void showPlace();
+  void lookAtPlace();
 
   Session& m_session;
   QGridLayout* m_grid;
@@ -82,11 +86,14 @@ class RunForm : public QWidget {
   QString m_place;
   bool m_chosen = false;  ///< the place, by hand
   bool m_rangeTyped = false;
+  QString m_looked;  ///< place and names that m_replaces is of: disks may be slow
+  bool m_replaces = false;
+  bool m_opens = false;  ///< a project, whose run has not begun
   ShownTime m_shownFrom, m_shownTo;
   double m_shownLength = 0;  ///< s of a frame, by which rates are told
 };
 
-/// A form to be answered or given up; the window stays in use meanwhile.
+/// A form to be answered or given up; the window stays in use meanwhile. It goes with the project.
 class RunDialog : public QDialog {
   Q_OBJECT
  public:

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/rows/rowcommands.h"
+
+#include "ui/rows/parameterrow.h"
+#include "ui/rows/rowvalue.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QHelpEvent>
+#include <QtWidgets/QApplication>
+
+namespace ps {
+namespace {
+
+using api::ParameterKind;
+
+constexpr int kMenuGone = 100;  ///< ms after which a closed menu's events have come
+
+QString clipboardText() { return QGuiApplication::clipboard()->text().trimmed(); }
+
+QString whyNotEdited(const RowModel& model) {
+  if (!model.disabledReason.isEmpty()) return model.disabledReason;
+  return model.derivedFrom.isEmpty() ? QString() : QStringLiteral("It is computed %1.").arg(model.derivedFrom);
+}
+
+QString whyNotPasted(const RowModel& model) {
+  if (const QString why = whyNotEdited(model); !why.isEmpty()) return why;
+  const ParameterKind kind = model.declaration.kind;
+  if (kind == ParameterKind::Toggle || kind == ParameterKind::Choice) return QStringLiteral("Only numbers are pasted.");
+  return clipboardText().isEmpty() ? QStringLiteral("The clipboard holds no text.") : QString();
+}
+
+QString whyNotConstant(const RowModel& model) {
+  if (const QString why = whyNotEdited(model); !why.isEmpty()) return why;
+  if (!isCurve(model.value)) return QStringLiteral("It is no curve.");
+  return model.mixed ? QStringLiteral("Values differ here.") : QString();
+}
+
+/// A graph has the values of numbers and switches over time.
+QString whyNotPlotted(const RowModel& model) {
+  if (model.kept) return QStringLiteral("Its plugin is not installed.");
+  const ParameterKind kind = model.declaration.kind;
+  if (kind == ParameterKind::Response) return QStringLiteral("It may depend on temperature: Tune shows its curve.");
+  return kind == ParameterKind::Choice ? QStringLiteral("Only numbers and switches are plotted.") : QString();
+}
+
+/// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
+void explain(ParameterRow& row, const QPoint& global) {
+  QTimer::singleShot(kMenuGone, &row, [&row, global] {
+    QHelpEvent asked(QEvent::ToolTip, row.mapFromGlobal(global), global);
+    QApplication::sendEvent(&row, &asked);
+  });
+}
+
+}  // namespace
+
+QString whyNot(const ParameterRow& row, RowCommand command) {
+  const RowModel& model = row.model();
+  switch (command) {
+    case RowCommand::Paste:
+      return whyNotPasted(model);
+    case RowCommand::Reset:
+      if (const QString why = whyNotEdited(model); !why.isEmpty()) return why;
+      return row.isChanged() || model.together ? QString() : QStringLiteral("It has its default value.");
+    case RowCommand::MakeConstant:
+      return whyNotConstant(model);
+    case RowCommand::Pin:
+      return model.kept && !model.isPinned ? QStringLiteral("Its plugin is not installed.") : QString();
+    case RowCommand::Plot:
+      return whyNotPlotted(model);
+    case RowCommand::RemoveKeys:
+      return model.keyMark == KeyMark::None ? QStringLiteral("It has no keys.") : QString();
+    case RowCommand::Copy:
+    case RowCommand::Explain:
+      break;
+  }
+  return {};
+}
+
+void perform(ParameterRow& row, RowCommand command, const QPoint& global) {
+  switch (command) {
+    case RowCommand::Copy:
+      return QGuiApplication::clipboard()->setText(row.valueText());
+    case RowCommand::Paste:
+      row.enter(clipboardText());
+      return;
+    case RowCommand::Reset:
+      return row.reset();
+    case RowCommand::MakeConstant:
+      row.enterNumber(row.number());
+      return;
+    case RowCommand::Pin:
+      return row.pinToggled(row.key(), !row.model().isPinned);
+    case RowCommand::Plot:
+      return row.plotRequested(row.key());
+    case RowCommand::RemoveKeys:
+      return row.keysRemoved(row.key());
+    case RowCommand::Explain:
+      return explain(row, global);
+  }
+}
+
+}  // namespace ps
