@@ -132,8 +132,6 @@ void VrCupTest::itIsHeatedUntilItMelts() {
   QTRY_VERIFY_WITH_TIMEOUT(!session().playing(), kLong);
   QVERIFY(liquidOf(m_ice) < m_iceCount);
   brush("heat", 0.1, 263, false);
-  slides("power", 5000);
-  slides("limit", 340);
   presses("Play or pause");
   QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
   const int before = steps();

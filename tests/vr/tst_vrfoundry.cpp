@@ -142,8 +142,9 @@ void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
 void VrFoundryTest::itIsMelted() {
   makeRealAndPlay(kRest, right(0, kAside));
   brush("heat", 0.1, 293.15, false);
-  slides("power", 20000);
-  slides("limit", 800);
+  BrushSettings settings = m_window->tools().brush();
+  settings.parameters["heat"].values = {{"power", 20000.0}, {"limit", 800.0}};
+  m_window->tools().setBrush(settings);
   const int before = steps();
   const Vector3 middle = meanOf(m_ladle);
   next(left(0, kRest) + right(0, kAside) + right(20, middle) + right(25, middle, kPulled));

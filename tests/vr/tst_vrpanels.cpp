@@ -25,7 +25,6 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
-#include <QtWidgets/QScrollArea>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QTreeView>
 
@@ -568,9 +567,10 @@ void VrPanelsTest::namesLeadToTheirPages() {
   QVERIFY(materials);
   painted();
   const QRect tile = materials->tileOf("iron");
-  auto* around = panels().widget(vr::kBoard)->findChild<QScrollArea*>();
-  QVERIFY(around && !tile.isEmpty());
-  around->ensureVisible(tile.center().x(), tile.center().y(), tile.width(), tile.height());
+  QVERIFY(!tile.isEmpty() && !materials->visibleRegion().contains(tile.center()));
+  // The stick scrolls what lies below.
+  for (int k = 0; k < 8; ++k) at(vr::kBoard, *materials, materials->visibleRegion().boundingRect().center(), false, -1);
+  QVERIFY(materials->visibleRegion().contains(tile.center()));
   for (const bool pressed : {false, true, false}) at(vr::kBoard, *materials, tile.center(), pressed);
   QTRY_VERIFY_WITH_TIMEOUT(isThere() && m_window->tools().brush().material == "iron", kLong);
   QTRY_COMPARE_WITH_TIMEOUT((painted(), button(vr::kPalette, "Material")->text()), QStringLiteral("Iron"), kLong);

@@ -8,11 +8,8 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/tools/becoming.h"
 
-#include <QtWidgets/QScrollArea>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -123,40 +120,20 @@ class VrStory : public Story {
     MaterialsPanel* tiles = page();
     QVERIFY2(!tiles->tileOf(material).isEmpty(), material);
     const auto seen = [&] { return tiles->visibleRegion().contains(tiles->tileOf(material).center()); };
-    for (int k = 0; k < 20 && !seen(); ++k) {
+    for (int k = 0; k < 40 && !seen(); ++k) {
       const QPointF middle = tiles->visibleRegion().boundingRect().center();
+      const int way = tiles->tileOf(material).center().y() > middle.y() ? -1 : 1;
       const auto stick = [](int y) { return QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y); };
       next(Story::boardKey(0, *tiles, middle, false, false, stick(0)) +
-           Story::boardKey(5, *tiles, middle, false, false, stick(-1)) +
-           Story::boardKey(15, *tiles, middle, false, false, stick(0)));
-      QTest::qWait(500);
+           Story::boardKey(5, *tiles, middle, false, false, stick(way)) +
+           Story::boardKey(8, *tiles, middle, false, false, stick(0)));
+      QTest::qWait(400);
     }
     QVERIFY2(seen(), material);
     pressesBoard(*tiles, tiles->tileOf(material).center());
     QTRY_VERIFY2_WITH_TIMEOUT(m_window->tools().brush().material == material,
                               m_window->tools().brush().material.c_str(), kLong);
     putsBoardAway();
-  }
-  /// A row of the brush's page is slid to within a tenth of a value.
-  void slides(const char* name, double wanted) {
-    presses("Brush");
-    QTRY_VERIFY_WITH_TIMEOUT(Story::panels().widget(vr::kBoard) && Story::rowOf(QLatin1String(name)), kLong);
-    const auto value = [&] {
-      const BrushSettings& brush = m_window->tools().brush();
-      return numberOf(brush.shapeParameters(), session().plugins()->parameters(brush.shape), name);
-    };
-    double low = 0, high = 1;
-    for (int k = 0; k < 12; ++k) {
-      const double share = (low + high) / 2;
-      const ParameterRow* row = Story::rowOf(QLatin1String(name));
-      const QRectF track = row->sliderRect();
-      const QString before = row->valueText();
-      pressesBoard(*row, {track.left() + share * track.width(), track.center().y()});
-      QTRY_VERIFY_WITH_TIMEOUT(row->valueText() != before, kLong);
-      if (std::abs(value() / wanted - 1) < 0.1) return putsBoardAway();
-      (value() < wanted ? low : high) = share;
-    }
-    QVERIFY2(false, qPrintable(QStringLiteral("%1 is %2").arg(QLatin1String(name)).arg(value())));
   }
   void passes(double seconds) {
     const double until = timeNow() + seconds;

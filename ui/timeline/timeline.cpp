@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/timeline/timeline.h"
 
+#include "ui/document/document.h"
+#include "ui/session/session.h"
 #include "ui/timeline/keyrows.h"
 #include "ui/timeline/markerrow.h"
 
@@ -37,7 +39,7 @@ Timeline::Timeline(Session& session, PointedBy by, QWidget* parent)
   connect(m_keys, &KeyRows::rowsChanged, this, &Timeline::fit);
   connect(m_transport, &Transport::heightChanged, this, &Timeline::fit);
   m_transport->setAxis({KeyRows::kLabel, KeyRows::kEnd});
-  m_markers->hide();
+  m_markers->setHidden(session.document().project().markers.empty());
   connect(m_markers, &MarkerRow::wanted, this, [this](bool any) {
     m_markers->setVisible(any);
     fit();

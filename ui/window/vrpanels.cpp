@@ -374,10 +374,15 @@ void VrPanels::scroll(Pointer& pointer, double way, double seconds) {
   if (!pointer.under || (seconds < pointer.scrolled + kScroll && seconds >= pointer.scrolled)) return;
   pointer.scrolled = seconds;
   m_touched = true;
-  const QPointF local = pointer.under->mapFrom(pointer.on, pointer.at.toPoint());
-  QWheelEvent wheel(local, pointer.on->mapToGlobal(pointer.at), {}, {0, way > 0 ? kNotch : -kNotch}, Qt::NoButton,
-                    Qt::NoModifier, Qt::NoScrollPhase, false);
-  deliver(*pointer.under, wheel);
+  // To whoever takes it: Qt hands on only what the system sends.
+  const QPointer<QWidget> on = pointer.on;
+  for (QPointer<QWidget> one = pointer.under; one && on; one = one == on ? nullptr : one->parentWidget()) {
+    QWheelEvent wheel(one->mapFrom(on, pointer.at.toPoint()), on->mapToGlobal(pointer.at), {},
+                      {0, way > 0 ? kNotch : -kNotch}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    wheel.ignore();
+    deliver(*one, wheel);
+    if (wheel.isAccepted()) return;
+  }
 }
 
 void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) {
