@@ -292,19 +292,18 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   });
 }
 
-bool Neighbours::know(const ParticleStore& store, double reach) const {
+bool Neighbours::stale(const ParticleStore& store) const {
   const size_t n = store.size();
-  if (m_built.size() != n) return false;
+  if (m_built.size() != n) return true;
   const api::Float4* position = store.position();
-  const double way = (m_support + m_skin - reach) / 2;
-  return !anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
+  return anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
     float most = 0;
     for (size_t i = first; i < last; ++i) {
       const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;
       const float d2 = x * x + y * y + z * z;
       most = d2 > most ? d2 : most;
     }
-    return double{most} > way * way;
+    return double{most} > 0.25 * m_skin * m_skin;
   });
 }
 

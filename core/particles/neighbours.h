@@ -32,10 +32,7 @@ class Neighbours {
   /// Whether that takes the search for all, of whom so many are new.
   static bool searchesAll(size_t added, size_t all) { return 2 * added >= all; }
   /// True when a particle has moved more than half the skin since the last build, or their number has changed.
-  bool stale(const ParticleStore& store) const { return !know(store, m_support); }
-  /// Whether the lists, of the present order, hold all pairs that are no farther apart than `reach`, m: they do until a
-  /// particle has moved half of what the search radius is more than that.
-  bool know(const ParticleStore& store, double reach) const;
+  bool stale(const ParticleStore& store) const;
   std::span<const uint32_t> lastOrder() const { return m_lastOrder; }
 
   api::NeighbourView view() const;
@@ -54,9 +51,12 @@ class Neighbours {
   void restore(const StateReader& reader, const ParticleStore& store);
 
  private:
+  /// Entries of the index.
+  struct Room {
+    uint32_t first, count;
+  };
   void assignCells(std::span<const api::Float4> position, const Period& period);
   void layOut(size_t chunks);
-  struct Room;
   void giveRoom(size_t chunk, size_t entries);
   Room takeRoom(size_t entries);
   void searchEach(const SearchGrid& grid, std::span<const uint32_t> which);
@@ -72,10 +72,6 @@ class Neighbours {
 
   double m_support = 0, m_skin = 0;
   std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_lastOrder;
-  /// Entries of the index.
-  struct Room {
-    uint32_t first, count;
-  };
   std::vector<uint32_t> m_needs;  ///< entries that each chunk of particles needed
   std::vector<Room> m_rooms;      ///< of each
   std::vector<uint8_t> m_short;   ///< 1 where that was too little

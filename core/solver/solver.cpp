@@ -58,6 +58,17 @@ void requireRoomForImages(const SolverSettings& settings, const Bounds& bounds) 
   }
 }
 
+/// Throws unless lists that are given say one thing of each particle.
+void requireOneEach(const Spawn& spawn) {
+  const size_t count = spawn.position.size();
+  const auto require = [&](size_t given, const char* what) {
+    if (given > 0 && given != count) throw Error(std::string("as many ") + what + " as positions are needed");
+  };
+  require(spawn.velocity.size(), "velocities");
+  require(spawn.temperatures.size(), "temperatures");
+  require(spawn.phases.size(), "phases");
+}
+
 }  // namespace
 
 Solver::Solver() : m(std::make_unique<Impl>()) {}
@@ -180,6 +191,14 @@ void Solver::Impl::matterChanged(double energyBefore, bool others) {
   lastGoodValid = false;
 }
 
+void Solver::Impl::tie(std::span<const uint32_t> sets, std::span<const uint32_t> members) {
+  const size_t count = members.size();
+  const size_t searched = Neighbours::searchesAll(count, store.size()) ? 2 * store.size() : count;
+  beginStage("Finding neighbours", static_cast<double>(count), static_cast<double>(searched));
+  neighbours.buildOf(store, members.front());
+  for (const uint32_t set : sets) constraints.build(set, store, neighbours, members);
+}
+
 TieChange Solver::Impl::tiesChanged(TieChange change) {
   if (change.empty()) return change;
   structureChanged = true;
@@ -191,11 +210,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
   const size_t count = spawn.position.size();
   if (count == 0) return {};
   if (spawn.material >= m->materials.size()) throw Error("particles of a material that is not in the table");
-  if (!spawn.velocity.empty() && spawn.velocity.size() != count)
-    throw Error("as many velocities as positions are needed");
-  if (!spawn.temperatures.empty() && spawn.temperatures.size() != count)
-    throw Error("as many temperatures as positions are needed");
-  if (!spawn.phases.empty() && spawn.phases.size() != count) throw Error("as many phases as positions are needed");
+  requireOneEach(spawn);
   m->configure();
   ParticleStore& store = m->store;
   const double energyBefore = m->frame > 0 ? m->heat.energy(store) : 0;
@@ -249,12 +264,7 @@ std::vector<uint32_t> Solver::spawn(const Spawn& spawn) {
     store.velocity()[i].w = 0;
   }
   m->motion.adopt(store, first, last, m->time);
-  if (!spawn.constraintSets.empty()) {
-    const size_t searched = Neighbours::searchesAll(count, store.size()) ? 2 * store.size() : count;
-    beginStage("Finding neighbours", static_cast<double>(count), static_cast<double>(searched));
-    m->neighbours.buildOf(store, first);
-    for (const uint32_t set : spawn.constraintSets) m->constraints.build(set, store, m->neighbours, members);
-  }
+  if (!spawn.constraintSets.empty()) m->tie(spawn.constraintSets, members);
   m->matterChanged(energyBefore);
   return ids;
 }

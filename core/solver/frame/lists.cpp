@@ -2,14 +2,11 @@
 // When neighbour lists are made anew, and what follows from them.
 #include "core/solver/frame/solverimpl.h"
 
-#include <algorithm>
-
 namespace ps {
 namespace {
 
 /// Frames after which particles are sorted by cell again although the lists still hold.
 constexpr uint64_t kSortInterval = 60;
-constexpr double kTieReach = 1.6;  ///< spacings, of what structure ties where it touches
 
 }  // namespace
 
@@ -17,11 +14,6 @@ constexpr double kTieReach = 1.6;  ///< spacings, of what structure ties where i
 bool Solver::Impl::needsLists() const {
   return reordered || (store.period().any() && strayed()) || neighbours.stale(store) ||
          frame >= lastSort + kSortInterval;
-}
-
-void Solver::Impl::holdLists() {
-  const bool lost = reordered || (store.period().any() && strayed());
-  if (lost || !neighbours.know(store, std::min(kTieReach * settings.spacing, neighbours.support()))) freshLists();
 }
 
 void Solver::Impl::freshLists() {

@@ -114,6 +114,8 @@ struct Solver::Impl {
   /// `others`: who is there, or where, is no longer the same, so that lists are of no use.
   void matterChanged(double energyBefore, bool others = true);
   /// By hand: renews what depends on them.
+  /// New matter, of ascending indices that end with the last, by the constraints of `sets`.
+  void tie(std::span<const uint32_t> sets, std::span<const uint32_t> members);
   TieChange tiesChanged(TieChange change);
   void changeTies(const TieChange& change, bool made);
   PaintedMatter::Books books() const { return {heat.ledger(), energyOffset}; }
@@ -127,8 +129,10 @@ struct Solver::Impl {
   bool advance();
   bool needsLists() const;
   void freshLists();
-  /// For a hand, which ties and parts in each frame what touches: older lists know that too.
-  void holdLists();
+  /// For a hand, which ties and parts in each frame: often the lists still hold.
+  void holdLists() {
+    if (needsLists()) freshLists();
+  }
   /// Whether something lies so many images away from the periodic box that single precision begins to tell.
   bool strayed() const;
   /// In a periodic box: brings back what has left it. What is tied together moves as one, and when it has strayed.

@@ -152,7 +152,7 @@ inline constexpr const char* kWeldsMatter = "welds_matter";
 class Welding {
  public:
   /// Between two frames: ties those of `members` (ascending indices of solid or fixed particles, all of bodies that use
-  /// the plugin) to each other that touch, at rest as they stand; lists hold those 1.6 spacings apart. May throw.
+  /// the plugin) to each other that touch, at rest as they stand. May throw.
   virtual void weld(const ConstraintContext&, const ParticleView&, const NeighbourView&, Span<const uint32_t> members,
                     ConstraintSink&) const = 0;
 
