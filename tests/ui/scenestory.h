@@ -22,7 +22,8 @@
 // What stories share that are told by mouse and keys or in the headset: a scene of their own, and what is there.
 namespace ps {
 
-inline constexpr int kRun = 120000;  // ms that a part of a story may take
+inline constexpr int kRun = 120000;         // ms that a part of a story may take
+inline constexpr double kHeatFaster = 100;  // times as fast as it is
 
 /// `Window`: SampleWindowTest, or a test of a window that is one too.
 template <class Window>
@@ -43,7 +44,7 @@ class SceneStory : public Window {
     session().pause();
     QTRY_VERIFY_WITH_TIMEOUT(view()->snapshot() == session().snapshot(), kLong);
     view()->show(StandardView::Scene);
-    QCOMPARE(document().setParameter({Owner::Solver, "", "thermal_time_scale"}, 100.0), QString());
+    QCOMPARE(document().setParameter({Owner::Solver, "", "thermal_time_scale"}, kHeatFaster), QString());
   }
   void key(Qt::Key which, Qt::KeyboardModifiers modifiers = {}) {
     QApplication::setActiveWindow(m_window.get());

@@ -135,10 +135,40 @@ class VrStory : public Story {
                               m_window->tools().brush().material.c_str(), kLong);
     putsBoardAway();
   }
+  /// The heat brush: its size as of any brush, and what it gives, W, to what is colder than so many K. Its own values
+  /// are not on the palette.
+  void heatBrush(double radius, double power, double limit) {
+    brush("heat", radius, m_window->tools().brush().temperature, false);
+    BrushSettings settings = m_window->tools().brush();
+    settings.parameters["heat"].values = {{"power", power}, {"limit", limit}};
+    m_window->tools().setBrush(settings);
+  }
+  /// The right hand goes to a place and heats there. Whether it meets matter: a brush that misses gives nothing, and
+  /// one that does not gives this share of its power at the very least, also to matter that is soon as warm as it gets.
+  bool heatsAt(const Vector3& place, double power, const Vector3& from, const Vector3& restOfLeft) {
+    constexpr double kShare = 0.05, kSeconds = 1;
+    constexpr int kReaches = 20, kPulls = 25, kIsSeen = 5;  // frames
+    const double wanted = Story::heaters() + kShare * power * kHeatFaster * kSeconds;
+    next(left(0, restOfLeft) + right(0, from) + right(kReaches, place) + right(kPulls, place, kPulled));
+    const uint64_t pulled = Story::vr().frames() + kPulls + kIsSeen;
+    return QTest::qWaitFor([&] { return Story::vr().frames() > pulled; }, kRun) &&
+           comesWithin(kSeconds, [&] { return Story::heaters() > wanted; });
+  }
+  /// Whether it comes to that within so many seconds of the scene, however long those take here.
+  template <class Condition>
+  bool comesWithin(double seconds, const Condition& holds) {
+    const double until = timeNow() + seconds;
+    return QTest::qWaitFor([&] { return holds() || timeNow() > until; }, kRun) && holds();
+  }
   void passes(double seconds) {
     const double until = timeNow() + seconds;
     QTRY_VERIFY_WITH_TIMEOUT(timeNow() > until, kRun);
   }
+  /// A story goes on from what came before: where that failed there is nothing to go on from.
+  void goesOnFromSuccess() {
+    if (m_failed) QSKIP("what came before has failed");
+  }
+  void notesFailure() { m_failed = m_failed || QTest::currentTestFailed(); }
   int steps() { return document().undoStack().index(); }
   /// Both eyes see what the view draws from there, at last. `name`: of the left one's picture.
   void leavesAsEyesSawIt(const QString& name) {
@@ -157,6 +187,8 @@ class VrStory : public Story {
   vr::Stand m_stand;
 
  private:
+  bool m_failed = false;
+
   QImage eye(bool isRight) {
     const auto names = m_run->texts("picture");
     for (auto name = names.rbegin(); name != names.rend(); ++name)
