@@ -98,6 +98,21 @@ class PanelsTest : public VrWindowTest {
     return nullptr;
   }
 
+  /// Where the palette stands that the left palm holds up.
+  const vr::Panels::Place& palettePlace() {
+    if (m_palette) return *m_palette;
+    vr::Panels geometry;
+    geometry.follow(frameOf(palm(), {}), painted());
+    m_palette = geometry.place(vr::kPalette).value_or(vr::Panels::Place());
+    return *m_palette;
+  }
+  /// A right hand whose beam meets the middle of a button of the palette, where that stands there.
+  vr::HandPose handAt(const QWidget& button, const vr::Panels::Place& palette) {
+    const QPointF middle = middleOf(vr::kPalette, button);
+    return pointing({0.25, 1.25, 0.1}, palette.at(middle.x(), middle.y()));
+  }
+  vr::HandPose handAt(const QWidget& button) { return handAt(button, palettePlace()); }
+
   /// Where the board stands that was brought before the script's head.
   const vr::Panels::Place& boardPlace() {
     if (m_board) return *m_board;
@@ -122,7 +137,7 @@ class PanelsTest : public VrWindowTest {
   double m_seconds = 0;
 
  private:
-  std::optional<vr::Panels::Place> m_board;  ///< the same in all stays
+  std::optional<vr::Panels::Place> m_palette, m_board;  ///< the same in all stays
 };
 
 }  // namespace ps

@@ -176,7 +176,7 @@ void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
   const std::set<uint32_t> before = idsNow(session());
   const ScriptedRun run(vrScript({}, tipKey(5, "right", s, from, {}) + tipKey(20, "right", s, from, kPulled) +
                                          tipKey(50, "right", s, to, kLetGo) +
-                                         tipKey(200, "right", s, to, QStringLiteral(R"(, "/input/a/click": true)"))));
+                                         tipKey(200, "right", s, to, clicked("a"))));
   action()->trigger();
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 1, kLong);
   QVERIFY2(vr().frames() < 200, "the button came first");
@@ -270,8 +270,7 @@ void VrHandsTest::preferencesActAtOnce() {
   const auto [low, high] = boxOfCells(document().project().bodies.back());
   const double middle = (low.y() + high.y()) / 2, wanted = at.y() + 0.3 / s.scale;
   QVERIFY2(std::abs(middle - wanted) < 0.02, qPrintable(QString::number(middle)));
-  run.goOn(vrScript(
-      {}, tipKey(0, "left", s, at, {}) + tipKey(5, "left", s, at, QStringLiteral(R"(, "/input/x/click": true)"))));
+  run.goOn(vrScript({}, tipKey(0, "left", s, at, {}) + tipKey(5, "left", s, at, clicked("x"))));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
   QVERIFY(!session().playing());
   leave();
@@ -447,11 +446,10 @@ void VrHandsTest::aHeadsetTakenOffEndsItsStroke() {
 void VrHandsTest::buttonsPlayAndChoose() {
   const double radius = m_window->tools().brush().radius;
   const vr::Stand s = stand();
-  const ScriptedRun run(
-      vrScript({}, tipKey(10, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": true)")) +
-                       tipKey(20, "left", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/x/click": false)")) +
-                       tipKey(30, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 1)")) +
-                       tipKey(34, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 0)"))));
+  const ScriptedRun run(vrScript(
+      {}, tipKey(10, "left", s, {0, 0.6, 0}, clicked("x")) + tipKey(20, "left", s, {0, 0.6, 0}, clicked("x", false)) +
+              tipKey(30, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 1)")) +
+              tipKey(34, "right", s, {0, 0.6, 0}, QStringLiteral(R"(, "/input/thumbstick/y": 0)"))));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
   QTRY_VERIFY_WITH_TIMEOUT(m_window->tools().brush().radius > radius, kLong);
@@ -602,9 +600,7 @@ void VrHandsTest::aViveMenuHasTwoMeanings() {
   const int before = steps();
   ScriptedRun run(withProfile(vrScript({}, awayFrom(1)), kVive));
   enter();
-  const auto menu = [&](const char* hand, int frames) {
-    wand(run, hand, frames, QStringLiteral(R"(, "/input/menu/click": true)"));
-  };
+  const auto menu = [&](const char* hand, int frames) { wand(run, hand, frames, clicked("menu")); };
   menu(other, kForLong);
   QTRY_COMPARE_WITH_TIMEOUT(document().value(held), Value(false), kLong);
   QCOMPARE(steps(), before + 1);

@@ -387,16 +387,10 @@ void VrPanelsTest::whatVanishesUnderAPressIsNotClicked() {
 /// By the scripted headset, end to end: the palette is seen, a beam goes to its first button, and the run plays.
 void VrPanelsTest::aBeamPlaysTheRun() {
   enterWithout();
-  const vr::HeadsetView view = painted();
   const QWidget* play = button(vr::kPalette, "Play or pause");
   QVERIFY(play);
-  const QPointF middle = middleOf(vr::kPalette, *play);
+  const vr::HandPose hand = handAt(*play);
   leaveAtLast();
-  vr::Panels geometry;
-  geometry.follow(frameOf(palm(), {}), view);
-  const auto palette = geometry.place(vr::kPalette);
-  QVERIFY(palette);
-  const vr::HandPose hand = pointing({0.25, 1.25, 0.1}, palette->at(middle.x(), middle.y()));
   const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [50])"),
                                  key(5, "left", palm()) + key(5, "right", hand) + key(200, "right", hand, trigger(1)) +
                                      key(215, "right", hand, trigger(0))));
@@ -415,7 +409,7 @@ void VrPanelsTest::aBeamPlaysTheRun() {
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
   if (!folder.isEmpty()) seen.save(folder + "/vr-palette-left.png");
   if (!folder.isEmpty()) run.picture(50, 1).save(folder + "/vr-palette-right.png");
-  const auto edge = project(scriptEye(false), kSide, kSide, palette->at(0.5, 0.985));
+  const auto edge = project(scriptEye(false), kSide, kSide, palettePlace().at(0.5, 0.985));
   QVERIFY(edge);
   const QColor there = seen.pixelColor(int(edge->x()), int(edge->y())), wanted = Theme::current()[Token::Panel];
   QVERIFY2(std::abs(there.red() - wanted.red()) < 40 && std::abs(there.blue() - wanted.blue()) < 40,
@@ -429,8 +423,6 @@ void VrPanelsTest::aSimpleControllerTurnsByThePalette() {
   const vr::HeadsetView view = painted();
   const QWidget* turn = button(vr::kPalette, "Turn right by 30°");
   QVERIFY(turn);
-  const QPointF middle = middleOf(vr::kPalette, *turn);
-  leaveAtLast();
   const vr::HandPose brings{{-0.05, 1.2, -0.2}, Quaternion::Identity()};
   vr::HeadsetFrame frame = frameOf(brings, {});
   frame.hands[vr::kLeft].menu = true;
@@ -438,10 +430,8 @@ void VrPanelsTest::aSimpleControllerTurnsByThePalette() {
   geometry.follow(frame, view);
   const auto palette = geometry.place(vr::kPalette);
   QVERIFY(palette);
-  const vr::HandPose hand = pointing({0.25, 1.25, 0.1}, palette->at(middle.x(), middle.y()));
-  const auto click = [](const char* part, bool down) {
-    return QStringLiteral(R"(, "/input/%1/click": %2)").arg(QLatin1String(part), down ? "true" : "false");
-  };
+  const vr::HandPose hand = handAt(*turn, *palette);
+  leaveAtLast();
   const auto script = [](const QString& more, const QString& keys) {
     return withProfile(vrScript(more, keys), QStringLiteral("/interaction_profiles/khr/simple_controller"));
   };
@@ -449,18 +439,18 @@ void VrPanelsTest::aSimpleControllerTurnsByThePalette() {
   enter();
   QTest::qWait(1000);  // the palette is painted
   run.goOn(script(QStringLiteral(R"(, "pictures": [60])"),
-                  key(0, "left", brings) + key(0, "right", hand) + key(5, "left", brings, click("menu", true)) +
-                      key(10, "left", brings, click("menu", false)) + key(80, "right", hand, click("select", true)) +
-                      key(95, "right", hand, click("select", false))));
+                  key(0, "left", brings) + key(0, "right", hand) + key(5, "left", brings, clicked("menu")) +
+                      key(10, "left", brings, clicked("menu", false)) + key(80, "right", hand, clicked("select")) +
+                      key(95, "right", hand, clicked("select", false))));
   vr::HeadsetView told;
   QTRY_VERIFY_WITH_TIMEOUT((panels().describe(told), told.turns == 1), 2 * kLong);
   QVERIFY(!session().playing());
   QCOMPARE(document().undoStack().index(), 0);
   const vr::Stand turned = vr::turned(stand(), scriptHead().position, std::numbers::pi / 6);
   const size_t pictures = run.lines("picture").size();
-  run.goOn(script(
-      QStringLiteral(R"(, "pictures": [40])"),
-      key(0, "left", brings, click("menu", true)) + key(5, "left", brings, click("menu", false)) + awayFrom(10)));
+  run.goOn(
+      script(QStringLiteral(R"(, "pictures": [40])"),
+             key(0, "left", brings, clicked("menu")) + key(5, "left", brings, clicked("menu", false)) + awayFrom(10)));
   QTRY_VERIFY_WITH_TIMEOUT(run.lines("picture").size() == pictures + 2, kLong);
   leave();
   QVERIFY(run.lines("violation").empty());
@@ -494,14 +484,13 @@ void VrPanelsTest::aSliderOfTheBoardIsDragged() {
   };
   const Vector3 hand(0.3, 1.15, 0.1);
   const double before = m_window->tools().brush().radius;
-  const ScriptedRun run(
-      vrScript(QStringLiteral(R"(, "pictures": [280])"),
-               key(5, "right", pointing(hand, to(0.3))) +
-                   key(10, "right", pointing(hand, to(0.3)), QStringLiteral(R"(, "/input/b/click": true)")) +
-                   key(15, "right", pointing(hand, to(0.3)), QStringLiteral(R"(, "/input/b/click": false)")) +
-                   key(200, "right", pointing(hand, to(0.3)), trigger(1)) +
-                   key(260, "right", pointing(hand, to(0.95)), trigger(1)) +
-                   key(300, "right", pointing(hand, to(0.95)), trigger(0))));
+  const ScriptedRun run(vrScript(QStringLiteral(R"(, "pictures": [280])"),
+                                 key(5, "right", pointing(hand, to(0.3))) +
+                                     key(10, "right", pointing(hand, to(0.3)), clicked("b")) +
+                                     key(15, "right", pointing(hand, to(0.3)), clicked("b", false)) +
+                                     key(200, "right", pointing(hand, to(0.3)), trigger(1)) +
+                                     key(260, "right", pointing(hand, to(0.95)), trigger(1)) +
+                                     key(300, "right", pointing(hand, to(0.95)), trigger(0))));
   action()->trigger();
   QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 305, 2 * kLong);
   const double now = m_window->tools().brush().radius;

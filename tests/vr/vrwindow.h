@@ -42,6 +42,10 @@ inline const QString kPulled = QStringLiteral(R"(, "/input/trigger/value": 1)");
 inline const QString kLetGo = QStringLiteral(R"(, "/input/trigger/value": 0)");
 inline const QString kHolds = QStringLiteral(R"(, "/input/squeeze/value": 1)");
 inline const QString kHoldsNothing = QStringLiteral(R"(, "/input/squeeze/value": 0)");
+/// Of a button of the controller, down or let go.
+inline QString clicked(const char* part, bool down = true) {
+  return QStringLiteral(R"(, "/input/%1/click": %2)").arg(QLatin1String(part), QLatin1String(down ? "true" : "false"));
+}
 inline const QString kPulledHeld = kPulled + kHolds;
 inline const QString kLetGoHeld = kLetGo + kHoldsNothing;
 
