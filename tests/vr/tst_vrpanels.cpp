@@ -542,6 +542,7 @@ void VrPanelsTest::namesLeadToTheirPages() {
   for (const auto& [name, page] : {std::pair("Brush", "Brush"), std::pair("Material", "Materials")}) {
     QToolButton* value = button(vr::kPalette, name);
     QVERIFY(value);
+    QCOMPARE(value->toolTip(), QStringLiteral("Brings the page %1").arg(QLatin1String(page)));
     click(vr::kPalette, *value);
     QWidget* board = panels().widget(vr::kBoard);
     QVERIFY(board);
