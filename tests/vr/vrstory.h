@@ -4,7 +4,6 @@
 #include "tests/ui/scenestory.h"
 #include "tests/vr/panelhands.h"
 #include "ui/document/declared.h"
-#include "ui/document/presets.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/tools/becoming.h"
 
@@ -14,7 +13,7 @@
 #include <string>
 
 // What stories share that are told in the headset, each in one stay: hands draw, and choose on the palette and the
-// board with what they draw.
+// board with what they draw. What the heat brush gives is set for them.
 namespace ps {
 
 /// `Story`: a SceneStory<PanelsTest>, or one that is one too.
@@ -43,34 +42,32 @@ class VrStory : public Story {
   }
   /// The left hand, which rests at a place, makes what is drawn real, and lets time pass.
   void makeRealAndPlay(const Vector3& rest, const QString& meanwhile) {
-    next(left(0, rest) + meanwhile + left(10, rest, QStringLiteral(R"(, "/input/y/click": true)")) +
-         left(20, rest, QStringLiteral(R"(, "/input/y/click": false, "/input/x/click": true)")) +
-         left(30, rest, QStringLiteral(R"(, "/input/x/click": false)")));
+    next(left(0, rest) + meanwhile + left(10, rest, clicked("y")) + left(20, rest, clicked("y", false) + clicked("x")) +
+         left(30, rest, clicked("x", false)));
     QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
   }
-  /// The left hand holds the palette up, and the beam of the right one presses a button of it so many times.
+  /// The left hand holds the palette up, and the beam of the right one presses a button of it so many times, once it
+  /// is there.
   void presses(const char* name, int times = 1) {
-    QToolButton* one = Story::button(vr::kPalette, name);
+    constexpr int kFirst = 4, kPitch = 4;  // frames; a trigger is pulled for half of the latter
+    const QToolButton* one = Story::button(vr::kPalette, name);
     QVERIFY2(one, name);
-    vr::Panels geometry;
-    geometry.follow(frameOf(palm(), {}), Story::painted());
-    const auto palette = geometry.place(vr::kPalette);
-    QVERIFY(palette);
-    const QPointF middle = Story::middleOf(vr::kPalette, *one);
-    const vr::HandPose hand = pointing({0.25, 1.25, 0.1}, palette->at(middle.x(), middle.y()));
+    const vr::HandPose hand = Story::handAt(*one);
     QString keys = ::ps::key(0, "left", palm()) + ::ps::key(0, "right", hand, trigger(0));
-    int frame = 15;
-    for (int k = 0; k < times; ++k, frame += 10)
-      keys += ::ps::key(frame, "right", hand, trigger(1)) + ::ps::key(frame + 5, "right", hand, trigger(0));
+    next(keys);
+    QTRY_VERIFY2_WITH_TIMEOUT(one->underMouse(), name, kLong);
+    for (int k = 0, frame = kFirst; k < times; ++k, frame += kPitch)
+      keys += ::ps::key(frame, "right", hand, trigger(1)) + ::ps::key(frame + kPitch / 2, "right", hand, trigger(0));
     next(keys);
   }
-  /// One of `names` in place of `now`, by so many presses as there are between.
+  /// One of `names`, which are a ring, in place of `now`: the shorter way round.
   void goesTo(const char* choice, const std::vector<std::string>& names, const std::string& now,
               const std::string& wanted) {
     const auto at = [&](const std::string& name) {
-      return std::find(names.begin(), names.end(), name) - names.begin();
+      return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
     };
-    turns(choice, static_cast<int>(at(wanted) - at(now)));
+    const int all = static_cast<int>(names.size()), on = (at(wanted) - at(now) + all) % all;
+    turns(choice, 2 * on > all ? on - all : on);
   }
   void turns(const char* choice, int times) {
     if (times == 0) return;
@@ -81,26 +78,31 @@ class VrStory : public Story {
   void brush(const char* shape, double radius, double temperature, bool held) {
     Toolbox& tools = m_window->tools();
     goesTo("Brush", idsByLabel(*session().plugins(), PluginKind::Brush), tools.brush().shape, shape);
-    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().shape, std::string(shape), kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().shape, std::string(shape), kRun);
     const auto sizeSteps = [&] { return std::lround(std::log(radius / tools.brush().radius) / std::log(kBrushStep)); };
     turns("Size", static_cast<int>(sizeSteps()));
-    QTRY_COMPARE_WITH_TIMEOUT(sizeSteps(), 0L, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(sizeSteps(), 0L, kRun);
     const auto warmer = [&] { return std::lround((temperature - tools.brush().temperature) / 10); };
     turns("Temperature", static_cast<int>(warmer()));
-    QTRY_COMPARE_WITH_TIMEOUT(warmer(), 0L, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(warmer(), 0L, kRun);
     if (tools.brush().held != held) presses("Hold what is drawn");
-    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().held, held, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(tools.brush().held, held, kRun);
   }
   void becomes(const std::string& what) {
     std::vector<std::string> names;
     for (const auto& [name, label] : becomings()) names.push_back(name);
     goesTo("Becomes", names, m_window->tools().brush().becomes, what);
-    QTRY_COMPARE_WITH_TIMEOUT(m_window->tools().brush().becomes, what, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(m_window->tools().brush().becomes, what, kRun);
   }
-  /// The beam of the right hand presses a place on the board.
+  /// The beam of the right hand comes to a place on the board, which may only just have been brought.
+  void pointsAtBoard(const QWidget& widget, const QPointF& at) {
+    next(kBesideBoard + Story::boardKey(0, widget, at, false, false));
+    QTRY_VERIFY_WITH_TIMEOUT(widget.underMouse(), kLong);
+  }
   void pressesBoard(const QWidget& widget, const QPointF& at) {
-    next(::ps::key(0, "left", {{-0.3, 0.9, 0}, Quaternion::Identity()}) + Story::boardKey(0, widget, at, false, false) +
-         Story::boardKey(15, widget, at, false, true) + Story::boardKey(20, widget, at, false, false));
+    pointsAtBoard(widget, at);
+    next(kBesideBoard + Story::boardKey(0, widget, at, false, false) + Story::boardKey(4, widget, at, false, true) +
+         Story::boardKey(8, widget, at, false, false));
   }
   /// It stands where hands draw.
   void putsBoardAway() {
@@ -108,6 +110,21 @@ class VrStory : public Story {
     QVERIFY(close);
     pressesBoard(*close, QRectF(close->rect()).center());
     QTRY_VERIFY_WITH_TIMEOUT(!Story::panels().widget(vr::kBoard), kLong);
+  }
+  /// A notch of the stick towards a height of a page that is scrolled, and the stick rests again.
+  void scrolls(const QWidget& page, int height) {
+    constexpr int kPush = 2, kRests = 5, kIsSeen = 4;  // frames
+    const QRegion before = page.visibleRegion();
+    const QPointF middle = before.boundingRect().center();
+    const int way = height < middle.y() ? 1 : -1;
+    const auto stick = [&](int frame, int y) {
+      return Story::boardKey(frame, page, middle, false, false,
+                             QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y));
+    };
+    pointsAtBoard(page, middle);
+    next(stick(0, 0) + stick(kPush, way) + stick(kRests, 0));
+    const uint64_t over = Story::vr().frames() + kRests + kIsSeen;
+    QTRY_VERIFY_WITH_TIMEOUT(page.visibleRegion() != before && Story::vr().frames() > over, kLong);
   }
   /// From the page that the palette's name of the material leads to, where the stick brings its tile into sight.
   void choose(const char* material) {
@@ -120,15 +137,7 @@ class VrStory : public Story {
     MaterialsPanel* tiles = page();
     QVERIFY2(!tiles->tileOf(material).isEmpty(), material);
     const auto seen = [&] { return tiles->visibleRegion().contains(tiles->tileOf(material).center()); };
-    for (int k = 0; k < 40 && !seen(); ++k) {
-      const QPointF middle = tiles->visibleRegion().boundingRect().center();
-      const int way = tiles->tileOf(material).center().y() > middle.y() ? -1 : 1;
-      const auto stick = [](int y) { return QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y); };
-      next(Story::boardKey(0, *tiles, middle, false, false, stick(0)) +
-           Story::boardKey(5, *tiles, middle, false, false, stick(way)) +
-           Story::boardKey(8, *tiles, middle, false, false, stick(0)));
-      QTest::qWait(400);
-    }
+    for (int k = 0; k < 40 && !seen(); ++k) scrolls(*tiles, tiles->tileOf(material).center().y());
     QVERIFY2(seen(), material);
     pressesBoard(*tiles, tiles->tileOf(material).center());
     QTRY_VERIFY2_WITH_TIMEOUT(m_window->tools().brush().material == material,
@@ -187,6 +196,8 @@ class VrStory : public Story {
   vr::Stand m_stand;
 
  private:
+  /// Of a left hand, besides the board.
+  inline static const QString kBesideBoard = ::ps::key(0, "left", {{-0.3, 0.9, 0}, Quaternion::Identity()});
   bool m_failed = false;
 
   QImage eye(bool isRight) {
