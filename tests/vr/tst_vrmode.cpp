@@ -18,7 +18,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <vector>
 
