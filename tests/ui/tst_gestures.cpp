@@ -231,9 +231,9 @@ class TestGestures : public CurveWindowTest {
   }
   void draw(const char* with) {
     trigger(with);
-    QTRY_VERIFY(view()->isVisible() && view()->snapshot() == session().snapshot());
+    QTRY_VERIFY_WITH_TIMEOUT(view()->isVisible() && view()->snapshot() == session().snapshot(), kLong);
     stroke(view()->rect().center() - QPoint(30, 0), {60, 0}, true);
-    QTRY_VERIFY(document().undoStack().canUndo());
+    QTRY_VERIFY_WITH_TIMEOUT(document().undoStack().canUndo(), kLong);
   }
   void drawMatter() { draw("sketch.brush"); }
   void eraseMatter() { draw("sketch.erase"); }
