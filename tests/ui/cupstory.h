@@ -14,11 +14,8 @@ inline constexpr double kCupRadius = 0.1, kCupHeight = 0.16;  // m
 template <class Window>
 class CupStory : public SceneStory<Window> {
  protected:
-  using Window::document;
-  using Window::session;
   using SceneStory<Window>::meanOf;
   using SceneStory<Window>::placesOf;
-  using SceneStory<Window>::row;
 
   /// How much of a body is within the cup's wall and above its bottom.
   size_t inCup(const std::string& id) {
@@ -30,21 +27,6 @@ class CupStory : public SceneStory<Window> {
     }
     return count;
   }
-  /// By the keys of its row. It acts at once at 0 s: what was drawn before is made anew.
-  void makeRigid(const std::string& id) {
-    ParameterRow* holds = row(Owner::Body, id, kStructureKey);
-    QVERIFY(holds);
-    holds->setFocus();
-    const auto structure = [&] {
-      const auto& constraints = document().body(id)->constraints;
-      return constraints.empty() ? std::string() : constraints.front().plugin;
-    };
-    for (int k = 0; k < 9 && structure() != "rigid"; ++k) QTest::keyClick(holds, Qt::Key_Up);
-    for (int k = 0; k < 9 && structure() != "rigid"; ++k) QTest::keyClick(holds, Qt::Key_Down);
-    QCOMPARE(structure(), std::string("rigid"));
-    QTRY_VERIFY_WITH_TIMEOUT(!session().appliesAtOnce() || !placesOf(id).empty(), kLong);
-  }
-
   std::string m_cup, m_water, m_ice;
   size_t m_iceCount = 0;
 };

@@ -127,6 +127,20 @@ class TestSketchedCup : public CupStory<SampleWindowTest> {
   }
 
  private:
+  /// By the keys of its row. It acts at once at 0 s: what was drawn before is made anew.
+  void makeRigid(const std::string& id) {
+    ParameterRow* holds = row(Owner::Body, id, kStructureKey);
+    QVERIFY(holds);
+    holds->setFocus();
+    const auto structure = [&] {
+      const auto& constraints = document().body(id)->constraints;
+      return constraints.empty() ? std::string() : constraints.front().plugin;
+    };
+    for (int k = 0; k < 9 && structure() != "rigid"; ++k) QTest::keyClick(holds, Qt::Key_Up);
+    for (int k = 0; k < 9 && structure() != "rigid"; ++k) QTest::keyClick(holds, Qt::Key_Down);
+    QCOMPARE(structure(), std::string("rigid"));
+    QTRY_VERIFY_WITH_TIMEOUT(!session().appliesAtOnce() || !placesOf(id).empty(), kLong);
+  }
   void pointTo(const Vector3& place) {
     const QPointF at = hands::pixelOf(*view(), place);
     QMouseEvent event(QEvent::MouseMove, at, view()->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
