@@ -8,9 +8,13 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 
+#include <QtCore/QFile>
 #include <QtCore/QObject>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QTest>
 
 #include <memory>
+#include <optional>
 
 namespace ps {
 
@@ -43,6 +47,17 @@ class ToolTest : public QObject {
     pointer.scene = m_engine->snapshot();
     return pointer;
   }
+  /// Plugins with one of the fixtures, under the name of what it is to do.
+  std::unique_ptr<PluginRegistry> fixtureNamed(const QString& behaviour, const QString& library) {
+    m_folder.emplace();
+    [&] {
+      QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QLatin1Char('/') + library,
+                          m_folder->filePath(behaviour + QStringLiteral(".so"))));
+    }();
+    PluginRegistry::Options options;
+    options.extraPaths = {m_folder->path().toStdString()};
+    return std::make_unique<PluginRegistry>(options);
+  }
   void take(const char* brush, double radius = 0.05) {
     m_tools->activate(kBrushTool);
     m_tools->takeBrush(brush);
@@ -51,6 +66,7 @@ class ToolTest : public QObject {
     m_tools->setBrush(settings);
   }
 
+  std::optional<QTemporaryDir> m_folder;  ///< of the fixture
   std::unique_ptr<PluginRegistry> m_plugins = std::make_unique<PluginRegistry>();
   std::unique_ptr<Document> m_document;
   std::unique_ptr<EngineThread> m_engine;

@@ -10,8 +10,6 @@
 #include "ui/tools/gizmo.h"
 #include "ui/tools/guides.h"
 
-#include <QtCore/QFile>
-#include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
@@ -752,12 +750,7 @@ class TestTools : public ToolTest {
  private:
   /// A brush that behaves so, in hand.
   void withFixture(const QString& behaviour) {
-    m_folder.emplace();
-    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_brush.so"),
-                        m_folder->filePath(behaviour + QStringLiteral(".so"))));
-    PluginRegistry::Options options;
-    options.extraPaths = {m_folder->path().toStdString()};
-    m_fixture = std::make_unique<PluginRegistry>(options);
+    m_fixture = fixtureNamed(behaviour, QStringLiteral("fixture_brush.so"));
     m_document->setPlugins(m_fixture.get());
     BrushSettings brush = m_tools->brush();
     brush.shape = "fixture.brush";
@@ -786,7 +779,6 @@ class TestTools : public ToolTest {
     m_tools->setBrush(brush);
   }
 
-  std::optional<QTemporaryDir> m_folder;
   std::unique_ptr<PluginRegistry> m_fixture;  ///< with which the document goes on
 };
 

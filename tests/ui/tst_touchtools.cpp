@@ -11,10 +11,7 @@
 #include "ui/tools/handbrush.h"
 #include "ui/tools/sight.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
-#include <QtCore/QFile>
-#include <QtCore/QTemporaryDir>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
@@ -698,21 +695,12 @@ class TestTouchTools : public ToolTest {
 
  private:
   static const Vector3 kTop;
-  QTemporaryDir m_folder;
 
   /// A brush for matter that behaves so, in hand in the same scene; an endless one takes as long as PS_LET_GO is not
   /// set.
   void takeFixture(const QString& behaviour) {
-    const QDir folder(m_folder.filePath(behaviour));
-    const QString file = folder.filePath(behaviour + QStringLiteral(".so"));
-    if (!QFile::exists(file)) {
-      QVERIFY(folder.mkpath(QStringLiteral(".")));
-      QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_touch.so"), file));
-    }
     close();
-    PluginRegistry::Options options;
-    options.extraPaths = {folder.path().toStdString()};
-    m_plugins = std::make_unique<PluginRegistry>(options);
+    m_plugins = fixtureNamed(behaviour, QStringLiteral("fixture_touch.so"));
     init();
     connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
       m_plugins->fault(brush.toStdString(), problem.toStdString());
