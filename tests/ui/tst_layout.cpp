@@ -105,7 +105,7 @@ class TestLayout : public QObject {
     QVERIFY(is(m_window->viewport()->width(), 480));  // the least that any view has
   }
 
-  /// No frames, arrows and panes of Qt's own, one style sheet, one family of letters.
+  /// No frames, arrows and panes of Qt's own, one style sheet, no letters but our own.
   void nothingLooksLikeDefaultQt() {
     open({1280, 800});
     const QStringList families{QStringLiteral("PhaseSketch UI"), QStringLiteral("PhaseSketch Symbols")};

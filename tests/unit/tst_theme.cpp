@@ -115,8 +115,6 @@ std::vector<QColor> seriesOf(bool dark) {
   return colours;
 }
 
-}  // namespace
-
 /// A selector of the style sheet, with the colours that it sets; transparent counts as none.
 struct SheetRule {
   QString selector;
@@ -155,6 +153,8 @@ QColor inForce(const std::vector<SheetRule>& rules, const QString& selector, QCo
   }
   return otherwise;
 }
+
+}  // namespace
 
 class TestTheme : public QObject {
   Q_OBJECT
@@ -324,7 +324,7 @@ void TestTheme::phasesAreToldApartInGrey() {
   }
 }
 
-/// The renderer reads no tokens: that colour is written twice, and no other.
+/// The renderer reads no tokens: the accent stands among the colours of its scene as well, once for each theme.
 void TestTheme::guidesAreInTheAccent() {
   const QByteArray maps = themeResource(QStringLiteral("theme/maps.json"));
   const QJsonObject scene = QJsonDocument::fromJson(maps).object()[QStringLiteral("scene")].toObject();
