@@ -38,8 +38,10 @@
 #include <QtWidgets/QScrollBar>
 #include <QtWidgets/QTreeView>
 
+#include <limits>
 #include <map>
 #include <set>
+#include <vector>
 
 using namespace ps;
 
@@ -583,17 +585,25 @@ class TestContentWindow : public SampleWindowTest {
   /// line, and over the scene the tag and the ends of the legend.
   void runningDigitsStandStill() {
     m_window->layoutOfDocks().showPage(QStringLiteral("Energy"));
-    QWidgetList watched{m_window->outliner()->view()->viewport(), m_window->findChild<StatusLine*>()};
-    watched += m_window->findChild<Transport*>()->findChildren<QWidget*>();
-    watched += m_window->findChild<EnergyPanel*>()->findChild<QLabel*>();  // a graph moves with what it shows
+    // In each of these digits run; a graph moves with what it shows.
+    const std::vector<QWidgetList> places{{m_window->outliner()->view()->viewport()},
+                                          {m_window->findChild<StatusLine*>()},
+                                          m_window->findChild<Transport*>()->findChildren<QWidget*>(),
+                                          {m_window->findChild<EnergyPanel*>()->findChild<QLabel*>()}};
     session().play();
-    const auto changed = [&] {
-      for (QWidget* widget : watched) {
-        if (!widget->visibleRegion().isEmpty()) standsStill(*widget, paintedBy(*widget));
+    const auto leastChanged = [&] {
+      int least = std::numeric_limits<int>::max();
+      for (const QWidgetList& place : places) {
+        int changed = 0;
+        for (QWidget* widget : place) {
+          if (!widget->visibleRegion().isEmpty()) standsStill(*widget, paintedBy(*widget));
+          changed += m_changedInPlace[widget];
+        }
+        least = std::min(least, changed);
       }
-      return m_changedInPlace;
+      return least;
     };
-    QTRY_VERIFY_WITH_TIMEOUT(changed() > 20, kLong);
+    QTRY_VERIFY_WITH_TIMEOUT(leastChanged() > 5, kLong);
     session().pause();
     OverlayState state;
     state.size = view()->size();
@@ -674,19 +684,7 @@ class TestContentWindow : public SampleWindowTest {
       return pixel ? QPointF((*pixel)[0], (*pixel)[1]) : QPointF();
     };
     const QColor line = Theme::current()[erase ? Token::Error : Token::Accent], cross = Theme::current()[Token::Text];
-    // The nearest within a pixel: lines are 1 to 1.5 wide, and their edges smooth.
-    const auto shows = [&](const QPointF& point, const QColor& colour) {
-      int nearest = 255;
-      for (int dx = -1; dx <= 1; ++dx) {
-        for (int dy = -1; dy <= 1; ++dy) {
-          const QColor pixel = image.pixelColor(point.toPoint() + QPoint(dx, dy));
-          nearest = std::min(nearest,
-                             std::max({std::abs(pixel.red() - colour.red()), std::abs(pixel.green() - colour.green()),
-                                       std::abs(pixel.blue() - colour.blue())}));
-        }
-      }
-      return nearest < 90;
-    };
+    const auto shows = [&](const QPointF& point, const QColor& colour) { return isNear(image, point, colour); };
     const QPointF centre = at(cursor.centre);
     const CameraFrame frame = frameOf(state.camera);
     const double reach =
@@ -700,14 +698,7 @@ class TestContentWindow : public SampleWindowTest {
     const Vector3 foot{cursor.centre[0], cursor.floor, cursor.centre[2]};
     for (const Vector3& way : {Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, 0, 1), Vector3(0, 0, -1)})
       QVERIFY(shows(at(foot + radius * way), line));
-    int dots = 0;
-    bool on = false;
-    const int x = qRound(at(foot).x());
-    for (int y = qRound(centre.y() + reach + 6); y < at(foot).y() - 2; ++y) {
-      const bool now = image.pixelColor(x, y).lightness() + image.pixelColor(x - 1, y).lightness() > 20;
-      dots += now && !on ? 1 : 0;
-      on = now;
-    }
+    const int dots = dotsBelow(image, QPoint(qRound(at(foot).x()), qRound(centre.y() + reach + 6)), at(foot).y() - 2);
     QVERIFY2(dots >= 6, qPrintable(QString::number(dots)));
     TextDevice device(image.size());
     painter.begin(&device);
@@ -718,6 +709,30 @@ class TestContentWindow : public SampleWindowTest {
   }
 
  private:
+  /// Within a pixel: lines are 1 to 1.5 wide, and their edges smooth.
+  static bool isNear(const QImage& image, const QPointF& point, const QColor& colour) {
+    int nearest = 255;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const QColor pixel = image.pixelColor(point.toPoint() + QPoint(dx, dy));
+        nearest =
+            std::min(nearest, std::max({std::abs(pixel.red() - colour.red()), std::abs(pixel.green() - colour.green()),
+                                        std::abs(pixel.blue() - colour.blue())}));
+      }
+    }
+    return nearest < 90;
+  }
+  /// Of a dotted line that goes down from a pixel.
+  static int dotsBelow(const QImage& image, const QPoint& from, double bottom) {
+    int dots = 0;
+    bool on = false;
+    for (int y = from.y(); y < bottom; ++y) {
+      const bool now = image.pixelColor(from.x(), y).lightness() + image.pixelColor(from.x() - 1, y).lightness() > 20;
+      dots += now && !on ? 1 : 0;
+      on = now;
+    }
+    return dots;
+  }
   /// Paused there, nothing waits for a reset.
   void leaveTheStart() {
     session().step();
@@ -733,7 +748,7 @@ class TestContentWindow : public SampleWindowTest {
     if (isNew) return;
     for (qsizetype k = 0; k < texts.size(); ++k) {
       const PaintedText &now = texts[k], &then = before->second[k];
-      m_changedInPlace += now.text == then.text ? 0 : 1;
+      m_changedInPlace[&widget] += now.text == then.text ? 0 : 1;
       const QRectF a = now.place, b = then.place;
       // Glyphs are measured in 1/64 px.
       QVERIFY2(std::abs(a.left() - b.left()) < 0.5 && std::abs(a.right() - b.right()) < 0.5,
@@ -741,7 +756,7 @@ class TestContentWindow : public SampleWindowTest {
     }
   }
   std::map<QString, QList<PaintedText>> m_texts;
-  int m_changedInPlace = 0;
+  std::map<const QWidget*, int> m_changedInPlace;
   /// What stands beside a name in the outliner.
   QString probeDetail(const QString& name) const {
     const QAbstractItemModel* model = m_window->outliner()->view()->model();
