@@ -165,6 +165,20 @@ std::string at(View path, size_t line, View what) {
   return std::string(path) + ":" + std::to_string(line) + ": " + std::string(what);
 }
 
+/// Calls use(place, match) for all that begins with one of some words, which are found sooner than by an expression.
+template <class Use>
+void eachMatch(const std::string& text, std::initializer_list<View> beginnings, const std::regex& wanted, Use use) {
+  for (const View beginning : beginnings) {
+    for (size_t p = text.find(beginning); p != View::npos; p = text.find(beginning, p)) {
+      std::smatch match;
+      const auto from = text.begin() + static_cast<ptrdiff_t>(p);
+      const bool found = std::regex_search(from, text.end(), match, wanted, std::regex_constants::match_continuous);
+      if (found) use(p, match);
+      p += found ? static_cast<size_t>(match.length()) : beginning.size();
+    }
+  }
+}
+
 bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 bool hasWord(View line, View word) {
@@ -287,20 +301,21 @@ Problems messages(View path, View text) {
       kAlone("show\\([^,;]+,\\s*MessageLevel::(?:Warning|Error),\\s*[^,;]+\\);");
   Problems problems;
   const std::string all(text);
-  const auto lineOf = [&](std::ptrdiff_t place) {
-    return static_cast<size_t>(std::count(all.begin(), all.begin() + place, '\n')) + 1;
+  const auto lineOf = [&](size_t place) {
+    return static_cast<size_t>(std::count(all.begin(), all.begin() + static_cast<ptrdiff_t>(place), '\n')) + 1;
   };
-  for (std::sregex_iterator it(all.begin(), all.end(), kTitle), end; it != end; ++it) {
-    const std::string title = (*it)[1].matched ? (*it)[1].str() : (*it)[2].str();
+  eachMatch(all, {"refuse(", "refuseUntilEdited(", "show("}, kTitle, [&](size_t place, const std::smatch& match) {
+    const std::string title = match[1].matched ? match[1].str() : match[2].str();
     if (!title.ends_with('.') && !title.ends_with('?'))
-      problems.push_back(at(path, lineOf(it->position()), "\"" + title + "\" is no sentence"));
-  }
-  for (const std::regex* lacking : {&kBare, &kAlone}) {
-    for (std::sregex_iterator it(all.begin(), all.end(), *lacking), end; it != end; ++it)
-      problems.push_back(at(path, lineOf(it->position()), "says what is wrong, and not what follows or what to do"));
-  }
+      problems.push_back(at(path, lineOf(place), "\"" + title + "\" is no sentence"));
+  });
+  const auto lacks = [&](size_t place, const std::smatch&) {
+    problems.push_back(at(path, lineOf(place), "says what is wrong, and not what follows or what to do"));
+  };
+  eachMatch(all, {"MessageLevel::Error, "}, kBare, lacks);
+  eachMatch(all, {"show("}, kAlone, lacks);
   eachLine(text, [&](size_t number, View line) {
-    if (std::regex_search(line.begin(), line.end(), kShout))
+    if (line.find('!') != View::npos && std::regex_search(line.begin(), line.end(), kShout))
       problems.push_back(at(path, number, "messages have no exclamation marks"));
   });
   return problems;
@@ -328,6 +343,7 @@ std::vector<std::string> defined(View text) {
           "(?: : .*)?(?: ?\\{.*)");
   std::vector<std::string> found, spaces;
   eachLine(text, [&](size_t, View line) {
+    if (!startsWithAny(line, {"namespace", "}  // namespace", "template <", "class ", "struct ", "enum "})) return;
     std::cmatch match;
     if (std::regex_match(line.data(), line.data() + line.size(), match, kNamespace)) {
       spaces.push_back(match[1]);
