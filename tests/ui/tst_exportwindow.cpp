@@ -23,9 +23,11 @@
 #include <QtCore/QPointer>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtGui/QImage>
 #include <QtWidgets/QComboBox>
+#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
@@ -324,18 +326,39 @@ class TestExportWindow : public SampleWindowTest {
     auto* from = field<QLineEdit>("From, in s");
     QTest::keyClicks(from, QStringLiteral("0"));
     QVERIFY(button("Export")->isEnabled());
-    bool couldExport = true;
+    bool couldExport = true, asked = true;
     QObject here;
     connect(&document(), &Document::changed, &here, [&](const ChangeEvent& event) {
-      if (std::holds_alternative<ProjectOpened>(event)) couldExport = button("Export")->isEnabled();
+      if (!std::holds_alternative<ProjectOpened>(event)) return;
+      couldExport = button("Export")->isEnabled() || ExportForm(session()).exportButton().isEnabled();
+      m_window->action(QStringLiteral("file.export"))->trigger();
+      asked = m_window->findChild<ExportForm*>() != nullptr;
     });
     QSignalSpy shown(&session(), &Session::projectShown);
     m_window->openFile(kSample);
     QTRY_VERIFY_WITH_TIMEOUT(!dialog, kLong);
     QVERIFY(!shown.isEmpty() || shown.wait(kLong));
-    QVERIFY(!couldExport);
+    QVERIFY(!couldExport && !asked);
     QCOMPARE(from->text(), QStringLiteral("0"));
     QTRY_VERIFY_WITH_TIMEOUT(button("Export")->isEnabled(), kLong);
+    session().pause();
+  }
+
+  /// A form asks for a place while another project comes: the question goes with the form, and nothing is chosen.
+  void aQuestionGoesWithItsForm() {
+    QVERIFY(openDialog<ExportForm>("file.export"));
+    const QPointer<QWidget> dialog = m_form->window();
+    QPointer<QFileDialog> asked;
+    QObject here;
+    QTimer::singleShot(0, &here, [&] {
+      asked = m_form->findChild<QFileDialog*>();
+      m_window->openFile(kSample);
+      if (asked) QTimer::singleShot(kLong, asked.data(), &QDialog::reject);  // else a failure would wait for ever
+    });
+    QSignalSpy shown(&session(), &Session::projectShown);
+    field<QPushButton>("Where")->click();
+    QVERIFY(!dialog && !asked);
+    QVERIFY(!shown.isEmpty() || shown.wait(kLong));
     session().pause();
   }
 

@@ -45,6 +45,8 @@ class Session : public QObject {
 
   void start();  ///< begins to load plugins; ready() follows
   bool isReady() const { return m_engine != nullptr; }
+  /// The project's first snapshot has not come yet: what is recorded is the run of the one before. See projectShown().
+  bool isOpening() const { return m_opening; }
 
   Document& document() { return *m_document; }
   DocumentFiles& files() { return *m_files; }

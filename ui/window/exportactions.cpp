@@ -78,9 +78,10 @@ void ExportActions::setEnabled(bool on) {
 void ExportActions::open(const QString& name, const std::function<QDialog*()>& make) {
   if (auto* dialog = m_actions.window().findChild<QDialog*>(name)) return bringUp(*dialog);
   const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
-  const QString why = m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
-                      : any                     ? QString()
-                                                : QStringLiteral("Nothing has been recorded of a run.");
+  const QString why = m_session.isOpening()       ? QStringLiteral("The project is still being opened.")
+                      : m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
+                      : any                       ? QString()
+                                                  : QStringLiteral("Nothing has been recorded of a run.");
   m_notices.refuse(QStringLiteral("Nothing is exported."), why);
   if (!why.isEmpty()) return;
   QDialog* dialog = make();

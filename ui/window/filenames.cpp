@@ -8,6 +8,7 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
+#include <QtCore/QPointer>
 #include <QtCore/QRegularExpression>
 #include <QtWidgets/QFileDialog>
 #include <QtWidgets/QHeaderView>
@@ -16,16 +17,20 @@
 namespace ps {
 namespace {
 
-/// "" when given up. Where the desktop has no dialog of its own, Qt's has its columns as wide as their texts.
-QString chosenIn(QFileDialog& dialog) {
-  if (auto* list = dialog.findChild<QTreeView*>(QStringLiteral("treeView"))) {
-    dialog.resize(760, 480);
+/// "" when given up, and where the dialog has gone meanwhile with its parent, which may close by itself. Where the
+/// desktop has no dialog of its own, Qt's has its columns as wide as their texts.
+QString chosenIn(const QPointer<QFileDialog>& dialog) {
+  if (auto* list = dialog->findChild<QTreeView*>(QStringLiteral("treeView"))) {
+    dialog->resize(760, 480);
     QHeaderView* header = list->header();
     header->setStretchLastSection(false);
     for (int column = 0; column < header->count(); ++column)
       header->setSectionResizeMode(column, column == 0 ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
   }
-  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().constFirst() : QString();
+  const bool chosen = dialog->exec() == QDialog::Accepted;
+  const QString path = chosen && dialog ? dialog->selectedFiles().constFirst() : QString();
+  delete dialog;
+  return path;
 }
 
 /// Of a folder that is not there Qt would make a file's name.
@@ -42,23 +47,23 @@ QString fileNameFor(QString title) {
 }
 
 QString fileToWrite(QWidget* parent, const QString& title, const QString& suggestion, const QString& filter) {
-  QFileDialog dialog(parent, title, present(QFileInfo(suggestion).path()), filter);
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QFileInfo(suggestion).suffix());
-  dialog.selectFile(QFileInfo(suggestion).fileName());
+  const QPointer dialog(new QFileDialog(parent, title, present(QFileInfo(suggestion).path()), filter));
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  dialog->setDefaultSuffix(QFileInfo(suggestion).suffix());
+  dialog->selectFile(QFileInfo(suggestion).fileName());
   return chosenIn(dialog);
 }
 
 QString fileToRead(QWidget* parent, const QString& title, const QString& folder, const QString& filter) {
-  QFileDialog dialog(parent, title, present(folder), filter);
-  dialog.setFileMode(QFileDialog::ExistingFile);
+  const QPointer dialog(new QFileDialog(parent, title, present(folder), filter));
+  dialog->setFileMode(QFileDialog::ExistingFile);
   return chosenIn(dialog);
 }
 
 QString folderToUse(QWidget* parent, const QString& title, const QString& folder) {
-  QFileDialog dialog(parent, title, present(folder));
-  dialog.setFileMode(QFileDialog::Directory);
-  dialog.setOption(QFileDialog::ShowDirsOnly);
+  const QPointer dialog(new QFileDialog(parent, title, present(folder)));
+  dialog->setFileMode(QFileDialog::Directory);
+  dialog->setOption(QFileDialog::ShowDirsOnly);
   return chosenIn(dialog);
 }
 

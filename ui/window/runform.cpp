@@ -140,12 +140,10 @@ void RunForm::followRun() {
   connect(&m_session.work(), &RunWork::ended, this, [this] { m_looked.clear(); });
   // Until a project's first frame has come, the run that is recorded is that of the one before.
   connect(&m_session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
-    if (!std::holds_alternative<ProjectOpened>(event)) return;
-    m_opens = true;
-    refresh();
+    if (std::holds_alternative<ProjectOpened>(event)) refresh();
   });
   connect(&m_session, &Session::projectShown, this, [this] {
-    m_rangeTyped = m_chosen = m_opens = false;
+    m_rangeTyped = m_chosen = false;
     addRates();
     showAll();
     refresh();
@@ -208,7 +206,8 @@ void RunForm::refresh() {
   lookAtPlace();
   const size_t count = frames();
   const bool busy = m_session.work().isBusy();
-  const QString limited = m_opens     ? QStringLiteral("The project is still being opened.")
+  const bool opens = m_session.isOpening();
+  const QString limited = opens       ? QStringLiteral("The project is still being opened.")
                           : busy      ? QStringLiteral("Other work is still going on.")
                           : count > 0 ? limits()
                                       : QString();
@@ -216,7 +215,7 @@ void RunForm::refresh() {
                                                  "second not before the first.")
                      : limited.isEmpty() ? summary()
                                          : summary() + QLatin1Char(' ') + limited);
-  m_begin->setEnabled(count > 0 && isPossible() && !busy && !m_opens);
+  m_begin->setEnabled(count > 0 && isPossible() && !busy && !opens);
 }
 
 void RunForm::showPlace() {

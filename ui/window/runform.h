@@ -88,7 +88,6 @@ class RunForm : public QWidget {
   bool m_rangeTyped = false;
   QString m_looked;  ///< place and names that m_replaces is of: disks may be slow
   bool m_replaces = false;
-  bool m_opens = false;  ///< a project, whose run has not begun
   ShownTime m_shownFrom, m_shownTo;
   double m_shownLength = 0;  ///< s of a frame, by which rates are told
 };
