@@ -2,9 +2,11 @@
 // Gestures around the brush in the window: its size, the matter that it takes, and the other end of a pen.
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/dock.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/noticebar.h"
 
@@ -154,6 +156,30 @@ class TestBrushWindow : public SampleWindowTest {
     QVERIFY(favourites.all().empty());
     brush.shape = "cube";
     m_window->tools().setBrush(brush);
+  }
+
+  /// Commands of rows that Ctrl+K has are for those of the brush, too; what these are not asked for is refused.
+  void rowsOfTheBrushTakeCommands() {
+    m_window->inspectorDock()->showPage(QStringLiteral("Brush"));
+    const double before = m_window->tools().brush().temperature;
+    BrushSettings brush = m_window->tools().brush();
+    brush.temperature = before + 100;
+    m_window->tools().setBrush(brush);
+    auto* panel = m_window->findChild<BrushPanel*>();
+    QVERIFY(panel && panel->reveal(QStringLiteral("temperature")));
+    ParameterRow* row = panel->row(QStringLiteral("temperature"));
+    const auto ask = [&](const char* command) {
+      for (const int x : {20, 24}) QTest::mouseMove(row, QPoint(x, 12));
+      QTRY_VERIFY(row->isHovered());
+      m_window->action(QStringLiteral("edit.row.") + QLatin1String(command))->trigger();
+    };
+    ask("plot");
+    QVERIFY(m_window->notice()->text().contains(QStringLiteral("no value of the scene")));
+    ask("reset");
+    QCOMPARE(m_window->tools().brush().temperature, BrushSettings{}.temperature);
+    brush.temperature = before;
+    m_window->tools().setBrush(brush);
+    QCOMPARE(document().undoStack().count(), 0);
   }
 
   /// Brackets with Shift, as keyboards send them; brushes without a flow stay as they are, and say so.

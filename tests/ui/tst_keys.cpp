@@ -230,6 +230,9 @@ class TestKeys : public SampleWindowTest {
     choose(row, {QStringLiteral("To the next key"), QStringLiteral("Smooth curve")});
     QVERIFY(document().track(kFloor)->keys[0].toNext == ToNext::Smooth);
     QVERIFY(row.model().way == ToNext::Smooth);
+    hover(row);
+    m_window->action(QStringLiteral("edit.row.hold"))->trigger();  // which Ctrl+K has
+    QVERIFY(document().track(kFloor)->keys[0].toNext == ToNext::Step);
     choose(row, {QStringLiteral("Remove all keys")});
     QVERIFY(!document().track(kFloor));
     QCOMPARE(row.model().keyMark, KeyMark::None);

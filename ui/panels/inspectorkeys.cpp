@@ -13,17 +13,7 @@ namespace ps {
 
 double Inspector::now() const { return m_session.now(); }
 
-ParameterRow* Inspector::rowAtHand() const {
-  ParameterRow* wanted = nullptr;
-  for (const ParameterPanel* panel : panels()) {
-    if (!panel->isVisible()) continue;
-    for (ParameterRow* row : panel->rows()) {
-      if (row->isHovered() || (!wanted && row->hasFocus())) wanted = row;
-      if (row->isHovered()) break;
-    }
-  }
-  return wanted;
-}
+ParameterRow* Inspector::rowAtHand() const { return ps::rowAtHand(panels()); }
 
 void Inspector::onKey(const QString& key, const Value& shown) {
   const auto address = Address::parse(key.toStdString());

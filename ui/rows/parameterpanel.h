@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace ps {
@@ -56,7 +57,7 @@ class ParameterPanel : public QWidget {
   void setFilter(const QString& text);
   void setChangedOnly(bool on);
   void setGroupFolded(const QString& group, bool folded);
-  QStringList foldedGroups() const;  ///< sorted, also of other rows that it has had
+  QStringList foldedGroups() const;                ///< sorted, also of other rows that it has had
   bool isRowShown(const ParameterRow* row) const;  ///< by filter and folding
   /// Unfolds a row's group, scrolls so that its heading stands on top (unless the row would be out of sight then) and
   /// gives the row the focus where asked. False: no such row.
@@ -86,5 +87,8 @@ class ParameterPanel : public QWidget {
   struct Private;
   std::unique_ptr<Private> d;
 };
+
+/// Of panels that are shown: the row under the pointer, or else the one that has the focus; nullptr: there is none.
+ParameterRow* rowAtHand(std::span<ParameterPanel* const> panels);
 
 }  // namespace ps

@@ -15,6 +15,8 @@ class QLineEdit;
 
 namespace ps {
 
+enum class RowCommand;
+
 /// Where an edit stands. Every gesture is Begin, any number of Live, End: one undo step. Begin carries the value
 /// before, Live and End the new one; a gesture taken back with Esc ends with the value it began with.
 enum class Edit { Begin, Live, End };
@@ -117,6 +119,8 @@ class ParameterRow : public QWidget {
   /// Asks for a key of the value that is shown, or for none where there is one. Nothing where nobody listens.
   void toggleKey();
   bool isHovered() const;
+  /// Somebody listens to what it asks for: rows that are no values of the scene have no keys, graphs and pins.
+  bool isServed(RowCommand command) const;
   /// Ends a gesture that is still open, and drops what was typed and not entered.
   void finishEditing();
   void startTyping();  ///< opens the line edit

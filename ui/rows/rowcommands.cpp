@@ -4,6 +4,7 @@
 #include "ui/rows/parameterrow.h"
 #include "ui/rows/rowvalue.h"
 
+#include <QtCore/QMetaMethod>
 #include <QtCore/QTimer>
 #include <QtGui/QClipboard>
 #include <QtGui/QGuiApplication>
@@ -14,6 +15,21 @@ namespace ps {
 namespace {
 
 using api::ParameterKind;
+
+constexpr const char* kToNext = "To the next key";
+constexpr NamedRowCommand kCommands[] = {
+    {RowCommand::Copy, "copy", "Copy value"},
+    {RowCommand::Paste, "paste", "Paste value"},
+    {RowCommand::Reset, "reset", "Reset"},
+    {RowCommand::MakeConstant, "constant", "Make constant"},
+    {RowCommand::Pin, "pin", "Pin to “Try these”, or remove from there"},
+    {RowCommand::Plot, "plot", "Plot"},
+    {RowCommand::HoldToNext, "hold", "Hold its value", kToNext},
+    {RowCommand::LineToNext, "line", "Straight line", kToNext},
+    {RowCommand::CurveToNext, "curve", "Smooth curve", kToNext},
+    {RowCommand::RemoveKeys, "keys", "Remove all keys"},
+    {RowCommand::Explain, "explain", "Explain"},
+};
 
 constexpr int kMenuGone = 100;  ///< ms after which a closed menu's events have come
 
@@ -45,6 +61,14 @@ QString whyNotPlotted(const RowModel& model) {
   return kind == ParameterKind::Choice ? QStringLiteral("Only numbers and switches are plotted.") : QString();
 }
 
+QString whyNoWay(const RowModel& model) {
+  if (model.keyMark == KeyMark::None) return QStringLiteral("It has no keys.");
+  if (const QString why = whyNotEdited(model); !why.isEmpty()) return why;
+  if (isCurve(model.value)) return QStringLiteral("Points of its curve go by keys: the timeline has them.");
+  if (model.declaration.kind == ParameterKind::Toggle) return QStringLiteral("A switch holds its value in any case.");
+  return model.mixed ? QStringLiteral("Values differ here.") : QString();
+}
+
 /// Once the menu's events are over: those that it leaves behind (the pointer's return, the focus) take a tip away.
 void explain(ParameterRow& row, const QPoint& global) {
   QTimer::singleShot(kMenuGone, &row, [&row, global] {
@@ -55,8 +79,46 @@ void explain(ParameterRow& row, const QPoint& global) {
 
 }  // namespace
 
+std::span<const NamedRowCommand> rowCommands() { return kCommands; }
+
+QString textOf(RowCommand command) {
+  for (const NamedRowCommand& each : kCommands) {
+    if (each.command == command) return QString::fromUtf8(each.text);
+  }
+  return {};
+}
+
+std::optional<ToNext> wayOf(RowCommand command) {
+  switch (command) {
+    case RowCommand::HoldToNext:
+      return ToNext::Step;
+    case RowCommand::LineToNext:
+      return ToNext::Linear;
+    case RowCommand::CurveToNext:
+      return ToNext::Smooth;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool ParameterRow::isServed(RowCommand command) const {
+  if (wayOf(command)) return isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::wayChosen));
+  switch (command) {
+    case RowCommand::Pin:
+      return isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::pinToggled));
+    case RowCommand::Plot:
+      return isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::plotRequested));
+    case RowCommand::RemoveKeys:
+      return isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::keysRemoved));
+    default:
+      return true;
+  }
+}
+
 QString whyNot(const ParameterRow& row, RowCommand command) {
   const RowModel& model = row.model();
+  if (!row.isServed(command)) return QStringLiteral("It is no value of the scene.");
+  if (wayOf(command)) return whyNoWay(model);
   switch (command) {
     case RowCommand::Paste:
       return whyNotPasted(model);
@@ -71,14 +133,14 @@ QString whyNot(const ParameterRow& row, RowCommand command) {
       return whyNotPlotted(model);
     case RowCommand::RemoveKeys:
       return model.keyMark == KeyMark::None ? QStringLiteral("It has no keys.") : QString();
-    case RowCommand::Copy:
-    case RowCommand::Explain:
+    default:
       break;
   }
   return {};
 }
 
 void perform(ParameterRow& row, RowCommand command, const QPoint& global) {
+  if (const auto way = wayOf(command)) return row.wayChosen(row.key(), *way);
   switch (command) {
     case RowCommand::Copy:
       return QGuiApplication::clipboard()->setText(row.valueText());
@@ -98,6 +160,8 @@ void perform(ParameterRow& row, RowCommand command, const QPoint& global) {
       return row.keysRemoved(row.key());
     case RowCommand::Explain:
       return explain(row, global);
+    default:
+      break;
   }
 }
 

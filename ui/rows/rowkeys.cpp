@@ -18,18 +18,6 @@ namespace {
 constexpr int kKeyColumn = 14, kKeyRight = 2;
 constexpr double kDiamond = 4.5;  ///< half its width
 
-QString wayText(ToNext way) {
-  switch (way) {
-    case ToNext::Step:
-      return QStringLiteral("Hold its value");
-    case ToNext::Linear:
-      return QStringLiteral("Straight line");
-    case ToNext::Smooth:
-      return QStringLiteral("Smooth curve");
-  }
-  return {};
-}
-
 }  // namespace
 
 void ParameterRow::setKeyMark(KeyMark mark, ToNext way) {
@@ -97,19 +85,26 @@ void ParameterRow::Private::addKeyEntries(QMenu* menu) {
     QObject::connect(key, &QAction::triggered, q, &ParameterRow::toggleKey);
   }
   if (model.keyMark == KeyMark::None) return;
-  if (takesKeys() && declaration().kind != api::ParameterKind::Toggle) {
-    QMenu* ways = menu->addMenu(QStringLiteral("To the next key"));
-    auto* group = new QActionGroup(ways);
-    for (const ToNext way : {ToNext::Step, ToNext::Linear, ToNext::Smooth}) {
-      QAction* action = ways->addAction(wayText(way));
-      action->setCheckable(true);
-      action->setChecked(way == model.way);
-      group->addAction(action);
-      QObject::connect(action, &QAction::triggered, q, [this, way] { Q_EMIT q->wayChosen(model.key, way); });
+  const auto add = [this](QMenu& to, RowCommand command) {
+    QAction* action = to.addAction(textOf(command));
+    QObject::connect(action, &QAction::triggered, q, [this, command] { perform(*q, command, {}); });
+    return action;
+  };
+  QMenu* ways = nullptr;  // to the next key
+  QActionGroup* group = nullptr;
+  for (const NamedRowCommand& each : rowCommands()) {
+    const auto way = wayOf(each.command);
+    if (!way || !whyNot(*q, each.command).isEmpty()) continue;
+    if (!ways) {
+      ways = menu->addMenu(QString::fromUtf8(each.menu));
+      group = new QActionGroup(ways);
     }
+    QAction* action = add(*ways, each.command);
+    action->setCheckable(true);
+    action->setChecked(*way == model.way);
+    group->addAction(action);
   }
-  QAction* all = menu->addAction(QStringLiteral("Remove all keys"));
-  QObject::connect(all, &QAction::triggered, q, [this] { perform(*q, RowCommand::RemoveKeys, {}); });
+  add(*menu, RowCommand::RemoveKeys);
 }
 
 }  // namespace ps

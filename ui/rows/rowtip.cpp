@@ -7,7 +7,6 @@
 #include "ui/theme/theme.h"
 #include "ui/theme/units.h"
 
-#include <QtCore/QMetaMethod>
 #include <QtCore/QPointer>
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QCursor>
@@ -83,24 +82,23 @@ void ParameterRow::Private::openContextMenu(const QContextMenuEvent& event) {
   const bool byKey = event.reason() == QContextMenuEvent::Keyboard;
   const QPointer<QMenu> menu(new QMenu(q));
   const auto may = [this](RowCommand command) { return whyNot(*q, command).isEmpty(); };
-  const auto add = [&menu](const QString& text, RowCommand command) {
-    QAction* action = menu->addAction(text);
+  const auto add = [&menu](RowCommand command) {
+    QAction* action = menu->addAction(textOf(command));
     action->setData(static_cast<int>(command));
     return action;
   };
-  add(QStringLiteral("Copy value"), RowCommand::Copy);
-  add(QStringLiteral("Paste value"), RowCommand::Paste)->setEnabled(may(RowCommand::Paste));
-  add(QStringLiteral("Reset"), RowCommand::Reset)->setEnabled(may(RowCommand::Reset));
-  if (may(RowCommand::MakeConstant)) add(QStringLiteral("Make constant"), RowCommand::MakeConstant);
+  add(RowCommand::Copy);
+  add(RowCommand::Paste)->setEnabled(may(RowCommand::Paste));
+  add(RowCommand::Reset)->setEnabled(may(RowCommand::Reset));
+  if (may(RowCommand::MakeConstant)) add(RowCommand::MakeConstant);
   menu->addSeparator();
-  if (may(RowCommand::Pin) && q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::pinToggled)))
-    add(model.isPinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"),
-        RowCommand::Pin);
-  if (may(RowCommand::Plot) && q->isSignalConnected(QMetaMethod::fromSignal(&ParameterRow::plotRequested)))
-    add(QStringLiteral("Plot"), RowCommand::Plot);
+  if (may(RowCommand::Pin))
+    add(RowCommand::Pin)
+        ->setText(model.isPinned ? QStringLiteral("Remove from “Try these”") : QStringLiteral("Pin to “Try these”"));
+  if (may(RowCommand::Plot)) add(RowCommand::Plot);
   addKeyEntries(menu);
   menu->addSeparator();
-  add(QStringLiteral("Explain"), RowCommand::Explain);
+  add(RowCommand::Explain);
   const QAction* chosen = menu->exec(global);
   if (!menu) return;  // the row went while its menu was open
   menu->deleteLater();

@@ -7,7 +7,7 @@
 #include "ui/document/wallside.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
-#include "ui/rows/parameterrow.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/rows/rowcommands.h"
 #include "ui/session/selection.h"
 #include "ui/window/actions.h"
@@ -32,40 +32,40 @@ void EditActions::makeMenu(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(); });
   m_actions.add(menu, QStringLiteral("edit.key"), QStringLiteral("Set or remove a key"), {QKeySequence(Qt::Key_K)},
                 [this] {
-                  if (ParameterRow* row = rowAtHand(QStringLiteral("No key was set."))) row->toggleKey();
+                  if (ParameterRow* row = orRefused(m_inspector.rowAtHand(), QStringLiteral("No key was set.")))
+                    row->toggleKey();
                 });
   addRowCommands();
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("edit.search")));
 }
 
-ParameterRow* EditActions::rowAtHand(const QString& refusal) {
-  ParameterRow* row = m_inspector.rowAtHand();
+ParameterRow* EditActions::orRefused(ParameterRow* row, const QString& refusal) {
   m_notices.refuse(refusal, row ? QString() : QStringLiteral("Point at the row of a parameter."));
   return row;
 }
 
-/// What the menu of a row has, for Ctrl+K: no menu of the window has rows.
+/// What the menu of a row has, for Ctrl+K: no menu of the window has rows. Those of the brush have one, too.
 void EditActions::addRowCommands() {
-  const auto add = [this](const char* name, const char* text, RowCommand command) {
-    m_actions.add(nullptr, QStringLiteral("edit.row.") + QLatin1String(name), QString::fromUtf8(text), {},
-                  [this, command] {
-                    const QString refusal = QStringLiteral("Nothing was done.");
-                    ParameterRow* row = rowAtHand(refusal);
-                    if (!row) return;
-                    const QString why = whyNot(*row, command);
-                    m_notices.refuse(refusal, why);
-                    if (why.isEmpty()) perform(*row, command, row->mapToGlobal(row->labelRect().bottomLeft()));
-                  });
+  const auto lower = [](const char* text) {
+    const QString whole = QString::fromUtf8(text);
+    return whole.left(1).toLower() + whole.mid(1);
   };
-  add("copy", "Row: copy value", RowCommand::Copy);
-  add("paste", "Row: paste value", RowCommand::Paste);
-  add("reset", "Row: reset", RowCommand::Reset);
-  add("constant", "Row: make constant", RowCommand::MakeConstant);
-  add("pin", "Row: pin to “Try these”, or remove from there", RowCommand::Pin);
-  add("plot", "Row: plot", RowCommand::Plot);
-  add("keys", "Row: remove all keys", RowCommand::RemoveKeys);
-  add("explain", "Row: explain", RowCommand::Explain);
+  for (const NamedRowCommand& each : rowCommands()) {
+    QString title = QStringLiteral("Row: ");
+    if (*each.menu) title += lower(each.menu) + QStringLiteral(": ");
+    m_actions.add(nullptr, QStringLiteral("edit.row.") + QLatin1String(each.name), title + lower(each.text), {},
+                  [this, command = each.command] { performAtHand(command); });
+  }
+}
+
+void EditActions::performAtHand(RowCommand command) {
+  const QString refusal = QStringLiteral("Nothing was done.");
+  ParameterRow* row = orRefused(rowAtHand(m_actions.window().findChildren<ParameterPanel*>()), refusal);
+  if (!row) return;
+  const QString why = whyNot(*row, command);
+  m_notices.refuse(refusal, why);
+  if (why.isEmpty()) perform(*row, command, row->mapToGlobal(row->labelRect().bottomLeft()));
 }
 
 void EditActions::makeWallMenu(QMenu* menu) {

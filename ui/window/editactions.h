@@ -8,6 +8,7 @@ class QPoint;
 
 namespace ps {
 
+enum class RowCommand;
 enum class WallForm;
 
 class Actions;
@@ -34,9 +35,9 @@ class EditActions {
   void openItemMenu(const QPoint& global) const;  ///< of what is selected
 
  private:
-  /// The row of a parameter that is meant; nullptr: there is none, which is said.
-  ParameterRow* rowAtHand(const QString& refusal);
+  ParameterRow* orRefused(ParameterRow* row, const QString& refusal);  ///< says where there is none
   void addRowCommands();
+  void performAtHand(RowCommand command);  ///< with the row that is meant
   void addProbe();
   void addRoundWall(WallForm form);                      ///< see roundWall()
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
