@@ -11,6 +11,7 @@
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/session/selection.h"
+#include "ui/window/dock.h"
 
 #include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
@@ -20,7 +21,9 @@
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace ps;
 
@@ -355,6 +358,33 @@ class TestGraphsWindow : public SampleWindowTest {
     QTRY_VERIFY2_WITH_TIMEOUT(m_window->notice()->text().contains(QStringLiteral("no/such/folder")),
                               qPrintable(m_window->notice()->text()), kLong);
     QVERIFY(m_window->notice()->isVisible());
+  }
+
+  /// Ctrl+K has what a button in a header does for a page that is not shown, and what an action does once.
+  void buttonsOfHeadersAreFound() {
+    m_window->openPage(QStringLiteral("Messages"));
+    const auto entries = m_window->paletteEntries();
+    const auto called = [&](const char* title) {
+      std::vector<PaletteEntry> found;
+      std::copy_if(entries.begin(), entries.end(), std::back_inserter(found),
+                   [&](const PaletteEntry& entry) { return entry.title == QString::fromUtf8(title); });
+      return found;
+    };
+    QCOMPARE(called("Export all frames as CSV…").size(), size_t{1});
+    QCOMPARE(called("Back to the start").size(), size_t{1});
+    QVERIFY(called("Back to the start (Home)").empty());
+    QVERIFY(std::any_of(entries.begin(), entries.end(), [](const PaletteEntry& entry) {
+      return entry.title == QStringLiteral("Where") && entry.where == QStringLiteral("Film");
+    }));
+    QVERIFY(std::none_of(entries.begin(), entries.end(),
+                         [](const PaletteEntry& entry) { return entry.title.startsWith(QStringLiteral("Changed")); }));
+    const auto add = called("Add a graph");
+    QCOMPARE(add.size(), size_t{1});
+    QCOMPARE(add[0].whyNot, QString());
+    add[0].run();
+    QCOMPARE(m_window->layoutOfDocks().dock(QStringLiteral("dock.graphs"))->currentPage(), QStringLiteral("Graphs"));
+    QTRY_VERIFY(QApplication::activePopupWidget());
+    QApplication::activePopupWidget()->close();
   }
 
  private:

@@ -178,7 +178,7 @@ void Dock::showEvent(QShowEvent* event) {
   for (int i = 0; i < m_tabs->count(); ++i) m_tabs->setTabText(i, m_tabs->tabText(i));
 }
 
-QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
+QToolButton* Dock::addAction(const QString& iconName, const QString& tip, const QString& page) {
   auto* button = new QToolButton;
   button->setIcon(icon(iconName));
   button->setToolTip(tip);
@@ -188,6 +188,12 @@ QToolButton* Dock::addAction(const QString& iconName, const QString& tip) {
   if (m_actions->count() > 0) before = m_actions->itemAt(m_actions->count() - 1)->widget();
   m_actions->addWidget(button);
   setTabOrder(before, button);  // as it is read, and not behind the pages, which were made first
+  if (!page.isEmpty()) {
+    button->setProperty(kForPage, page);
+    const auto show = [this, button, page] { button->setVisible(currentPage() == page); };
+    connect(this, &Dock::pageChanged, button, show);
+    show();
+  }
   return button;
 }
 

@@ -11,6 +11,9 @@ class QToolButton;
 
 namespace ps {
 
+/// Property of a button in a dock's header: title of the page that it is for; none: it is for all.
+inline constexpr const char* kForPage = "forPage";
+
 /// A dock with a header of its own: tabs on the left, actions on the right, 28 pixels high.
 class Dock : public QDockWidget {
   Q_OBJECT
@@ -29,7 +32,8 @@ class Dock : public QDockWidget {
   QWidget* firstStop() const;
   void setPageTitle(const QString& title, const QString& shown);
   void movePage(const QString& title, int place);  ///< its tab; -1: behind the others
-  QToolButton* addAction(const QString& icon, const QString& tip);
+  /// In the header, for as long as `page` is shown; "": with all pages.
+  QToolButton* addAction(const QString& icon, const QString& tip, const QString& page = {});
 
  Q_SIGNALS:
   void pageChanged(const QString& title);

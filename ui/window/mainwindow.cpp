@@ -314,14 +314,13 @@ void MainWindow::makeSimulationMenu(QMenu* menu) {
 /// In the header of the dock, beside the graphs alone.
 void MainWindow::connectGraphs() {
   Dock* dock = m_layout->dock(QStringLiteral("dock.graphs"));
-  QToolButton* button = dock->addAction(QStringLiteral("plus"), QStringLiteral("Add a graph"));
+  QToolButton* button =
+      dock->addAction(QStringLiteral("plus"), QStringLiteral("Add a graph"), QStringLiteral("Graphs"));
   connect(button, &QToolButton::clicked, this, [this, button] {
     QMenu* menu = graphs()->makeMenu({});
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->popup(button->mapToGlobal(QPoint(0, button->height())));
   });
-  connect(dock, &Dock::pageChanged, button,
-          [button](const QString& page) { button->setVisible(page == QStringLiteral("Graphs")); });
   QToolButton* save = dock->addAction(QStringLiteral("download"), QStringLiteral("Export all frames as CSV…"));
   connect(save, &QToolButton::clicked, m_files, &FileActions::exportCsv);
   connect(graphs(), &GraphsPanel::exportRequested, this, [this](const QString& id, const QString& ending) {

@@ -32,6 +32,7 @@
 #include "ui/window/windowlayout.h"
 
 #include <QtCore/QPointer>
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
@@ -231,8 +232,18 @@ void showPage(MainWindow& window, const QString& title) {
   layout.openPage(title);
 }
 
-/// Titles of actions and buttons, and what stands beside them. A thing or a row of the same name is something else.
-using Known = std::set<std::pair<QString, QString>>;
+/// A title without the key that may stand behind it: "One frame (→)".
+QString withoutKey(QString title) {
+  static const QRegularExpression kKey(QStringLiteral(" \\([^()]+\\)$"));
+  return title.remove(kKey);
+}
+
+/// What the palette does already. What an action does needs no button beside it, wherever that stands; of two buttons
+/// of one name each may do something else in its place. A thing or a row of the same name is something else.
+struct Known {
+  std::set<QString> actions;
+  std::set<std::pair<QString, QString>> buttons;  ///< title and place
+};
 
 /// Its menu where a press opens one: a click alone does nothing there.
 void press(QAbstractButton& button) {
@@ -243,29 +254,35 @@ void press(QAbstractButton& button) {
     button.click();
 }
 
-/// What can be done by a button of this page alone; it is in sight when it is pressed.
+/// It scrolls tabs, or chooses what is shown of a list.
+bool isForLooking(const QAbstractButton& button) {
+  return qobject_cast<QTabBar*>(button.parentWidget()) || button.objectName() == QStringLiteral("psChip") ||
+         button.objectName() == QStringLiteral("psChanged");
+}
+
+/// What can be done by a button of this page alone; it is in sight when it is pressed. `show(where)`, or in a header
+/// what the button is for.
 void addButtons(Entries& entries, Known& known, QWidget& page, const QString& where,
-                const std::function<void()>& show) {
+                const std::function<void(const QString&)>& show) {
   for (QAbstractButton* button : page.findChildren<QAbstractButton*>()) {
-    if (qobject_cast<QTabBar*>(button->parentWidget())) continue;    // it scrolls the tabs
-    if (button->objectName() == QStringLiteral("psChip")) continue;  // a filter of what is shown
-    const auto* tool = qobject_cast<QToolButton*>(button);
-    // What stands on the button of a menu may be what is chosen there.
-    const bool named = tool && tool->menu() && !button->accessibleName().isEmpty();
-    const QString text = named ? QString() : fromButtonText(button->text());
-    const QString title = text.isEmpty() ? button->accessibleName() : text, place = beside(title, {where});
-    if (title.isEmpty() || !known.emplace(title, place).second) continue;
-    const bool can = button->isEnabled() && button->isVisibleTo(&page);
+    if (isForLooking(*button)) continue;
+    // What stands on a button may be what is chosen there, or as much of a path as there is room for.
+    const QString name = button->accessibleName(), title = name.isEmpty() ? fromButtonText(button->text()) : name;
+    const QString own = button->property(kForPage).toString(), at = own.isEmpty() ? where : own;
+    const QString place = beside(title, {at});
+    if (title.isEmpty() || known.actions.count(withoutKey(title)) || !known.buttons.emplace(title, place).second)
+      continue;
+    const bool seen = button->isVisibleTo(&page) || !own.isEmpty();  // it comes with what it is for
     entries.push_back({title,
                        place,
                        {},
                        button->toolTip(),
-                       [show, button = QPointer(button)] {
-                         show();
+                       [show, at, button = QPointer(button)] {
+                         show(at);
                          if (button) press(*button);
                        },
                        false,
-                       can ? QString() : QStringLiteral("Not possible at present")});
+                       button->isEnabled() && seen ? QString() : QStringLiteral("Not possible at present")});
   }
 }
 
@@ -293,21 +310,20 @@ void addMenu(Entries& entries, const std::shared_ptr<QMenu>& menu, const QString
 }
 
 void addPages(Entries& entries, Known& known, MainWindow& window, const Actions& actions) {
+  const auto showTitled = [&window](const QString& title) { showPage(window, title); };
   for (const DockRow& row : dockTable()) {
     const Dock* dock = window.layoutOfDocks().dock(QString::fromLatin1(row.name));
-    const QString title = QString::fromLatin1(row.title);
-    addButtons(entries, known, *dock->titleBarWidget(), title, [&window, title] { showPage(window, title); });
+    addButtons(entries, known, *dock->titleBarWidget(), QString::fromLatin1(row.title), showTitled);
   }
   for (const PanelRow& row : panelTable()) {
     const QString title = QString::fromLatin1(row.title);
     const Dock* dock = window.layoutOfDocks().dockOf(title);
-    if (QWidget* page = dock ? dock->page(title) : nullptr)
-      addButtons(entries, known, *page, title, [&window, title] { showPage(window, title); });
+    if (QWidget* page = dock ? dock->page(title) : nullptr) addButtons(entries, known, *page, title, showTitled);
   }
   addButtons(entries, known, *window.library().page(), QStringLiteral("Materials of the library"),
-             [open = actions.find(QStringLiteral("add.library"))] { open->trigger(); });
+             [open = actions.find(QStringLiteral("add.library"))](const QString&) { open->trigger(); });
   addButtons(entries, known, *window.pluginPage(), QStringLiteral("Plugins"),
-             [open = actions.find(QStringLiteral("help.plugins"))] { open->trigger(); });
+             [open = actions.find(QStringLiteral("help.plugins"))](const QString&) { open->trigger(); });
   GraphsPanel* graphs = window.graphs();
   std::vector<std::string> ids{{}};  // of the place where none is, too
   for (const Graph& graph : window.session().document().graphs()) ids.push_back(graph.id);
@@ -376,7 +392,7 @@ std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& acti
   Entries entries;
   addActions(entries, window, actions, false);
   Known known;
-  for (const PaletteEntry& entry : entries) known.emplace(entry.title, entry.where);
+  for (const PaletteEntry& entry : entries) known.actions.insert(entry.title);
   addParameters(entries, window);
   addMaterials(entries, window);
   addThings(entries, window);
