@@ -14,6 +14,7 @@
 #include "ui/library/mixdialog.h"
 #include "ui/library/mixpreview.h"
 #include "ui/library/phaseview.h"
+#include "ui/rows/filterfield.h"
 #include "ui/rows/parameterrow.h"
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
@@ -158,6 +159,15 @@ class TestLibrary : public SampleWindowTest {
     search(QString());
     page()->setTag(QStringLiteral("Metals"));
     QVERIFY(page()->shown().contains(entryOf("iron")->label) && !page()->shown().contains(QStringLiteral("Water")));
+    search(QStringLiteral("honey"));  // which the tag hides: it says so, and one click brings all back
+    auto* nothing = page()->findChild<NothingFound*>();
+    QVERIFY(page()->shown().isEmpty() && nothing && nothing->isVisibleTo(page()));
+    QVERIFY2(nothing->text().startsWith(QStringLiteral("Nothing called “honey” among “Metals”.")),
+             qPrintable(nothing->text()));
+    Q_EMIT nothing->linkActivated(QStringLiteral("clear"));
+    QCOMPARE(page()->shown().size(), static_cast<qsizetype>(library().entries().size()));
+    QVERIFY(button(QStringLiteral("All %1").arg(library().entries().size()))->isChecked());
+    QVERIFY(!button(QStringLiteral("Metals"))->isChecked() && !nothing->isVisibleTo(page()));
   }
 
   /// Words of files, of plugins as well.

@@ -41,6 +41,7 @@ namespace ps {
 namespace {
 
 constexpr int kKeyRole = kEntryRole + 1;  // whose card it is, whatever others come
+constexpr const char* kTag = "tag";       // property of a chip; "": all
 constexpr int kPicture = 72;              // px
 constexpr int kWidestColumn = 170;        // px, of a name
 constexpr double kDiffers = 1.1;          // factor from which two values are marked as different
@@ -171,6 +172,7 @@ QWidget* LibraryPage::makeLeft() {
   column->addWidget(m_hint);
   connect(&m_session.swatches(), &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
+  connect(m_nothing, &QLabel::linkActivated, this, [this] { setTag({}); });  // which hides some, too
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
   return left;
@@ -275,9 +277,8 @@ void LibraryPage::refresh() {
     auto* item = new QListWidgetItem(entry.label, m_cards);
     item->setData(kEntryRole, static_cast<int>(i));
     item->setToolTip(QStringLiteral("%1: %2\n%3").arg(entry.label, transitionsText(entry), entry.about).trimmed());
-    const QString key = entry.file + QLatin1Char('|') + QString::fromStdString(entry.material.id);
-    item->setData(kKeyRole, key);
-    item->setSelected(before.contains(key));
+    item->setData(kKeyRole, entry.key());
+    item->setSelected(before.contains(entry.key()));
   }
   if (before.isEmpty() && m_cards->count() > 0) m_cards->setCurrentRow(0);
   delete m_tags;
@@ -286,24 +287,27 @@ void LibraryPage::refresh() {
     delete item->widget();
     delete item;
   }
-  const QString all = QStringLiteral("All %1").arg(m_library.entries().size());
   const QStringList tags = m_library.tags();
   if (!tags.contains(m_tag)) m_tag.clear();
-  for (const QString& tag : QStringList(all) + tags) {
-    auto* chip = new QPushButton(asButtonText(tag));
+  for (const QString& tag : QStringList(QString()) + tags) {
+    const QString all = QStringLiteral("All %1").arg(m_library.entries().size());
+    auto* chip = new QPushButton(asButtonText(tag.isEmpty() ? all : tag));
     chip->setObjectName(QStringLiteral("psChip"));
+    chip->setProperty(kTag, tag);
     chip->setCheckable(true);
-    chip->setChecked(tag == (m_tag.isEmpty() ? all : m_tag));
     m_tags->addButton(chip);
-    connect(chip, &QPushButton::clicked, this, [this, tag, all] { setTag(tag == all ? QString() : tag); });
+    connect(chip, &QPushButton::clicked, this, [this, tag] { setTag(tag); });
     m_chips->addWidget(chip);
   }
-  filter();
+  setTag(m_tag);
   showChosen();
 }
 
 void LibraryPage::setTag(const QString& tag) {
   m_tag = tag;
+  for (QAbstractButton* chip : m_tags->buttons()) {
+    if (chip->property(kTag).toString() == tag) chip->setChecked(true);
+  }
   filter();
 }
 
@@ -315,7 +319,7 @@ void LibraryPage::filter() {
     item->setHidden(!all.contains(m_search->text().trimmed(), Qt::CaseInsensitive) ||
                     (!m_tag.isEmpty() && !entry.tags.contains(m_tag)));
   }
-  m_nothing->standFor(*m_cards, !shown().isEmpty());
+  m_nothing->standFor(*m_cards, !shown().isEmpty(), m_tag);
 }
 
 QStringList LibraryPage::shown() const {

@@ -28,9 +28,10 @@ void FilterField::keyPressEvent(QKeyEvent* event) {
     QLineEdit::keyPressEvent(event);
 }
 
-QString nothingCalled(const QString& wanted) {
-  return QStringLiteral("Nothing called “%1”. <a href=\"clear\">Clear filter</a>")
-      .arg(wanted.trimmed().toHtmlEscaped());
+QString nothingCalled(const QString& wanted, const QString& among) {
+  const QString where = among.isEmpty() ? QString() : QStringLiteral(" among “%1”").arg(among.toHtmlEscaped());
+  return QStringLiteral("Nothing called “%1”%2. <a href=\"clear\">Clear filter</a>")
+      .arg(wanted.trimmed().toHtmlEscaped(), where);
 }
 
 NothingFound::NothingFound(QLineEdit& search) : m_search(search) {
@@ -44,9 +45,9 @@ NothingFound::NothingFound(QLineEdit& search) : m_search(search) {
   });
 }
 
-void NothingFound::standFor(QWidget& list, bool any) {
+void NothingFound::standFor(QWidget& list, bool any, const QString& among) {
   const bool said = !any && !m_search.text().trimmed().isEmpty();
-  setText(nothingCalled(m_search.text()));
+  setText(nothingCalled(m_search.text(), among));
   setVisible(said);
   list.setVisible(!said);
 }

@@ -19,15 +19,17 @@ class FilterField : public QLineEdit {
   QString m_icon;
 };
 
-/// What is said where a search leaves nothing, rich text; its link clears what was typed.
-QString nothingCalled(const QString& wanted);
+/// What is said where a search leaves nothing, rich text; its link clears what was typed. `among`: what else was left
+/// out, by the name of what was not; "": nothing.
+QString nothingCalled(const QString& wanted, const QString& among = {});
 
 /// Stands in the place of a list in which a search has found nothing.
 class NothingFound : public QLabel {
   Q_OBJECT
  public:
   explicit NothingFound(QLineEdit& search);
-  void standFor(QWidget& list, bool any);  ///< `any`: something is left in the list, which shows then
+  /// `any`: something is left in the list, which shows then. `among`: see nothingCalled().
+  void standFor(QWidget& list, bool any, const QString& among = {});
 
  private:
   QLineEdit& m_search;
