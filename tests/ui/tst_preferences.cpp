@@ -23,6 +23,7 @@
 #include "ui/window/shortcutswindow.h"
 
 #include <QtCore/QDir>
+#include <QtCore/QPointer>
 #include <QtCore/QSettings>
 #include <QtCore/QStorageInfo>
 #include <QtCore/QTemporaryDir>
@@ -461,6 +462,18 @@ class TestPreferences : public SampleWindowTest {
     document().undoStack().undo();
     document().undoStack().undo();
     QCOMPARE(writeProject(document().project()), before);
+  }
+
+  /// Asked for at once after it was closed: the one that is going does not come back.
+  void aClosedDialogIsOpenedAgain() {
+    openDialog();
+    const QPointer<QDialog> first = dialog();
+    m_window->action(QStringLiteral("edit.preferences"))->trigger();
+    QVERIFY(dialog() == first);
+    first->close();
+    m_window->action(QStringLiteral("edit.preferences"))->trigger();
+    QTRY_VERIFY(!first);
+    QVERIFY(dialog() && dialog()->isVisible());
   }
 
   /// A dialog that is open, with something typed, goes with its window.

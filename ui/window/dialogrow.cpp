@@ -41,4 +41,15 @@ void bringUp(QDialog& dialog) {
   dialog.activateWindow();
 }
 
+QDialog* bringUp(QWidget& window, const QString& name, const std::function<QDialog*()>& make) {
+  const QList<QDialog*> all = window.findChildren<QDialog*>(name);
+  // One that was closed just now may still be there.
+  const auto open = std::find_if(all.begin(), all.end(), [](const QDialog* one) { return one->isVisible(); });
+  QDialog* dialog = open == all.end() ? make() : *open;
+  if (!dialog) return nullptr;
+  dialog->setObjectName(name);
+  bringUp(*dialog);
+  return dialog;
+}
+
 }  // namespace ps

@@ -2,6 +2,8 @@
 #pragma once
 #include <QtCore/QString>
 
+#include <functional>
+
 class QDialog;
 class QGridLayout;
 class QWidget;
@@ -20,5 +22,7 @@ struct DialogRow {
 void focusDialogRow(const QWidget& dialog, const QString& label);
 /// In front, beside the window, which stays in use: no dialog of ours holds it.
 void bringUp(QDialog& dialog);
+/// One of each name: what is open already, as it was left, or what `make` makes, and nullptr where that makes none.
+QDialog* bringUp(QWidget& window, const QString& name, const std::function<QDialog*()>& make);
 
 }  // namespace ps

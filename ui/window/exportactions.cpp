@@ -74,19 +74,16 @@ void ExportActions::setEnabled(bool on) {
   for (const char* name : {"file.film", "file.export"}) m_actions.find(QString::fromLatin1(name))->setEnabled(on);
 }
 
-/// One form of each name: what is open already comes to the front as it was left.
 void ExportActions::open(const QString& name, const std::function<QDialog*()>& make) {
-  if (auto* dialog = m_actions.window().findChild<QDialog*>(name)) return bringUp(*dialog);
-  const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
-  const QString why = m_session.isOpening()       ? QStringLiteral("The project is still being opened.")
-                      : m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
-                      : any                       ? QString()
-                                                  : QStringLiteral("Nothing has been recorded of a run.");
-  m_notices.refuse(QStringLiteral("Nothing is exported."), why);
-  if (!why.isEmpty()) return;
-  QDialog* dialog = make();
-  dialog->setObjectName(name);
-  bringUp(*dialog);
+  bringUp(m_actions.window(), name, [&]() -> QDialog* {
+    const bool any = m_session.isReady() && m_session.recorded().extent().frames > 0;
+    const QString why = m_session.isOpening()       ? QStringLiteral("The project is still being opened.")
+                        : m_session.work().isBusy() ? QStringLiteral("Other work is still going on.")
+                        : any                       ? QString()
+                                                    : QStringLiteral("Nothing has been recorded of a run.");
+    m_notices.refuse(QStringLiteral("Nothing is exported."), why);
+    return why.isEmpty() ? make() : nullptr;
+  });
 }
 
 void ExportActions::onWorking(const QString& stage, double done, double left) {

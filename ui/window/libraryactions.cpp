@@ -46,25 +46,16 @@ void LibraryActions::addTo(QMenu* menu) {
 }
 
 void LibraryActions::openMix(const QString& first, const QString& second) {
-  const QString name = QStringLiteral("psMix");
-  auto* dialog = m_actions.window().findChild<MixDialog*>(name);
-  if (dialog) {
-    dialog->chooseParts(first, second);
-  } else {
-    dialog = new MixDialog(m_library, m_session, m_selection, first, second, &m_actions.window());
-    dialog->setObjectName(name);
-  }
-  bringUp(*dialog);
+  QMainWindow& window = m_actions.window();
+  QDialog* dialog = bringUp(window, QStringLiteral("psMix"),
+                            [&] { return new MixDialog(m_library, m_session, m_selection, first, second, &window); });
+  static_cast<MixDialog*>(dialog)->chooseParts(first, second);
 }
 
 void LibraryActions::openMixture(const std::string& material) {
-  const QString name = QStringLiteral("psMixture ") + QString::fromStdString(material);
-  auto* dialog = m_actions.window().findChild<MixDialog*>(name);
-  if (!dialog) {
-    dialog = new MixDialog(m_library, m_session, m_selection, material, &m_actions.window());
-    dialog->setObjectName(name);
-  }
-  bringUp(*dialog);
+  QMainWindow& window = m_actions.window();
+  bringUp(window, QStringLiteral("psMixture ") + QString::fromStdString(material),
+          [&] { return new MixDialog(m_library, m_session, m_selection, material, &window); });
 }
 
 /// The scene's own matter changes when somebody says so.

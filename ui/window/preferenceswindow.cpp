@@ -89,7 +89,6 @@ class Preferences : public QDialog {
 };
 
 Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window), m_grid(new QGridLayout(this)) {
-  setObjectName(kName);
   setWindowTitle(QStringLiteral("Preferences"));
   setAttribute(Qt::WA_DeleteOnClose);
   m_grid->setContentsMargins(kEdge, kEdge, kEdge, kEdge);
@@ -363,10 +362,7 @@ void Preferences::refresh() {
 }  // namespace
 
 void openPreferences(MainWindow& window, const QString& row) {
-  auto* dialog = window.findChild<QDialog*>(kName);
-  if (!dialog) dialog = new Preferences(window);
-  bringUp(*dialog);
-  focusDialogRow(*dialog, row);
+  focusDialogRow(*bringUp(window, kName, [&window] { return new Preferences(window); }), row);
 }
 
 std::vector<DialogRow> preferenceRows() {

@@ -66,7 +66,6 @@ ProjectProperties::ProjectProperties(MainWindow& window)
       m_picture(new QLabel),
       m_problem(new QLabel),
       m_file(new QLabel) {
-  setObjectName(kName);
   setWindowTitle(QStringLiteral("Project properties"));
   setAttribute(Qt::WA_DeleteOnClose);
   auto* column = new QVBoxLayout(this);
@@ -227,10 +226,7 @@ void ProjectProperties::done(int result) {
 }  // namespace
 
 void openProjectProperties(MainWindow& window, const QString& row) {
-  auto* dialog = window.findChild<QDialog*>(kName);
-  if (!dialog) dialog = new ProjectProperties(window);
-  bringUp(*dialog);
-  focusDialogRow(*dialog, row);
+  focusDialogRow(*bringUp(window, kName, [&window] { return new ProjectProperties(window); }), row);
 }
 
 std::vector<DialogRow> projectRows() {

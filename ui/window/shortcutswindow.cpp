@@ -68,6 +68,29 @@ void fill(QTreeWidget& list, MainWindow& window) {
   list.expandAll();
 }
 
+QDialog* makeList(MainWindow& window) {
+  auto* dialog = new QDialog(&window);
+  dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  auto* list = new QTreeWidget;
+  list->setAccessibleName(dialog->windowTitle());
+  list->setColumnCount(2);
+  list->setHeaderHidden(true);
+  list->setRootIsDecorated(false);
+  list->setAllColumnsShowFocus(true);
+  list->setSelectionMode(QAbstractItemView::SingleSelection);
+  fill(*list, window);
+  QObject::connect(&window.tools(), &Toolbox::mouseChanged, list, [list, &window] { fill(*list, window); });
+  list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  list->header()->setStretchLastSection(false);
+  list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  auto* column = new QVBoxLayout(dialog);
+  column->setContentsMargins(8, 8, 8, 8);
+  column->addWidget(list);
+  dialog->resize(520, 640);
+  return dialog;
+}
+
 }  // namespace
 
 std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
@@ -86,30 +109,7 @@ std::vector<ShortcutGroup> shortcutGroups(MainWindow& window) {
 }
 
 void openShortcuts(MainWindow& window) {
-  auto* dialog = window.findChild<QDialog*>(kName);
-  if (!dialog) {
-    dialog = new QDialog(&window);
-    dialog->setObjectName(kName);
-    dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    auto* list = new QTreeWidget;
-    list->setAccessibleName(dialog->windowTitle());
-    list->setColumnCount(2);
-    list->setHeaderHidden(true);
-    list->setRootIsDecorated(false);
-    list->setAllColumnsShowFocus(true);
-    list->setSelectionMode(QAbstractItemView::SingleSelection);
-    fill(*list, window);
-    QObject::connect(&window.tools(), &Toolbox::mouseChanged, list, [list, &window] { fill(*list, window); });
-    list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-    list->header()->setStretchLastSection(false);
-    list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-    auto* column = new QVBoxLayout(dialog);
-    column->setContentsMargins(8, 8, 8, 8);
-    column->addWidget(list);
-    dialog->resize(520, 640);
-  }
-  bringUp(*dialog);
+  bringUp(window, kName, [&window] { return makeList(window); });
 }
 
 }  // namespace ps
