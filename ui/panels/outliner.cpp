@@ -55,13 +55,15 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
       m_model(new OutlinerModel(this)),
       m_view(new QTreeView),
       m_filter(new FilterField(this, QStringLiteral("search"))),
-      m_nothing(new QLabel(this)) {
+      m_bare(new QLabel(QStringLiteral("Add a body or press B to sketch"))),
+      m_nothing(new NothingFound(*m_filter)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
   column->setSpacing(4);
   column->addLayout(makeSearch());
-  column->addWidget(m_nothing);
-  column->addWidget(m_view);
+  column->addWidget(m_bare);
+  column->addWidget(m_nothing, 1);
+  column->addWidget(m_view, 1);
   m_view->setModel(m_model);
   m_view->setHeaderHidden(true);
   m_view->setIndentation(12);

@@ -24,6 +24,7 @@ namespace ps {
 
 class Document;
 class FilterField;
+class NothingFound;
 class OutlinerModel;
 class Session;
 
@@ -91,7 +92,8 @@ class Outliner : public QWidget {
   OutlinerModel* m_model;
   QTreeView* m_view;
   FilterField* m_filter;
-  QLabel* m_nothing;  ///< what the search does not find, or what to do where there is no matter
+  QLabel* m_bare;  ///< what to do where there is no matter
+  NothingFound* m_nothing;
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
   std::map<std::string, size_t> m_counts;  ///< particles of it, by body and tap

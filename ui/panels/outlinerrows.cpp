@@ -168,11 +168,11 @@ QLayout* Outliner::makeSearch() {
   m_filter->setPlaceholderText(QStringLiteral("Search"));
   m_filter->setAccessibleName(QStringLiteral("Search the outliner"));
   m_filter->setClearButtonEnabled(false);
-  m_nothing->setTextFormat(Qt::RichText);
-  m_nothing->setContentsMargins(10, 4, 10, 4);
-  m_nothing->setWordWrap(true);
-  m_nothing->hide();
-  connect(m_nothing, &QLabel::linkActivated, m_filter, &QLineEdit::clear);
+  for (QLabel* label : {m_bare, static_cast<QLabel*>(m_nothing)}) {
+    label->setContentsMargins(10, 4, 10, 4);
+    label->setWordWrap(true);
+    label->hide();
+  }
   connect(m_filter, &QLineEdit::textChanged, this, &Outliner::filter);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(6, 0, 6, 0);
@@ -197,9 +197,8 @@ void Outliner::filter() {
   };
   const bool any = show({}, wanted.isEmpty());
   const Project& project = m_document.project();
-  const bool bare = project.bodies.empty() && project.emitters.empty() && wanted.isEmpty();
-  m_nothing->setVisible(!any || bare);
-  m_nothing->setText(bare ? QStringLiteral("Add a body or press B to sketch") : nothingCalled(wanted));
+  m_bare->setVisible(project.bodies.empty() && project.emitters.empty() && wanted.isEmpty());
+  m_nothing->standFor(*m_view, any);
 }
 
 /// To another place in its list, into a group or out of it.

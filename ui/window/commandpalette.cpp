@@ -8,7 +8,6 @@
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QApplication>
-#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
 #include <QtWidgets/QStyledItemDelegate>
@@ -88,7 +87,7 @@ std::vector<size_t> paletteMatches(const std::vector<PaletteEntry>& entries, con
 }
 
 CommandPalette::CommandPalette(QWidget* parent)
-    : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget), m_nothing(new QLabel) {
+    : QWidget(parent), m_field(new QLineEdit), m_list(new QListWidget), m_nothing(new NothingFound(*m_field)) {
   setObjectName(QStringLiteral("psPalette"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
@@ -101,15 +100,11 @@ CommandPalette::CommandPalette(QWidget* parent)
   m_list->setAccessibleName(QStringLiteral("Found"));
   column->addWidget(m_field);
   column->addWidget(m_list);
-  m_nothing->setTextFormat(Qt::RichText);
-  m_nothing->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   m_nothing->setContentsMargins(10, 6, 10, 6);
-  m_nothing->setWordWrap(true);
   column->addWidget(m_nothing, 1);
   m_field->installEventFilter(this);
   connect(m_field, &QLineEdit::textChanged, this, &CommandPalette::refresh);
   connect(m_list, &QListWidget::itemClicked, this, &CommandPalette::runCurrent);
-  connect(m_nothing, &QLabel::linkActivated, m_field, &QLineEdit::clear);
   hide();
 }
 
@@ -145,9 +140,7 @@ void CommandPalette::refresh() {
   }
   const bool any = m_list->count() > 0;
   if (any) m_list->setCurrentRow(0);
-  m_list->setVisible(any);
-  m_nothing->setVisible(!any);
-  m_nothing->setText(nothingCalled(m_field->text()));
+  m_nothing->standFor(*m_list, any);
 }
 
 void CommandPalette::runCurrent() {

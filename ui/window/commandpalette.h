@@ -7,11 +7,12 @@
 #include <functional>
 #include <vector>
 
-class QLabel;
 class QLineEdit;
 class QListWidget;
 
 namespace ps {
+
+class NothingFound;
 
 /// One thing that Ctrl+K finds.
 struct PaletteEntry {
@@ -50,7 +51,7 @@ class CommandPalette : public QWidget {
   std::vector<PaletteEntry> m_entries;
   QLineEdit* m_field;
   QListWidget* m_list;
-  QLabel* m_nothing;  ///< in the place of the list where nothing is found
+  NothingFound* m_nothing;
   QPointer<QWidget> m_before;
 };
 
