@@ -330,6 +330,15 @@ void MainWindow::connectGraphs() {
 }
 
 void MainWindow::connectParts() {
+  connectFiles();
+  connectTools();
+  connectPanels();
+  connectGraphs();
+  connectMessages();
+  if (viewport()) connectView(*viewport());
+}
+
+void MainWindow::connectFiles() {
   connect(&m_session->document(), &Document::changed, this, [this](const ChangeEvent& event) {
     updateTitle();
     if (std::holds_alternative<AboutChanged>(event)) outliner()->rebuild();
@@ -346,10 +355,22 @@ void MainWindow::connectParts() {
       Q_EMIT projectShown();
     }
   });
-  connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
+  connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
+}
+
+void MainWindow::connectTools() {
   connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_tools.get(), &Toolbox::working, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
+  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
+  connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
+    m_session->plugins()->fault(brush.toStdString(), problem.toStdString());
+    m_plugins->refresh();
+  });
+  connect(m_sketch.get(), &SketchActions::shapeTaken, this, [this] { m_layout->turnTo(QStringLiteral("Brush")); });
+}
+
+void MainWindow::connectPanels() {
   connect(m_inspector, &Inspector::keyRefused, m_notices, &Notices::refuse);
   connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices, &Notices::refuse);
   connect(findChild<KeyRows*>(), &KeyRows::curveWanted, this, [this](const Address& address) {
@@ -360,17 +381,15 @@ void MainWindow::connectParts() {
     m_curves->choose(address);
     showWorkspace(kTuneTab);
   });
-  connect(m_files, &FileActions::startFailed, this, &MainWindow::startFailed);
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);
-  connectGraphs();
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
-  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
-  connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
-    m_session->plugins()->fault(brush.toStdString(), problem.toStdString());
-    m_plugins->refresh();
-  });
+}
+
+/// What is said, and where it leads.
+void MainWindow::connectMessages() {
+  connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
   connect(m_status, &StatusLine::noteClicked, this, [this](const QString& parameter) {
     const auto address = Address::parse(parameter.toStdString());
     if (!address || !revealParameter(*address)) openPage(QStringLiteral("Messages"));
@@ -380,14 +399,14 @@ void MainWindow::connectParts() {
     m_layout->setPageTitle(QStringLiteral("Messages"),
                            unseen > 0 ? QStringLiteral("Messages %1").arg(unseen) : QStringLiteral("Messages"));
   });
-  connect(m_sketch.get(), &SketchActions::shapeTaken, this, [this] { m_layout->turnTo(QStringLiteral("Brush")); });
-  Viewport* view = viewport();
-  if (!view) return;
-  connect(m_sketch.get(), &SketchActions::shapeTaken, view, [view] { view->setFocus(Qt::OtherFocusReason); });
-  connect(m_sketch.get(), &SketchActions::planeWanted, view,
-          [this, view](bool acrossView) { m_tools->layPlane(view->pointerNow(), acrossView); });
-  connect(view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { m_views->openViewMenu(global); });
-  connect(view, &Viewport::glFailed, this, [this](const QString& problem) {
+}
+
+void MainWindow::connectView(Viewport& view) {
+  connect(m_sketch.get(), &SketchActions::shapeTaken, &view, [&view] { view.setFocus(Qt::OtherFocusReason); });
+  connect(m_sketch.get(), &SketchActions::planeWanted, &view,
+          [this, &view](bool acrossView) { m_tools->layPlane(view.pointerNow(), acrossView); });
+  connect(&view, &Viewport::viewMenuRequested, this, [this](const QPoint& global) { m_views->openViewMenu(global); });
+  connect(&view, &Viewport::glFailed, this, [this](const QString& problem) {
     m_session->log().add(MessageLevel::Error, QStringLiteral("Scene view"),
                          QStringLiteral("Nothing can be drawn. %1").arg(sentence(problem)));
   });

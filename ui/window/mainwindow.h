@@ -127,6 +127,11 @@ class MainWindow : public QMainWindow {
   void makeHelpMenu(QMenu* menu);
   void makeSimulationMenu(QMenu* menu);
   void connectParts();
+  void connectFiles();
+  void connectTools();
+  void connectPanels();
+  void connectMessages();
+  void connectView(Viewport& view);
   bool cancelLongWork();  ///< false where there is none
   void onReady();
   void showPluginProblems();
