@@ -11,6 +11,7 @@
 #include "ui/graphs/seeking.h"
 #include "ui/graphs/seriesunit.h"
 #include "ui/graphs/stackview.h"
+#include "ui/session/autosave.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/session/transitions.h"

@@ -2,14 +2,12 @@
 #pragma once
 #include "core/simulation/graphsource.h"
 #include "ui/graphs/timeplot.h"
-#include "ui/session/autosave.h"
 #include "ui/session/historyreader.h"
 
 #include <QtCore/QByteArray>
 #include <QtCore/QTimer>
 #include <QtWidgets/QWidget>
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +18,7 @@ class QMenu;
 
 namespace ps {
 
+struct GraphLook;
 class GraphView;
 class PhaseStackView;
 class Session;

@@ -14,8 +14,7 @@
 namespace ps {
 namespace {
 
-constexpr int kMostRows = 4;    ///< that are shown without scrolling
-constexpr int kHandLeast = 26;  ///< logical pixels, which are 2.5 degrees on the board in a headset
+constexpr int kMostRows = 4;  ///< that are shown without scrolling
 
 }  // namespace
 

@@ -27,6 +27,8 @@ struct ThermalTexts {
 
 /// What points at it: a hand in a headset needs larger targets than a mouse.
 enum class PointedBy { Mouse, Hand };
+/// Height and width of what a hand meets at least, in logical pixels: 2.5 degrees on the board in a headset.
+inline constexpr int kHandLeast = 26;
 
 /// Reset, steps, play, loop, speed; the two clocks; below them the part of the planned duration that is recorded, in
 /// which a drag shows any frame, and above that the earlier runs. While one is shown it says so, and from where the run

@@ -55,8 +55,7 @@ QWidget* makePoints(const PanelContext& context) {
 /// Arrows of the tree are as wide as a level of it.
 QWidget* makeOutliner(const PanelContext& context) {
   auto* outliner = new Outliner(context.session, context.selection);
-  constexpr int kHandLevel = 26;  // pixels, which are 2.5 degrees on the board in a headset
-  if (context.by == PointedBy::Hand) outliner->view()->setIndentation(kHandLevel);
+  if (context.by == PointedBy::Hand) outliner->view()->setIndentation(kHandLeast);
   return outliner;
 }
 

@@ -187,8 +187,8 @@ void VrPalette::showLabelled(bool labelled) { m_labelled->setChecked(labelled); 
 
 void VrPalette::follow() {
   for (const Choice& choice : m_choices) {
-    QString text = choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width());
-    text.replace(QLatin1Char('&'), QStringLiteral("&&"));  // no mnemonic
+    const QString text =
+        asButtonText(choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width()));
     if (choice.value->text() != text) choice.value->setText(text);
   }
 }

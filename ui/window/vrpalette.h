@@ -7,7 +7,6 @@
 
 class QGridLayout;
 class QHBoxLayout;
-class QLabel;
 class QToolButton;
 
 namespace ps {
