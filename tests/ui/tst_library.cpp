@@ -574,14 +574,21 @@ class TestLibrary : public SampleWindowTest {
     };
     const QString chosen = density();
     QSignalSpy again(mix->table()->model(), &QAbstractItemModel::modelReset);
+    QSignalSpy known(&library(), &MaterialLibrary::changed);
     library().read();
+    QTRY_VERIFY_WITH_TIMEOUT(!known.isEmpty(), kLong);
+    QTest::qWait(300);         // it reads 0.2 s later
+    QVERIFY(again.isEmpty());  // all is as it was
+    const QString more = QStringLiteral("Another tin");
+    library().savePreset(other, more);
     QTRY_VERIFY_WITH_TIMEOUT(!again.isEmpty(), kLong);
     QCOMPARE(density(), chosen);
     QVERIFY(mix->chooseParts(entryOf("tin")->key(), entryOf("lead")->key()));
     QVERIFY(density() != chosen);
     press(*mix, QStringLiteral("Cancel"));
     library().removePreset(*preset());
-    QTRY_VERIFY_WITH_TIMEOUT(!preset(), kLong);
+    library().removePreset(*entry(more));
+    QTRY_VERIFY_WITH_TIMEOUT(!preset() && !entry(more), kLong);
   }
 
   /// Said, and nothing else is lost.

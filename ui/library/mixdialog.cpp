@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -159,14 +160,20 @@ void MixDialog::addSources() {
   }
 }
 
-/// What is chosen stays so, with the values that it had where it is gone. Before the library has come there is nothing.
+bool MixDialog::Source::operator==(const Source& other) const {
+  return key == other.key && label == other.label && part.label == other.part.label &&
+         part.properties == other.part.properties && part.adheresTo == other.part.adheresTo;
+}
+
+/// What is chosen stays so, with the values that it had where it is gone. The library reads its folder again whenever a
+/// file comes or goes there, which may be none of a material: what is the same then is not filled in anew.
 void MixDialog::readSources() {
   const bool begins = m_sources.empty();
   std::array<Source, 2> kept;
   if (!begins) kept = {chosen(*m_first), chosen(*m_second)};
-  m_sources.clear();
+  const std::vector<Source> before = std::exchange(m_sources, {});
   addSources();
-  if (begins && m_sources.empty()) return;
+  if (m_sources == before) return;  // also before the library has come
   const std::array<QComboBox*, 2> boxes{m_first, m_second};
   std::array<int, 2> places{0, std::min(1, static_cast<int>(m_sources.size()) - 1)};
   for (size_t k = 0; !begins && k < boxes.size(); ++k) {

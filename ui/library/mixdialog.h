@@ -48,6 +48,7 @@ class MixDialog : public QDialog {
     QString label;
     Mixture::Part part;
     QString key{};  ///< see chooseParts()
+    bool operator==(const Source& other) const;
   };
   void addSources();
   void readSources();
