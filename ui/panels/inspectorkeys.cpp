@@ -3,6 +3,7 @@
 #include "core/scene/track.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
+#include "ui/rows/rowcommands.h"
 #include "ui/rows/rowvalue.h"
 #include "ui/session/session.h"
 

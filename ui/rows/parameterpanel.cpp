@@ -487,16 +487,4 @@ bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-ParameterRow* rowAtHand(std::span<ParameterPanel* const> panels) {
-  ParameterRow* focused = nullptr;
-  for (const ParameterPanel* panel : panels) {
-    if (!panel->isVisible()) continue;
-    for (ParameterRow* row : panel->rows()) {
-      if (row->isHovered()) return row;
-      if (row->hasFocus()) focused = row;
-    }
-  }
-  return focused;
-}
-
 }  // namespace ps

@@ -7,7 +7,6 @@
 
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace ps {
@@ -87,8 +86,5 @@ class ParameterPanel : public QWidget {
   struct Private;
   std::unique_ptr<Private> d;
 };
-
-/// Of panels that are shown: the row under the pointer, or else the one that has the focus; nullptr: there is none.
-ParameterRow* rowAtHand(std::span<ParameterPanel* const> panels);
 
 }  // namespace ps

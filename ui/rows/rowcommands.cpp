@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/rows/rowcommands.h"
 
-#include "ui/rows/parameterrow.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/rows/rowvalue.h"
 
 #include <QtCore/QMetaMethod>
@@ -137,6 +137,18 @@ QString whyNot(const ParameterRow& row, RowCommand command) {
       break;
   }
   return {};
+}
+
+ParameterRow* rowAtHand(std::span<ParameterPanel* const> panels) {
+  ParameterRow* focused = nullptr;
+  for (const ParameterPanel* panel : panels) {
+    if (!panel->isVisible()) continue;
+    for (ParameterRow* row : panel->rows()) {
+      if (row->isHovered()) return row;
+      if (row->hasFocus()) focused = row;
+    }
+  }
+  return focused;
 }
 
 void perform(ParameterRow& row, RowCommand command, const QPoint& global) {

@@ -11,6 +11,7 @@ class QPoint;
 
 namespace ps {
 
+class ParameterPanel;
 class ParameterRow;
 
 /// What a row's menu and Ctrl+K do with it.
@@ -42,6 +43,8 @@ std::optional<ToNext> wayOf(RowCommand command);
 
 /// "" or a sentence that says why it may not be done with this row.
 QString whyNot(const ParameterRow& row, RowCommand command);
+/// Of panels that are shown: the row under the pointer, or else the one that has the focus; nullptr: there is none.
+ParameterRow* rowAtHand(std::span<ParameterPanel* const> panels);
 /// Does what whyNot() has nothing against. An explanation comes at `global`.
 void perform(ParameterRow& row, RowCommand command, const QPoint& global);
 
