@@ -180,10 +180,16 @@ void VrPagesTest::marksOfRowsAreLargeEnough() {
   panels().showPage(QStringLiteral("Transport"));
   QTest::qWait(100);
   const QWidget* board = panels().widget(vr::kBoard);
-  const auto* keys = board->findChild<KeyRows*>();
+  auto* keys = board->findChild<KeyRows*>();
   const auto* markers = board->findChild<MarkerRow*>();
   QVERIFY(keys && markers && markers->isVisible());
   QVERIFY(keys->rowHeight() >= 26 && keys->ruler() >= 26 && markers->height() >= 26);
+  // Of the key 12 pixels beside its middle takes hold, which a mouse does not.
+  const QPoint beside = keys->placeOf(floor, 0) + QPoint(12, 0);
+  QTest::mouseClick(keys, Qt::LeftButton, {}, beside);
+  QVERIFY(keys->chosen().empty());
+  for (const bool pressed : {false, true, false}) at(vr::kBoard, *keys, beside, pressed);
+  QTRY_COMPARE(keys->chosen().size(), size_t{1});
   document().undoStack().undo();
   document().undoStack().undo();
 }
@@ -214,7 +220,8 @@ void VrPagesTest::aPointOfACurveIsMoved() {
   };
   curves.choosePoint(1);  // its numbers take a row below
   QTest::qWait(50);
-  const QPointF from = placeOf(1), way(20, -30);
+  // Hands take hold of it within 13 pixels, which are 1.25 degrees.
+  const QPointF from = placeOf(1), way(20, -30), held = from + QPointF(-9, 8);
   const int steps = document().undoStack().index();
   hands::pull(view, from.toPoint(), way.toPoint());
   const CurvePoint wanted = curves.response().points[1];
@@ -224,9 +231,9 @@ void VrPagesTest::aPointOfACurveIsMoved() {
   QTest::qWait(50);
   QCOMPARE(placeOf(1), from);
   run.goOn(vrScript(QStringLiteral(R"(, "pictures": [50])"),
-                    boardKey(0, view, from, byTip, false) + boardKey(20, view, from, byTip, false) +
-                        boardKey(30, view, from, byTip, true) + boardKey(60, view, from + way, byTip, true) +
-                        boardKey(70, view, from + way, byTip, true) + boardKey(80, view, from + way, byTip, false)));
+                    boardKey(0, view, held, byTip, false) + boardKey(20, view, held, byTip, false) +
+                        boardKey(30, view, held, byTip, true) + boardKey(60, view, held + way, byTip, true) +
+                        boardKey(70, view, held + way, byTip, true) + boardKey(80, view, held + way, byTip, false)));
   QTRY_COMPARE_WITH_TIMEOUT(document().undoStack().index(), steps + 1, 2 * kLong);
   QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{2}, kLong);
   const uint64_t after = vr().frames() + 20;

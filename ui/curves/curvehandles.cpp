@@ -3,8 +3,10 @@
 #include "core/math/responseedit.h"
 #include "ui/curves/curveview.h"
 #include "ui/theme/numbers.h"
+#include "ui/theme/reach.h"
 #include "ui/theme/theme.h"
 
+#include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 
 #include <algorithm>
@@ -38,12 +40,13 @@ std::optional<QPointF> CurveView::handleAt(bool after) const {
   return at(p.x, p.y) + (after ? way : -way);
 }
 
-CurveView::Grip CurveView::gripAt(const QPointF& position) const {
+CurveView::Grip CurveView::gripAt(const QMouseEvent& event) const {
+  const double reach = reachOf(event, kGrip);
   for (const bool after : {false, true}) {
     const auto handle = handleAt(after);
-    if (handle && squareOf(*handle - position) <= kGrip * kGrip) return after ? Grip::After : Grip::Before;
+    if (handle && squareOf(*handle - event.position()) <= reach * reach) return after ? Grip::After : Grip::Before;
   }
-  return pointAt(position) >= 0 ? Grip::Point : Grip::None;
+  return pointAt(event) >= 0 ? Grip::Point : Grip::None;
 }
 
 /// A handle points from its point to the pointer, and never back over it.

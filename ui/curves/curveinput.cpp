@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/responseedit.h"
 #include "ui/curves/curveview.h"
+#include "ui/theme/reach.h"
 
 #include <QtCore/QMimeData>
 #include <QtGui/QDropEvent>
@@ -29,12 +30,13 @@ double CurveView::bounded(double value) const {
   return whole ? std::round(held) : held;
 }
 
-int CurveView::pointAt(const QPointF& position) const {
+int CurveView::pointAt(const QMouseEvent& event) const {
   if (m_shown.kind != Response::Kind::Curve) return -1;
   int best = -1;
-  double nearest = kGrip * kGrip;
+  const double reach = reachOf(event, kGrip);
+  double nearest = reach * reach;
   for (size_t i = 0; i < m_shown.points.size(); ++i) {
-    const QPointF way = at(m_shown.points[i].x, m_shown.points[i].y) - position;
+    const QPointF way = at(m_shown.points[i].x, m_shown.points[i].y) - event.position();
     if (const double square = QPointF::dotProduct(way, way); square <= nearest) {
       nearest = square;
       best = static_cast<int>(i);
@@ -45,8 +47,8 @@ int CurveView::pointAt(const QPointF& position) const {
 
 void CurveView::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
-  const Grip grip = gripAt(event->position());
-  if (grip == Grip::None || grip == Grip::Point) m_target.choosePoint(pointAt(event->position()));
+  const Grip grip = gripAt(*event);
+  if (grip == Grip::None || grip == Grip::Point) m_target.choosePoint(pointAt(*event));
   if (grip == Grip::None) return;
   const QString what = grip == Grip::Point ? QStringLiteral("Move point of %1") : QStringLiteral("Slope of %1");
   m_target.begin(what.arg(m_target.title()));
@@ -59,7 +61,7 @@ void CurveView::mousePressEvent(QMouseEvent* event) {
 
 void CurveView::mouseMoveEvent(QMouseEvent* event) {
   if (m_grip != Grip::None) return dragTo(event->position(), event->modifiers());
-  setCursor(gripAt(event->position()) != Grip::None ? Qt::OpenHandCursor : Qt::CrossCursor);
+  setCursor(gripAt(*event) != Grip::None ? Qt::OpenHandCursor : Qt::CrossCursor);
 }
 
 /// The point goes as far as the pointer has since the last event, so that Shift may come and go on the way.
@@ -117,11 +119,11 @@ void CurveView::hideEvent(QHideEvent*) { dropDrag(true); }
 
 void CurveView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !plot().contains(event->position())) return;
-  if (pointAt(event->position()) >= 0) return;
+  if (pointAt(*event) >= 0) return;
   const double kelvin = m_target.snapped(kelvinAt(event->position().x()));
   const double value = m_shown.at(kelvin);
   // On the curve means on it: where the pointer is far from it a point would bend the curve unasked.
-  if (std::abs(at(kelvin, value).y() - event->position().y()) <= 2 * kGrip) addAt(kelvin, value);
+  if (std::abs(at(kelvin, value).y() - event->position().y()) <= 2 * reachOf(*event, kGrip)) addAt(kelvin, value);
 }
 
 /// What is no curve yet becomes one, through its values at both ends of the axis.

@@ -60,10 +60,10 @@ class CurveView : public QWidget {
   double ofLevel(double level) const;
   double levelSlope(double value) const;
   double bounded(double value) const;
-  int pointAt(const QPointF& position) const;
+  int pointAt(const QMouseEvent& event) const;
   /// What the pointer holds: a point, or a handle of the selected one.
   enum class Grip { None, Point, Before, After };
-  Grip gripAt(const QPointF& position) const;
+  Grip gripAt(const QMouseEvent& event) const;
   void dragTo(const QPointF& position, Qt::KeyboardModifiers modifiers);
   void turnTo(const QPointF& position, bool oneSide);
   void dropDrag(bool keep);

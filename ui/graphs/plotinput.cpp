@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/plot.h"
 #include "ui/graphs/plot_p.h"
+#include "ui/theme/reach.h"
 
 #include <QtCore/QMimeData>
 #include <QtGui/QContextMenuEvent>
@@ -71,7 +72,7 @@ void Plot::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || !plotRect().adjusted(0, -9, 0, 0).contains(event->position())) return;
   for (size_t which = 0; which < 2; ++which) {
     const auto& at = d->readings[which];
-    if (at && std::abs(x(*at) - event->position().x()) <= kGrip) d->held = which;
+    if (at && std::abs(x(*at) - event->position().x()) <= reachOf(*event, kGrip)) d->held = which;
   }
   d->pressed = true;
   d->panning = false;

@@ -7,6 +7,7 @@
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
 #include "ui/theme/plaintext.h"
+#include "ui/theme/reach.h"
 #include "ui/timeline/keyrows.h"
 
 #include <QtGui/QContextMenuEvent>
@@ -21,17 +22,16 @@
 namespace ps {
 namespace {
 
-constexpr int kGrip = 8;   ///< px around a key's centre
 constexpr int kMeet = 4;   ///< px to a key that stays
 constexpr int kStill = 3;  ///< px that a hand moves which only clicks
 
 }  // namespace
 
-std::optional<KeyRows::Chosen> KeyRows::keyUnder(const QPoint& at) const {
+std::optional<KeyRows::Chosen> KeyRows::keyUnder(const QPoint& at, double reach) const {
   const Row* row = rowAt(at);
   if (!row) return std::nullopt;
   std::optional<Chosen> nearest;
-  double away = kGrip;
+  double away = reach;
   for (size_t k = 0; k < keysOf(row->address).size(); ++k) {
     const double distance = std::abs(xOf(keysOf(row->address)[k].time) - at.x());
     if (distance > away) continue;
@@ -108,7 +108,7 @@ void KeyRows::mousePressEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
   m_scrubs = at.y() < m_ruler && at.x() >= kLabel;
   if (m_scrubs) return m_session.recorded().showAt(secondsAt(event->position().x()));
-  const auto under = keyUnder(at);
+  const auto under = keyUnder(at, reachOf(*event, kGrip));
   if (!under) {
     choose({});
     if (at.x() >= kLabel) m_box = QRect(at, at);
@@ -132,7 +132,7 @@ void KeyRows::mouseMoveEvent(QMouseEvent* event) {
     m_box->setBottomRight(at);
     return chooseIn(m_box->normalized());
   }
-  setCursor(m_drag || keyUnder(at) ? Qt::SizeHorCursor : Qt::ArrowCursor);
+  setCursor(m_drag || keyUnder(at, reachOf(*event, kGrip)) ? Qt::SizeHorCursor : Qt::ArrowCursor);
   if (!m_drag) return;
   if (!m_drag->moved && std::abs(xOf(m_drag->from + m_drag->grip) - at.x()) < kStill) return;
   dragTo(snapped(secondsAt(event->position().x()) - m_drag->grip, event->modifiers() & Qt::ShiftModifier));
@@ -238,7 +238,7 @@ void KeyRows::tell(const QString& problem) {
 void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
   const QPoint at = event->position().toPoint();
   const Row* row = rowAt(at);
-  if (event->button() != Qt::LeftButton || !row || keyUnder(at)) return;
+  if (event->button() != Qt::LeftButton || !row || keyUnder(at, reachOf(*event, kGrip))) return;
   if (at.x() < kLabel) {
     Q_EMIT curveWanted(Address(row->address));
   } else {

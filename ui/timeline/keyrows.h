@@ -64,7 +64,8 @@ class KeyRows : public QWidget {
   void onChanged(const ChangeEvent& event);
   void rebuild();
   void fit();
-  std::optional<Chosen> keyUnder(const QPoint& at) const;
+  static constexpr double kGrip = 8;  ///< px around the middle of a key, of a mouse
+  std::optional<Chosen> keyUnder(const QPoint& at, double reach = kGrip) const;
   const Row* rowAt(const QPoint& at) const;
   const std::vector<TrackKey>& keysOf(const Address& address) const;
   double snapped(double seconds, bool free) const;

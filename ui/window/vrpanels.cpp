@@ -15,6 +15,7 @@
 
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
+#include <QtGui/QPointingDevice>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QApplication>
@@ -50,6 +51,14 @@ constexpr int kNotch = 120;
 constexpr int kHeader = 28, kNoteEdge = 8;
 constexpr std::chrono::minutes kLabelled{2};
 constexpr std::chrono::seconds kNoted{10};
+
+/// Whose events widgets get: a hand is no more precise than a finger.
+const QPointingDevice& handDevice() {
+  static const QPointingDevice device(QStringLiteral("Hand in a headset"), 0, QInputDevice::DeviceType::TouchScreen,
+                                      QPointingDevice::PointerType::Finger,
+                                      QInputDevice::Capability::Position | QInputDevice::Capability::Hover, 1, 1);
+  return device;
+}
 
 /// Shown to nobody, so that it is laid out and follows what it shows.
 void showUnseen(QWidget& widget, const QSize& size) {
@@ -390,7 +399,7 @@ void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::Mouse
   const QPointF origin = target.mapTo(pointer.on, QPoint(0, 0));
   const Qt::MouseButtons held = pointer.pressed ? Qt::LeftButton : Qt::NoButton;
   QMouseEvent event(static_cast<QEvent::Type>(type), pointer.at - origin, pointer.at,
-                    pointer.on->mapToGlobal(pointer.at), button, held, Qt::NoModifier);
+                    pointer.on->mapToGlobal(pointer.at), button, held, Qt::NoModifier, &handDevice());
   deliver(target, event);
 }
 
