@@ -19,6 +19,8 @@ constexpr size_t kMostTouches = 100'000;
 /// Share of the way to its place that held matter is to go in a frame: all of it would make what is tied to it swing.
 constexpr double kFollows = 0.5;
 constexpr double kFastest = 20;  // m/s, at which held matter follows a hand that leaps
+constexpr size_t kMarks = 3;     // moves of a hand over which the velocity is taken of what it lets go
+constexpr double kThrown = 0.1;  // s of simulated time after the last one in which it throws
 
 bool heats(const api::Touch& touch) { return touch.kind == api::TouchKind::Heat; }
 
@@ -75,6 +77,13 @@ void Hand::require(const TouchMatter& command, const Engine& engine) {
 
 void Hand::move(const TouchMatter& command) {
   if (!command.path.empty()) m_path.push_back({command.path, 1.0 / command.samples});
+  if (command.still.empty()) {
+    for (std::optional<Grip>& grip : m_held) {
+      if (grip) m_letGo.push_back(std::move(*grip));
+    }
+    m_held.clear();
+  }
+  m_moved = true;
   m_still = command.still;
   if (m_first.size() != m_still.size()) m_first = m_still;
   m_spared = command.spared;
@@ -139,7 +148,8 @@ HeatById Hand::heat(Engine& engine, const std::vector<uint8_t>& isSpared) const 
 void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
   const Reachable among = reachableBy(api::TouchKind::Push, engine, isSpared);
   const auto holds = [](const api::Touch& touch) { return touch.kind == api::TouchKind::Hold; };
-  if (among.rows.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return;
+  const bool moved = std::exchange(m_moved, false);
+  if (among.rows.empty() && m_letGo.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return;
   const double dt = compileSettings(engine.project()).dt;
   std::vector<Vector3> change(engine.particles().size(), Vector3(0, 0, 0));
   forEach([&](const api::Touch& touch, double share) {
@@ -148,38 +158,79 @@ void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
   for (size_t k = 0; k < m_still.size(); ++k) {
     if (!holds(m_still[k])) continue;
     if (!m_held[k]) m_held[k] = take(engine, m_first[k], isSpared);
+    if (moved) note(engine, vectorOf(m_still[k].centre), *m_held[k]);
+    m_held[k]->force = m_still[k].force;
     hold(engine, m_still[k], *m_held[k], change);
   }
+  for (const Grip& grip : std::exchange(m_letGo, {})) throwOn(engine, grip, change);
   engine.addVelocities(change);
 }
 
-std::vector<Hand::Held> Hand::take(const Engine& engine, const api::Touch& touch,
-                                   const std::vector<uint8_t>& isSpared) {
+Hand::Grip Hand::take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {
   const ParticleStore& store = engine.particles();
-  std::vector<Held> held;
+  Grip taken;
   const std::vector<double> grip = gripOf(engine, touch, isSpared);
   for (size_t row = 0; row < grip.size(); ++row) {
-    if (grip[row] > 0) held.push_back({store.id()[row], offsetOf(store, row, touch.centre), grip[row]});
+    if (grip[row] > 0) taken.held.push_back({store.id()[row], offsetOf(store, row, touch.centre), grip[row]});
   }
-  return held;
+  return taken;
 }
 
 /// Brings what is held to where it was about the hand, without its weight, as far as the force reaches.
-void Hand::hold(const Engine& engine, const api::Touch& touch, const std::vector<Held>& held,
-                std::vector<Vector3>& change) {
+void Hand::hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change) {
   const ParticleStore& store = engine.particles();
   double total = 0;
-  for (const Held& one : held) {
+  for (const Held& one : grip.held) {
     if (const size_t row = store.indexOf(one.id); row < store.size()) total += one.weight * store.mass()[row];
   }
   const SolverSettings settings = compileSettings(engine.project());
   const Vector3 weight = settings.dt * vectorOf(settings.gravity);
-  for (const Held& one : held) {
+  for (const Held& one : grip.held) {
     const size_t row = store.indexOf(one.id);
     if (row >= store.size()) continue;
     const Vector3 speed = atMost(kFollows / settings.dt * (one.offset - offsetOf(store, row, touch.centre)), kFastest);
     const Vector3 wanted = speed - weight - vectorOf(store.velocity()[row]) - change[row];
     change[row] += atMost(wanted, touch.force * settings.dt * one.weight / total);
+  }
+}
+
+Hand::Mean Hand::meanOf(const Engine& engine, const Grip& grip, const Vector3& near) {
+  const ParticleStore& store = engine.particles();
+  Mean mean{0, 0, {0, 0, 0}, {0, 0, 0}};
+  for (const Held& one : grip.held) {
+    const size_t row = store.indexOf(one.id);
+    if (row >= store.size()) continue;
+    const double mass = store.mass()[row];
+    ++mean.count;
+    mean.mass += mass;
+    mean.place += mass * offsetOf(store, row, double3Of(near));
+    mean.velocity += mass * vectorOf(store.velocity()[row]);
+  }
+  if (mean.mass > 0) mean.place = near + mean.place / mean.mass, mean.velocity /= mean.mass;
+  return mean;
+}
+
+void Hand::note(const Engine& engine, const Vector3& centre, Grip& grip) {
+  const double now = engine.solver().time();
+  const Mean mean = meanOf(engine, grip, grip.marks.empty() ? centre : grip.marks.back().place);
+  if (mean.count == 0 || (!grip.marks.empty() && grip.marks.back().time == now)) return;
+  if (grip.marks.size() == kMarks) grip.marks.erase(grip.marks.begin());
+  grip.marks.push_back({now, mean.place});
+}
+
+/// It flies on at the mean velocity that it had from one move of the hand to a later one, as far as the force reaches:
+/// a hand may be seen once in several frames, or have moved twice before one, and what it holds leaps and waits then.
+void Hand::throwOn(const Engine& engine, const Grip& grip, std::vector<Vector3>& change) {
+  if (grip.marks.size() < 2) return;
+  const Mark &last = grip.marks.back(), &first = grip.marks.front();
+  if (last.time < engine.solver().time() - kThrown) return;  // it has come to rest
+  const Mean mean = meanOf(engine, grip, last.place);
+  if (mean.count == 0) return;
+  const ParticleStore& store = engine.particles();
+  const Vector3 speed = atMost((last.place - first.place) / (last.time - first.time), kFastest);
+  const Vector3 more = atMost(speed - mean.velocity, grip.force * compileSettings(engine.project()).dt / mean.mass);
+  for (const Held& one : grip.held) {
+    if (const size_t row = store.indexOf(one.id); row < store.size()) change[row] += more;
   }
 }
 

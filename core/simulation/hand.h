@@ -33,7 +33,7 @@ class Hand {
   /// go.
   HandDeeds act(Engine& engine);
   /// It has let go, and all that it did is done.
-  bool isGone() const { return m_path.empty() && m_still.empty(); }
+  bool isGone() const { return m_path.empty() && m_still.empty() && m_letGo.empty(); }
   bool hasLetGo() const { return m_still.empty(); }
 
  private:
@@ -46,6 +46,16 @@ class Hand {
     Vector3 offset;  ///< m, from the hand
     double weight;   ///< of its mass
   };
+  /// Where what is held was when a frame began into which the hand had moved.
+  struct Mark {
+    double time;    ///< s, mechanical
+    Vector3 place;  ///< m, of the mean
+  };
+  struct Grip {
+    std::vector<Held> held;
+    double force = 0;         ///< N, of the last pull
+    std::vector<Mark> marks;  ///< the last ones, of a fixed number
+  };
   /// Calls something with each touch that acts in a frame, and its share of the frame.
   template <class Visit>
   void forEach(Visit&& visit) const;
@@ -54,15 +64,25 @@ class Hand {
   Reachable reachableBy(api::TouchKind kind, const Engine& engine, const std::vector<uint8_t>& isSpared) const;
   HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   void push(Engine& engine, const std::vector<uint8_t>& isSpared);
-  static std::vector<Held> take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared);
-  static void hold(const Engine& engine, const api::Touch& touch, const std::vector<Held>& held,
-                   std::vector<Vector3>& change);
+  static Grip take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared);
+  static void hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change);
+  /// What of it is still there. Its mean place, m, in the image nearest to `near`; its mean velocity, m/s.
+  struct Mean {
+    size_t count = 0;
+    double mass = 0;  ///< kg
+    Vector3 place, velocity;
+  };
+  static Mean meanOf(const Engine& engine, const Grip& grip, const Vector3& near);
+  static void note(const Engine& engine, const Vector3& centre, Grip& grip);
+  static void throwOn(const Engine& engine, const Grip& grip, std::vector<Vector3>& change);
 
   std::vector<Path> m_path;  ///< one after the other, of about as long
   std::vector<api::Touch> m_still;
   std::vector<api::Touch> m_first;  ///< where it was when it began: there it takes, however far it goes in a frame
   std::vector<std::string> m_spared;
-  std::vector<std::optional<std::vector<Held>>> m_held;  ///< by the touches of m_still; nothing: not yet
+  std::vector<std::optional<Grip>> m_held;  ///< by the touches of m_still; nothing: not yet
+  std::vector<Grip> m_letGo;                ///< since the last frame
+  bool m_moved = false;                     ///< since then
 };
 
 /// Gives particles heat by their ids, or takes it; those that are gone are left out. What each got.

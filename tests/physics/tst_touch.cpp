@@ -124,6 +124,7 @@ class TestTouch : public QObject {
   void whatCannotBeIsRefused();
   void aHandCarriesAsFarAsItsForceReaches();
   void aHandTakesWhereItClosed();
+  void aHandThatIsSeenSeldomThrowsAsFast();
   void aPushIsNoMoreThanItsForce();
   void stirredMatterTurns();
   void theSameBitsEverywhere_data() { onehash::addRows(); }
@@ -366,6 +367,27 @@ void TestTouch::aHandTakesWhereItClosed() {
   engine.apply(still(hold({0, 0.39, 0}, force, 0.09)));
   run(engine, 30);
   QVERIFY(centreOf(engine, 0).y() - start.y() < 0.1);
+}
+
+/// What is held leaps and waits where its hand comes once in four frames; it flies as fast whenever that lets go, and
+/// not at all once it has come to rest. A tenth: a block that has been pulled shakes.
+void TestTouch::aHandThatIsSeenSeldomThrowsAsFast() {
+  constexpr double kSpeed = 0.5, kMass = 917 * 216 * kSpacing * kSpacing * kSpacing;
+  Project project = twoBlocks();
+  project.environment.gravity = {0, 0, 0};
+  for (const int waited : {0, 1, 2, 3, 20}) {
+    Engine engine(project, m_plugins);
+    const auto handAt = [](double y) { return hold({0, 0.09 + y, 0}, 500, 0.09); };
+    int frames = 0;
+    for (int move = 0; move < 15; ++move, frames += 4) {
+      engine.apply(still(handAt(kSpeed * kDt * frames)));
+      run(engine, move < 14 ? 4 : waited);
+    }
+    engine.apply(letGo());
+    run(engine, 2);
+    const double thrown = momentumOf(engine).y() / kMass, wanted = waited < 4 ? kSpeed : 0;
+    QVERIFY2(std::abs(thrown - wanted) < 0.1 * kSpeed, qPrintable(QStringLiteral("%1: %2").arg(waited).arg(thrown)));
+  }
 }
 
 void TestTouch::aPushIsNoMoreThanItsForce() {
