@@ -220,10 +220,9 @@ void WindowLayout::fitToWorkspace() {
   if (auto* timeline = dock(kTransport)->findChild<Timeline*>()) timeline->setSlim(sketches);
 }
 
-/// Docks of this workspace as they were left, where they still fit the window, else as they are by default.
+/// Docks of this workspace as somebody arranged them; else as they are by default, in a window as wide as it is now.
 void WindowLayout::restoreOrLay(const QByteArray& state) {
-  const bool fits = m_workspace != Workspace::Scene || isOwn() || m_joined == dockColumn(m_window.width()).joined;
-  if (state.isEmpty() || !fits || !restoreDocks(state)) lay();
+  if (state.isEmpty() || !isOwn() || !restoreDocks(state)) lay();
 }
 
 /// Those of this workspace, as a state has them; it may be from before there were some of the docks.
