@@ -107,11 +107,27 @@ const FieldTable<SetTracks>& tracksFields() {
       .rows = {field("tracks", &SetTracks::tracks, List{Object{trackFields()}}, "").required()}};
   return table;
 }
+struct Turn : Plain {
+  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
+  void read(Json& value, Quaternion& out, const PluginRegistry&) const {
+    for (int k = 0; k < 4; ++k) out.coeffs()[k] = value[static_cast<size_t>(k)].get<double>();
+    if (!(std::abs(out.norm() - 1) < 1e-9)) throw InputError("a body was turned by no rotation");
+  }
+  Json write(const Quaternion& turn) const { return {turn.x(), turn.y(), turn.z(), turn.w()}; }
+};
+const FieldTable<RigidMove>& rigidMoveFields() {
+  static const FieldTable<RigidMove> table{.rows = {field("turn", &RigidMove::turn, Turn{}, "").required(),
+                                                    field("shift", &RigidMove::shift, Vector{"m"}, "").required()}};
+  return table;
+}
 const FieldTable<AddCells>& addFields() {
-  static const FieldTable<AddCells> table{.rows = {field("body", &AddCells::body, SketchedBody{}, "").required(),
-                                                   field("cells", &AddCells::cells, Cells{}, "").required(),
-                                                   field("palette", &AddCells::palette, Integer{0, 65535}, ""),
-                                                   field("key", &AddCells::key, Key{}, "")}};
+  static const FieldTable<AddCells> table{
+      .rows = {field("body", &AddCells::body, SketchedBody{}, "").required(),
+               field("cells", &AddCells::cells, Cells{}, "").required(),
+               field("palette", &AddCells::palette, Integer{0, 65535}, ""), field("key", &AddCells::key, Key{}, ""),
+               field("way", &AddCells::way, Object{rigidMoveFields()}, "").omittedWhen([](const AddCells& cells) {
+                 return cells.way.isNothing();
+               })}};
   return table;
 }
 const FieldTable<TakeCells>& takeCellsFields() {
@@ -144,19 +160,6 @@ const FieldTable<PaintCells>& paintCellsFields() {
                field("cells", &PaintCells::cells, Cells{}, "").required(),
                field("material", &PaintCells::material, Text{}, "").required(),
                field("spared", &PaintCells::spared, List{Id{}}, ""), field("key", &PaintCells::key, Key{}, "")}};
-  return table;
-}
-struct Turn : Plain {
-  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
-  void read(Json& value, Quaternion& out, const PluginRegistry&) const {
-    for (int k = 0; k < 4; ++k) out.coeffs()[k] = value[static_cast<size_t>(k)].get<double>();
-    if (!(std::abs(out.norm() - 1) < 1e-9)) throw InputError("a body was turned by no rotation");
-  }
-  Json write(const Quaternion& turn) const { return {turn.x(), turn.y(), turn.z(), turn.w()}; }
-};
-const FieldTable<RigidMove>& rigidMoveFields() {
-  static const FieldTable<RigidMove> table{.rows = {field("turn", &RigidMove::turn, Turn{}, "").required(),
-                                                    field("shift", &RigidMove::shift, Vector{"m"}, "").required()}};
   return table;
 }
 const FieldTable<MoveBody>& moveFields() {

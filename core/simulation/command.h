@@ -48,6 +48,7 @@ struct AddCells {
   CellIndices cells;
   int palette = 0;
   MatterKey key = 0;  ///< adds what is born to what the key names
+  RigidMove way{};    ///< from where the body is drawn to where it stands by now, and its cells come
 };
 /// Takes what stands in cells of a lattice, except matter of some bodies.
 struct TakeCells {

@@ -113,7 +113,7 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
   return solver->spawn(spawn);
 }
 
-std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body) {
+std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body, const RigidMove& way) {
   if (toggleOf(body.parameters, bodyParameters(), "fixed")) {
     const uint32_t index = bodyIndex(body.id);
     fixedBodies.resize(bodyIds->size());
@@ -129,7 +129,10 @@ std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body) 
     }
   }
   const uint32_t colour = spawn.colour;
+  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+  const std::vector<api::Double3> places = voxels ? spawn.position : std::vector<api::Double3>{};
   std::vector<uint32_t> ids = born(Spawn(std::move(spawn)), body.id, body.name);
+  if (voxels) noteRest(*voxels, way, ids, places);
   if (colour != 0) giveColour(solver->particles(), ids, colour);
   return ids;
 }
@@ -431,6 +434,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->bodyIds = m->bodyIds;
   snapshot->heldBodies = m->heldBodies();
   snapshot->materialIds = idsOf(m->project.materials);
+  snapshot->rest = m->rest;
   snapshot->materialLook = m->tables.looks();
   fillSnapshot(*snapshot, *m->solver, m->shownFields());
   return snapshot;

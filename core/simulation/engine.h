@@ -61,8 +61,9 @@ class Engine {
   /// same.
   void moveBody(const Body& body, const RigidMove& move, bool led = false);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
-  /// spacings stay free. Returns the ids of the new particles.
-  std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
+  /// spacings stay free. Returns the ids of the new particles. `way`: see AddCells.
+  std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette,
+                                 const RigidMove& way = {});
   /// Adds a body as it is at the start, without what would stand within 0.9 spacings of a live particle. Returns the
   /// ids of the new particles.
   std::vector<uint32_t> addBody(const Body& body);

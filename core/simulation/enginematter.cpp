@@ -48,13 +48,31 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   m->lead();
 }
 
-std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
+void Engine::Impl::noteRest(const VoxelShape& voxels, const RigidMove& way, std::span<const uint32_t> ids,
+                            std::span<const api::Double3> places) {
+  const RigidMove back = way.after(poseOf(voxels)).inverse();
+  std::vector<RestPlaces::Place> own;
+  own.reserve(places.size());
+  for (const api::Double3& place : places) {
+    const Vector3 p = back.of(vectorOf(place));
+    own.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+  }
+  auto known = std::make_shared<RestPlaces>(*rest);  // snapshots hold what was known
+  known->add(ids, own);
+  rest = std::move(known);
+}
+
+std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette,
+                                       const RigidMove& way) {
   const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
   m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
   ColouredSpawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
+  if (!way.isNothing()) {
+    for (api::Double3& place : spawn.position) place = double3Of(way.of(vectorOf(place)));
+  }
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   std::vector<uint32_t> ids;
-  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
+  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body, way);
   m->overlay.lift(m->project);
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });

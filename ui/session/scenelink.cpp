@@ -383,7 +383,7 @@ MatterKey SceneLink::draws(const StrokeRecord& stroke) {
 
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
                       std::vector<std::array<int, 3>> cells) {
-  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, draws(stroke)});
+  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, draws(stroke), stroke.way});
   Q_EMIT matterEdited();
 }
 
@@ -476,7 +476,9 @@ void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   }
   const Body* body = m_document.body(stroke->body);
   const auto painted = std::make_shared<const Body>(body ? *body : Body{});
-  m_engine.apply(PutBack{key, {AddCells{painted, stroke->cells, stroke->palette, key}}});
+  // Of what came to a body that had moved, not all has its place where the body begins.
+  CellIndices cells = stroke->way.isNothing() ? stroke->cells : filledCells(*stroke);
+  m_engine.apply(PutBack{key, {AddCells{painted, std::move(cells), stroke->palette, key}}});
 }
 
 }  // namespace ps
