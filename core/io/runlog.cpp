@@ -29,7 +29,7 @@ struct SetTogether {
 };
 using LoggedEdit =
     std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, PaintCells,
-                 MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
+                 MoveBody, PassMatter, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
 struct LogEntry {
   uint64_t frame = 0;
   LoggedEdit edit;
@@ -169,6 +169,13 @@ const FieldTable<MoveBody>& moveFields() {
                field("led", &MoveBody::led, Toggle{}, "")}};
   return table;
 }
+const FieldTable<PassMatter>& passFields() {
+  static const FieldTable<PassMatter> table{
+      .rows = {field("from", &PassMatter::from, Id{}, "").required(), field("to", &PassMatter::to, Id{}, "").required(),
+               field("lattice", &PassMatter::lattice, Object{voxelFields()}, ""),
+               field("cells", &PassMatter::cells, Cells{}, ""), field("all", &PassMatter::all, Toggle{}, "")}};
+  return table;
+}
 const FieldTable<NameMatter>& nameFields() {
   static const FieldTable<NameMatter> table{
       .rows = {field("key", &NameMatter::key, Key{}, ""), field("body", &NameMatter::body, Id{}, "").required(),
@@ -248,10 +255,10 @@ struct AnyEdit : EditKind<LoggedEdit> {
                  {"add_cells", "", &addFields()}, {"take_cells", "", &takeCellsFields()},
                  {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
                  {"put_back", "", &putBackFields()}, {"paint_cells", "", &paintCellsFields()},
-                 {"move_body", "", &moveFields()}, {"name_matter", "", &nameFields()},
-                 {"return_body", "", &returnFields()}, {"forget_matter", "", &forgetFields()},
-                 {"touch_matter", "", &touchMatterFields()}, {"undo_touch", "", &keyFields<UndoTouch>()},
-                 {"redo_touch", "", &keyFields<RedoTouch>()}) {}
+                 {"move_body", "", &moveFields()}, {"pass_matter", "", &passFields()},
+                 {"name_matter", "", &nameFields()}, {"return_body", "", &returnFields()},
+                 {"forget_matter", "", &forgetFields()}, {"touch_matter", "", &touchMatterFields()},
+                 {"undo_touch", "", &keyFields<UndoTouch>()}, {"redo_touch", "", &keyFields<RedoTouch>()}) {}
 };
 
 const FieldTable<LogEntry>& entryFields() {
@@ -283,6 +290,9 @@ void require(const MoveBody& command) {
 }
 void require(const TakeCells& command) { requireLattice(command.lattice); }
 void require(const PaintCells& command) { requireLattice(command.lattice); }
+void require(const PassMatter& command) {
+  if (!command.all) requireLattice(command.lattice);
+}
 void require(const TakeMatter& command) { requireLattice(command.lattice); }
 void require(const NameMatter& command) { requireLattice(command.lattice); }
 

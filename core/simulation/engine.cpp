@@ -391,6 +391,8 @@ void Engine::apply(const Command& command) {
     setTracks(animated->tracks);
   } else if (const auto* moved = std::get_if<MoveBody>(&command)) {
     moveBody(*moved->body, moved->move, moved->led);
+  } else if (const auto* passed = std::get_if<PassMatter>(&command)) {
+    passMatter(*passed);
   } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
     m->project.probes = measured->probes;
     m->nameProbes();
@@ -432,9 +434,9 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->keptForUndo = m->named.bytes();
   snapshot->bodyIds = m->bodyIds;
+  snapshot->rest = m->rest;
   snapshot->heldBodies = m->heldBodies();
   snapshot->materialIds = idsOf(m->project.materials);
-  snapshot->rest = m->rest;
   snapshot->materialLook = m->tables.looks();
   fillSnapshot(*snapshot, *m->solver, m->shownFields());
   return snapshot;

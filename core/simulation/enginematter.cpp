@@ -3,10 +3,12 @@
 #include "core/base/error.h"
 #include "core/particles/colourfield.h"
 #include "core/scene/pose.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/truesurface.h"
+#include "core/sketch/cellset.h"
 
 #include <algorithm>
 #include <iterator>
@@ -46,6 +48,34 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   m->setShapes();
   m->carry(from, move, true);
   m->lead();
+}
+
+void Engine::passMatter(const PassMatter& passed) {
+  const std::vector<std::string>& known = *m->bodyIds;
+  const auto from = static_cast<uint32_t>(std::find(known.begin(), known.end(), passed.from) - known.begin());
+  std::vector<api::Cell> list;
+  for (const CellIndex& c : passed.cells) list.push_back({c[0], c[1], c[2]});
+  const CellSet cells(list);
+  const SketchGrid drawn{passed.lattice.origin, passed.lattice.spacing};
+  const ParticleStore& store = m->solver->particles();
+  std::vector<uint32_t> ids;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] != from) continue;
+    const auto rest = passed.all ? std::nullopt : m->rest->of(store.id()[i]);
+    if (passed.all || (rest && cells.contains(drawn.cellAt(*rest)))) ids.push_back(store.id()[i]);
+  }
+  if (ids.empty()) return;
+  const uint32_t to = m->bodyIndex(passed.to);
+  m->fixedBodies.resize(m->bodyIds->size());
+  m->fixedBodies[to] = m->fixedBodies[from];
+  m->bodyNames.resize(m->bodyIds->size());
+  for (const Body& body : m->project.bodies) {
+    if (body.id == passed.to) m->bodyNames[to] = shownName(body);
+  }
+  m->solver->setBodyNames(m->bodyNames);
+  m->solver->pass(ids, from, to);
+  m->recompile({{Owner::Body, Owner::Constraint}});
+  m->holdBodies();
 }
 
 void Engine::Impl::noteRest(const VoxelShape& voxels, const RigidMove& way, std::span<const uint32_t> ids,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sketched bodies that are edited again: after they fell, turned and melted in part, and with other matter.
+// Sketched bodies that are edited again: after they fell, turned and melted in part, with other matter, and when they
+// have come apart.
 #include "core/base/statestream.h"
 #include "core/io/projectio.h"
 #include "core/scene/pose.h"
+#include "core/simulation/bodypieces.h"
 #include "core/simulation/projectstate.h"
 #include "core/simulation/restplaces.h"
 #include "core/simulation/standing.h"
@@ -201,6 +203,82 @@ class TestGoingOn : public ToolTest {
     QVERIFY(read[0].brush.joins);
   }
 
+  /// A bar whose middle is erased is two pieces: one step makes two bodies of them, at the start with the cells of
+  /// each; undo makes them one again.
+  void piecesBecomeBodies() {
+    const std::string bar = drawBar();
+    m_document->setParameter({Owner::Body, bar, "heating_power"}, 100.0);
+    QCOMPARE(pieces(bar).size(), size_t{1});
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar);
+    const size_t left = count();
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    QVERIFY(found[0].size() >= found[1].size() && found[1].size() > 30);
+    QVERIFY(found[0].size() + found[1].size() == left);
+    const std::string before = writeProject(m_document->project());
+    const auto ids = m_document->partBody(bar, {found[1]});
+    QCOMPARE(ids.size(), size_t{1});
+    QCOMPARE(m_document->project().bodies.size(), size_t{2});
+    QCOMPARE(ofBody(bar), found[0].size());
+    QCOMPARE(ofBody(ids[0]), found[1].size());
+    QCOMPARE(count(), left);
+    const double power = powerOf(bar), share = powerOf(ids[0]);
+    QVERIFY(share > 0 && std::abs(power + share - 100) < 1e-9);
+    const std::string text = writeProject(m_document->project());
+    QCOMPARE(writeProject(parseProject(text, "what was written", *m_plugins).project), text);
+    m_document->undoStack().undo();
+    QCOMPARE(writeProject(m_document->project()), before);
+    QCOMPARE(ofBody(bar), left);
+    m_document->undoStack().redo();
+    QCOMPARE(writeProject(m_document->project()), text);
+    QCOMPARE(ofBody(ids[0]), found[1].size());
+    // It goes on, held together as before, each by itself; and from a state as it would have.
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.3; });
+    QCOMPARE(pieces(bar).size(), size_t{1});
+    QCOMPARE(pieces(ids[0]).size(), size_t{1});
+    QVERIFY(goesOnFromItsState());
+    m_link->reset();
+    QCOMPARE(static_cast<int>(ofBody(bar)), cellCount(bar));
+    QCOMPARE(static_cast<int>(ofBody(ids[0])), cellCount(ids[0]));
+  }
+
+  /// The same in another run, where nobody knows particles by their ids: by what they were made of.
+  void partingIsRedoneInAnotherRun() {
+    const std::string bar = drawBar();
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar);
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    const auto ids = m_document->partBody(bar, {found[1]});
+    m_document->undoStack().undo();
+    m_link->reset();
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    const size_t all = ofBody(bar);
+    m_document->undoStack().redo();
+    QCOMPARE(ofBody(ids[0]), found[1].size());
+    QCOMPARE(ofBody(bar) + ofBody(ids[0]), all);
+  }
+
+  /// Strokes go with what they drew; the first body keeps all, and draws them again without what others hold.
+  void strokesGoWithTheirPieces() {
+    const std::string bar = drawBar();
+    brush("cube", kIce);
+    draw({{0.3, 0.4, 0}, {0.3, 0.5, 0}});
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar);
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    const auto ids = m_document->partBody(bar, {found[1]});
+    const auto& first = std::get<VoxelShape>(m_document->body(bar)->shape);
+    const auto& second = std::get<VoxelShape>(m_document->body(ids[0])->shape);
+    QCOMPARE(first.strokes.size(), size_t{2});
+    QCOMPARE(second.strokes.size(), size_t{1});
+    QVERIFY(redrawnIn(m_document->project(), bar, first, kSpacing, *m_plugins).runs == first.runs);
+    QVERIFY(redrawnIn(m_document->project(), ids[0], second, kSpacing, *m_plugins).runs == second.runs);
+  }
+
  private:
   static Project empty() {
     Project project = scenes::iceOnPlate(5, 420, 2500);
@@ -220,10 +298,23 @@ class TestGoingOn : public ToolTest {
     return tests::onEngine<SnapshotPtr>(*m_engine, [](Engine& engine) { return engine.snapshot(); });
   }
   size_t count() { return now()->id.size(); }
+  size_t ofBody(const std::string& id) {
+    const SnapshotPtr scene = now();
+    size_t own = 0;
+    for (const uint32_t body : scene->body) own += (*scene->bodyIds)[body] == id ? 1 : 0;
+    return own;
+  }
   int cellCount(const std::string& id) const {
     int cells = 0;
     for (const VoxelShape::Run& run : std::get<VoxelShape>(m_document->body(id)->shape).runs) cells += run.length;
     return cells;
+  }
+  double powerOf(const std::string& id) const {
+    return std::get<double>(m_document->value({Owner::Body, id, "heating_power"}));
+  }
+  std::vector<CellIndices> pieces(const std::string& id) {
+    return tests::onEngine<std::vector<CellIndices>>(
+        *m_engine, [body = *m_document->body(id)](Engine& engine) { return piecesOf(engine, body); });
   }
   void brush(const char* shape, double temperature, const char* material = "water") {
     take(shape, 0.06);
@@ -319,6 +410,47 @@ class TestGoingOn : public ToolTest {
     const double ironDensity = masses.at(1).second / (static_cast<double>(iron) * cell);
     QVERIFY2(std::abs(iceDensity / 917 - 1) < 0.02, qPrintable(QString::number(iceDensity)));
     QVERIFY2(std::abs(ironDensity / 7870 - 1) < 0.02, qPrintable(QString::number(ironDensity)));
+  }
+  /// A slice through its matter, across its length as it was drawn.
+  void eraseMiddle(const std::string& id) {
+    const SnapshotPtr scene = now();
+    std::vector<Vector3> middle;
+    for (size_t i = 0; i < scene->id.size(); ++i) {
+      const Vector3 rest = *scene->rest->of(scene->id[i]);
+      if (std::abs(rest.x() - 0.03) < 0.05) middle.push_back(vectorOf(scene->position[i]));
+    }
+    QVERIFY(!middle.empty());
+    brush("particle", kIce);
+    BrushSettings wide = m_tools->brush();
+    wide.shape = "cube";
+    wide.radius = 0.05;
+    m_tools->setBrush(wide);
+    Vector3 low = middle.front(), high = low;
+    for (const Vector3& place : middle) low = low.cwiseMin(place), high = high.cwiseMax(place);
+    LiveStroke stroke(*m_tools);
+    const Vector3 centre = (low + high) / 2;
+    QCOMPARE(stroke.begin(true, *scene, Vector3(centre.x(), low.y(), low.z()), {0, 1, 0}, 1.0), QString());
+    double seconds = 0;
+    for (double y = low.y(); y <= high.y() + 0.03; y += 0.03) {
+      stroke.move({centre.x(), y, low.z()}, seconds += 0.05, 1.0);
+      stroke.move({centre.x(), y, high.z()}, seconds += 0.05, 1.0);
+    }
+    QCOMPARE(stroke.finish(), QString());
+    now();
+    QCoreApplication::processEvents();
+    QVERIFY(!id.empty() && count() < scene->id.size());
+  }
+  /// Ten frames on, from here and from what is saved here, to one hash.
+  bool goesOnFromItsState() {
+    const Project document = m_document->project();
+    return tests::onEngine<bool>(*m_engine, [&, this](Engine& engine) {
+      StateBuffer stream;
+      saveTo(stream, engine);
+      Engine other(document, *m_plugins, StateReader(stream.bytes()));
+      if (other.stateHash() != engine.stateHash()) return false;
+      for (int frame = 0; frame < 10; ++frame) engine.step(), other.step();
+      return other.stateHash() == engine.stateHash();
+    });
   }
 };
 
