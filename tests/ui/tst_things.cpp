@@ -500,6 +500,29 @@ class TestThings : public SampleWindowTest {
     QVERIFY(project().groups.empty());
   }
 
+  /// Rows are made anew at each edit; what is folded stays so, but for a search that finds something in it.
+  void whatIsFoldedStaysFolded() {
+    const std::vector<std::string> ids = threeBalls();
+    selectBodies({ids[0], ids[1]});
+    trigger("edit.group");
+    QCOMPARE(project().groups.size(), size_t{1});
+    const SceneGroup group = project().groups[0];
+    const auto isOpen = [&] { return tree()->isExpanded(rowOf(OutlineKind::Group, group.id)); };
+    QVERIFY(isOpen());
+    tree()->collapse(rowOf(OutlineKind::Group, group.id));
+    document().renameGroup(group.id, QStringLiteral("Table"));
+    QVERIFY(!isOpen());
+    auto* search = m_window->findChild<Outliner*>()->findChild<QLineEdit*>();
+    QVERIFY(search);
+    search->setText(QString::fromStdString(document().body(ids[1])->name));
+    QTRY_VERIFY(isOpen());
+    search->clear();
+    QTRY_VERIFY(!isOpen());
+    tree()->expand(rowOf(OutlineKind::Group, group.id));
+    document().renameGroup(group.id, QStringLiteral("Chair"));
+    QVERIFY(isOpen());
+  }
+
   /// Probes are members like walls: hidden and locked together, copied and saved with the group, back by undo.
   void probesAreMembersOfGroups() {
     const std::string first = project().probes[0].id, second = project().probes[1].id;

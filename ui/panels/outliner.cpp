@@ -97,6 +97,8 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
   connect(m_model, &OutlinerModel::materialDropped, this, [this](const QMimeData& carried, const std::string& body) {
     giveMaterial(m_document, takersOf(m_document, m_selection, body), carried);
   });
+  connect(m_view, &QTreeView::collapsed, this, [this](const QModelIndex& row) { noteFolded(row, true); });
+  connect(m_view, &QTreeView::expanded, this, [this](const QModelIndex& row) { noteFolded(row, false); });
   m_view->viewport()->installEventFilter(this);
   connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
     if (!m_building) takeSelection();
@@ -239,15 +241,35 @@ void Outliner::rebuild() {
   }
   add(scene, OutlineKind::Environment, "", QStringLiteral("Air and gravity"), QStringLiteral("air"));
   addProbes(scene);
-  m_view->expandAll();
   filter();
   refreshSurroundings();
   refreshCounts();
   m_building = false;
   showSelection();
+  m_building = true;
+  foldAgain();  // what is selected may lie in there
+  m_building = false;
+}
+
+void Outliner::noteFolded(const QModelIndex& row, bool folded) {
+  if (m_building) return;
+  const std::pair<int, std::string> key{row.data(outline::kKind).toInt(),
+                                        row.data(outline::kId).toString().toStdString()};
+  folded ? static_cast<void>(m_folded.insert(key)) : static_cast<void>(m_folded.erase(key));
+}
+
+/// Rows are made anew at each edit; what somebody has folded stays so.
+void Outliner::foldAgain(const QModelIndex& under) {
+  for (int k = 0; k < m_model->rowCount(under); ++k) {
+    const QModelIndex row = m_model->index(k, 0, under);
+    foldAgain(row);
+    if (m_folded.contains({row.data(outline::kKind).toInt(), row.data(outline::kId).toString().toStdString()}))
+      m_view->collapse(row);
+  }
 }
 
 void Outliner::onChanged(const ChangeEvent& event) {
+  if (std::holds_alternative<ProjectOpened>(event)) m_folded.clear();
   const auto* parameter = std::get_if<ParameterChanged>(&event);
   const auto* port = std::get_if<PortChanged>(&event);
   const auto* body = std::get_if<BodyChanged>(&event);

@@ -10,7 +10,9 @@
 #include <QtWidgets/QWidget>
 
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 class QDragMoveEvent;
@@ -68,6 +70,8 @@ class Outliner : public QWidget {
   static void mark(QStandardItem* item, bool visible, bool locked);
   QStandardItem* parentOf(QStandardItem* scene, Owner owner, const std::string& id) const;
   void onChanged(const ChangeEvent& event);
+  void noteFolded(const QModelIndex& row, bool folded);
+  void foldAgain(const QModelIndex& under = {});
   void showSelection();
   void takeSelection();
   SelectedItem itemOf(const QModelIndex& index) const;
@@ -97,6 +101,7 @@ class Outliner : public QWidget {
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
   std::map<std::string, size_t> m_counts;  ///< particles of it, by body and tap
+  std::set<std::pair<int, std::string>> m_folded;  ///< OutlineKind and id of rows
   bool m_building = false;
 };
 

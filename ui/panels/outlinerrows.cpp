@@ -196,6 +196,11 @@ void Outliner::filter() {
     return any;
   };
   const bool any = show({}, wanted.isEmpty());
+  // What is found is in sight; what somebody has folded is so again after the search.
+  const bool before = std::exchange(m_building, true);
+  m_view->expandAll();
+  if (wanted.isEmpty()) foldAgain();
+  m_building = before;
   const Project& project = m_document.project();
   m_bare->setVisible(project.bodies.empty() && project.emitters.empty() && wanted.isEmpty());
   m_nothing->standFor(*m_view, any);
