@@ -82,8 +82,9 @@ void Inspector::connectPanel(ParameterPanel* panel) {
   });
   connect(panel, &ParameterPanel::plotRequested, this, [this](const QString& key) {
     const auto address = Address::parse(key.toStdString());
-    if (address && address->owner != Owner::Probe && isDeclared(m_document, key))
-      m_document.plot({}, parameterSource(*address));
+    if (!address || !isDeclared(m_document, key)) return;
+    // Of a probe what it measures is meant.
+    m_document.plot({}, address->owner == Owner::Probe ? probeSource(address->id) : parameterSource(*address));
   });
   connect(panel, &ParameterPanel::curveRequested, this, [this](const QString& key) {
     if (const auto address = Address::parse(key.toStdString())) Q_EMIT curveWanted(*address);

@@ -20,6 +20,7 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kPadding = 8, kLine = 22;
+constexpr double kShorter = 92;  // px, that the bar of a legend may lack: 100 are left
 
 void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
   const Theme& theme = Theme::current();
@@ -98,7 +99,10 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
     if (std::isfinite(state.boilingPoint))
       marks.push_back({shownTemperature(state.boilingPoint), QStringLiteral("boils")});
   }
-  const QSizeF size = legendSize(map, text, marks);
+  QSizeF size = legendSize(map, text, marks);
+  // In a low view its bar is shorter.
+  const double room = state.size.height() - kMargin - 100;
+  if (map.classes.empty()) size.setHeight(std::max(size.height() - kShorter, std::min(size.height(), room)));
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
                     size.width(), size.height());
   if (rect.top() < 100) return;  // too little room
