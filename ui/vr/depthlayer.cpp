@@ -48,8 +48,8 @@ void DepthLayer::makeEye(size_t eye, const Session& session, int64_t format) {
   m_shown[eye].subImage = {m_eyes[eye]->handle(), {{0, 0}, {size.width, size.height}}, 0};
 }
 
-RenderTarget DepthLayer::acquire(size_t eye) {
-  m_eyes.at(eye)->acquire();
+RenderTarget DepthLayer::target(size_t eye) {
+  m_eyes.at(eye)->attach();
   return {m_eyes[eye]->framebuffer(), 0, 0, m_sizes[eye]};
 }
 

@@ -18,8 +18,9 @@ class DepthLayer {
   DepthLayer(const Runtime& runtime, const Session& session, const std::array<PictureSize, 2>& sizes, double near,
              double far);
   bool isTaken() const { return m_eyes[0].has_value(); }
-  /// Takes the next picture; depths 0..1 from the near plane to the far one are drawn into the target.
-  RenderTarget acquire(size_t eye);
+  void acquire(size_t eye) { m_eyes.at(eye)->acquire(); }  ///< takes the next picture
+  /// Depths 0..1 from the near plane to the far one are drawn into it.
+  RenderTarget target(size_t eye);
   void release(size_t eye) { m_eyes.at(eye)->release(); }
   /// For an eye's view of a layer, until the next one.
   const XrCompositionLayerDepthInfoKHR* shown(size_t eye) const { return &m_shown.at(eye); }

@@ -20,8 +20,8 @@ Swapchain::Kind kindFor(XrSession session) {
 EyePicture::EyePicture(const Session& session, const PictureSize& size)
     : m_size(size), m_used(size), m_pictures(session.handle(), size, kindFor(session.handle())) {}
 
-RenderTarget EyePicture::acquire(double scale) {
-  m_pictures.acquire();
+RenderTarget EyePicture::target(double scale) {
+  m_pictures.attach();
   const auto part = [scale](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
   m_used = {part(m_size.width), part(m_size.height), false};
   return {m_pictures.framebuffer(), 0, 0, m_used, m_pictures.texture()};

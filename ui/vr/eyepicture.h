@@ -13,10 +13,10 @@ class EyePicture {
   /// Throws Failure, and Error where the runtime has no sRGB.
   EyePicture(const Session& session, const PictureSize& size);
 
-  /// Takes the next picture; what is drawn into the target is shown after release(). Values are written as they are: a
-  /// shader encodes them, GL_FRAMEBUFFER_SRGB stays off. `scale`: pixels along a side that are used, of those there
-  /// are.
-  RenderTarget acquire(double scale);
+  void acquire() { m_pictures.acquire(); }  ///< takes the next one
+  /// What is drawn into the target is shown after release(). Values are written as they are: a shader encodes them,
+  /// GL_FRAMEBUFFER_SRGB stays off. `scale`: pixels along a side that are used, of those there are.
+  RenderTarget target(double scale);
   uint32_t texture() const { return m_pictures.texture(); }  ///< that was acquired
   void release() { m_pictures.release(); }
   XrSwapchainSubImage shown() const;  ///< for a layer

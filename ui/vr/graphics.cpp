@@ -53,4 +53,9 @@ GraphicsBinding currentGraphics(const Runtime& runtime) {
   throw Error("There is no OpenGL to draw for the headset with.");
 }
 
+const void* currentContext() {
+  const EGLContext context = eglGetCurrentContext();
+  return context != EGL_NO_CONTEXT ? static_cast<const void*>(context) : glXGetCurrentContext();
+}
+
 }  // namespace ps::vr

@@ -13,4 +13,7 @@ using GraphicsBinding = std::variant<XrGraphicsBindingEGLMNDX, XrGraphicsBinding
 /// does not know its kind.
 GraphicsBinding currentGraphics(const Runtime& runtime);
 
+/// Of the same kind; what it is does not matter, but whether it is still the same. nullptr: none is current.
+const void* currentContext();
+
 }  // namespace ps::vr

@@ -6,6 +6,7 @@
 #include "ui/vr/detail.h"
 #include "ui/vr/eyepicture.h"
 #include "ui/vr/floor.h"
+#include "ui/vr/graphics.h"
 #include "ui/vr/hands.h"
 #include "ui/vr/handtracking.h"
 #include "ui/vr/mirror.h"
@@ -92,6 +93,7 @@ struct Headset::Stay {
   bool overdue() const { return hangs() && asked && steady_clock::now() - *asked > kGrace; }
 
   const HeadsetSetup setup;
+  const void* context = nullptr;  ///< that the stay draws with
   std::atomic<bool> leave = false;
   std::atomic<uint64_t> frames = 0;
   std::atomic<double> detail = 1, hertz = 0;
@@ -128,6 +130,8 @@ void Headset::Stay::ask(const auto& call) {
     call();
   }
   requireOwner();
+  // Runtimes that draw with the program's own thread may leave a context of theirs, or none.
+  if (context && currentContext() != context) setup.makeCurrent();
 }
 
 /// What there is during a stay; made in this order, and put away in the other.
@@ -239,17 +243,17 @@ class Headset::Loop {
     EyePicture& picture = *m_pictures[eye];
     const steady_clock::time_point asked = steady_clock::now();
     const bool hasDepth = m_depth && m_depth->isTaken();
-    RenderTarget target, depth;
     m_told.ask([&] {
-      target = picture.acquire(m_detail.scale());
-      if (hasDepth) depth = m_depth->acquire(eye);
+      picture.acquire();
+      if (hasDepth) m_depth->acquire(eye);
     });
     m_waited += secondsSince(asked);
+    RenderTarget target = picture.target(m_detail.scale());
     target.coarser = m_detail.coarser();
     target.hidden = m_mask.hidden(eye);
     const Eye seen = eyeOf(view, m_setup.nearPlane, m_setup.farPlane);
     m_scene->draw(eye, seen, target);
-    if (hasDepth) m_scene->drawDepth(eye, seen, depth);
+    if (hasDepth) m_scene->drawDepth(eye, seen, m_depth->target(eye));
     if (eye == kLeft && m_setup.mirror) m_setup.mirror->offer(picture.texture(), target.size);
     m_told.ask([&] {
       if (hasDepth) m_depth->release(eye);
@@ -334,6 +338,7 @@ void Headset::Stay::requireOwner() const {
 
 Ending Headset::Stay::last() {
   const Current current(setup);
+  context = currentContext();
   Loop loop(*this);
   loop.begin();
   Session& session = loop.session();

@@ -41,7 +41,6 @@ Swapchain::Swapchain(XrSession session, const PictureSize& size, const Kind& kin
     xrDestroySwapchain(m_handle);
     throw;
   }
-  glGenFramebuffers(1, &m_framebuffer);
 }
 
 Swapchain::~Swapchain() {
@@ -54,6 +53,10 @@ void Swapchain::acquire() {
   auto wait = structure<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
   wait.timeout = kPatience;
   if (check(xrWaitSwapchainImage(m_handle, &wait), "xrWaitSwapchainImage") == XR_TIMEOUT_EXPIRED) throw Error(kKept);
+}
+
+void Swapchain::attach() {
+  if (m_framebuffer == 0) glGenFramebuffers(1, &m_framebuffer);
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, m_framebuffer);

@@ -21,8 +21,9 @@ class Swapchain {
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  /// The framebuffer has the next picture. Throws Failure, and Error where the headset keeps all of them for seconds.
+  /// Takes the next picture. Throws Failure, and Error where the headset keeps all of them for seconds.
   void acquire();
+  void attach();   ///< to the framebuffer: what is OpenGL of that, once the runtime is out of it
   void release();  ///< it may be shown
   XrSwapchain handle() const { return m_handle; }
   uint32_t framebuffer() const { return m_framebuffer; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/vr/runtime/call.h"
 
+#include "tests/vr/runtime/graphics.h"
 #include "tests/vr/runtime/names.h"
 
 #include <chrono>
@@ -37,6 +38,10 @@ void hangWhereTold(Instance& instance, std::string_view function) {
   instance.hangs.reset();
   std::condition_variable_any never;
   never.wait_until(runtime().mutex, until, [] { return false; });
+}
+
+void stealContextWhereTold(const Instance& instance, std::string_view function) {
+  if (instance.stealsContext == function) leaveNoContext();
 }
 
 void noteViolation(Instance& instance, std::string_view function, const Refusal& refusal) {

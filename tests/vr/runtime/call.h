@@ -34,6 +34,8 @@ struct FunctionName {
 std::optional<XrResult> answerInstead(Instance& instance, std::string_view function, bool ofSession);
 /// Lets go of the lock for as long as the script says, as a runtime does that hangs, and then comes back after all.
 void hangWhereTold(Instance& instance, std::string_view function);
+/// Leaves no context of OpenGL current, as runtimes may that draw with the client's own thread.
+void stealContextWhereTold(const Instance& instance, std::string_view function);
 /// Notes a call that breaks the specification.
 void noteViolation(Instance& instance, std::string_view function, const Refusal& refusal);
 
@@ -58,6 +60,7 @@ struct Entry<name, implementation> {
     if (const auto answer = answerInstead(instance, name.text, kSession)) return *answer;
     try {
       const XrResult result = implementation(instance, arguments...);
+      if constexpr (kSession && !kDestroys) stealContextWhereTold(instance, name.text);
       if constexpr (kSession && !kDestroys) {
         const bool ends = instance.session && instance.session->state == XR_SESSION_STATE_LOSS_PENDING;
         if (ends && result == XR_SUCCESS) return XR_SESSION_LOSS_PENDING;

@@ -40,6 +40,12 @@ GraphicsBinding readBinding(const XrSessionCreateInfo& info, bool eglEnabled) {
   return binding;
 }
 
+void leaveNoContext() {
+  if (Display* display = glXGetCurrentDisplay()) makeCurrent(display, 0, 0, nullptr);
+  if (EGLDisplay display = eglGetCurrentDisplay(); display != EGL_NO_DISPLAY)
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 CurrentContext::CurrentContext(const GraphicsBinding& binding) : m_binding(binding) {
   const std::string why = "the session's OpenGL context is current on another thread";
   if (binding.glxContext) {

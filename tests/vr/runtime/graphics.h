@@ -16,6 +16,9 @@ struct GraphicsBinding {
 /// Reads a session's binding; both extensions say what they need. Throws Refusal XR_ERROR_GRAPHICS_DEVICE_INVALID.
 GraphicsBinding readBinding(const XrSessionCreateInfo& info, bool eglEnabled);
 
+/// On this thread.
+void leaveNoContext();
+
 /// Makes the client's context current for as long as it lives, and what was current before again. The client may have
 /// it current on this thread or on none. Throws Refusal XR_ERROR_RUNTIME_FAILURE where another thread has it.
 class CurrentContext {

@@ -224,7 +224,7 @@ void ScriptReader::readEvent(Script& script, const json& value, const std::strin
   if (value.contains("frame")) event.frame = number(value["frame"], pointer + "/frame", -1, kAnyFrame);
   std::string kind;
   for (const std::string_view known : {"state", "fail", "dies", "session_lost", "instance_loss", "profile", "recentre",
-                                       "refresh_rate", "events_lost", "hidden_corners", "hangs"})
+                                       "refresh_rate", "events_lost", "hidden_corners", "hangs", "steals_context"})
     if (value.contains(known)) kind = known;
   if (kind.empty()) refuse(pointer, "says nothing that can happen");
   checkEvent(kind, value, pointer);
@@ -258,6 +258,8 @@ void ScriptReader::checkEvent(const std::string& kind, const json& value, const 
     refuse(pointer + "/hand", "must be left or right");
   if (kind == "recentre") pose(value[kind], place);
   if (kind == "refresh_rate") number(value[kind], place, 1, 1000);
+  if (kind == "steals_context" && !text(value[kind], place).starts_with("xr"))
+    refuse(place, "must be a function of OpenXR");
   if (kind == "hangs") {
     if (!text(value[kind], place).starts_with("xr")) refuse(place, "must be a function of OpenXR");
     if (!value.contains("milliseconds")) refuse(pointer + "/milliseconds", "must say for how long");

@@ -125,6 +125,7 @@ struct Instance {
   XrSessionState allowed = XR_SESSION_STATE_FOCUSED;
   std::map<std::string, Failure, std::less<>> failures;
   std::optional<Hang> hangs;
+  std::string stealsContext;                           ///< the function whose calls leave no context current
   XrResult death = XR_SUCCESS;                         ///< what every call gives from now on
   std::array<std::string, 2> profile;                  ///< of the controllers that are there, "" for none
   XrPosef localOrigin = {{0, 0, 0, 1}, {0, 1.6f, 0}};  ///< in the stage

@@ -68,6 +68,8 @@ void apply(Instance& instance, const json& what) {
     instance.death = *resultNamed(what["dies"].get<std::string>());
   } else if (kind == "hangs") {
     instance.hangs = {what["hangs"], std::chrono::milliseconds(what["milliseconds"].get<int64_t>())};
+  } else if (kind == "steals_context") {
+    instance.stealsContext = what["steals_context"];
   } else if (kind == "session_lost") {
     if (instance.session) instance.session->lost = true;
   } else if (kind == "instance_loss") {
