@@ -37,7 +37,9 @@ Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function
 size_t countGlObjects() {
   size_t count = 0;
   for (GLuint name = 1; name < 2000; ++name)
-    count += size_t(glIsTexture(name)) + size_t(glIsFramebuffer(name)) + size_t(glIsBuffer(name));
+    count += size_t(glIsTexture(name)) + size_t(glIsFramebuffer(name)) + size_t(glIsBuffer(name)) +
+             size_t(glIsRenderbuffer(name)) + size_t(glIsVertexArray(name)) + size_t(glIsQuery(name)) +
+             size_t(glIsProgram(name)) + size_t(glIsShader(name));
   return count;
 }
 

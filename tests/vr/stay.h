@@ -23,7 +23,7 @@ Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function
                    const StayPlan& plan = {});
 Stay stayInHeadset(HeadlessContext& context, const StayPlan& plan = {});
 
-/// Textures, framebuffers and buffers that exist in the context that is current.
+/// Objects of all kinds that exist in the context that is current.
 size_t countGlObjects();
 size_t countThreads();  ///< of this process
 

@@ -19,6 +19,7 @@ struct HandRoles {
   size_t main = kRight;
   bool alone = false;  ///< the main one alone is used: it brings the palette as well
   size_t other() const { return kLeft + kRight - main; }
+  size_t goes() const { return alone ? main : other(); }  ///< whose stick takes its wearer somewhere
   bool operator==(const HandRoles&) const = default;
 };
 
@@ -39,7 +40,6 @@ using HandJoints = std::array<HandJoint, kJoints>;
 struct HandInput {
   std::optional<HandPose> grip;   ///< of the palm; nothing while the controller is asleep or out of sight
   std::optional<HandPose> aim;    ///< -z points where the hand does
-  Vector3 velocity{0, 0, 0};      ///< of the grip, m/s; 0 where it is not known
   double draw = 0, hold = 0;      ///< how far trigger and grip are pressed, 0..1
   double steerX = 0, steerY = 0;  ///< stick or pad, -1..1, right and forward
   std::string_view profile;       ///< what it holds: of OpenXR, as suggestions() have it, or of handlabels.h; "": none

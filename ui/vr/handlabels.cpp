@@ -30,12 +30,16 @@ std::string nameOf(std::string_view part) {
 }
 
 /// As VrHands and Moving take it.
-void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, bool main) {
+void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, bool main, bool alone) {
   if (of.steer.empty()) return;
   const std::string name = nameOf(of.steer);
-  if (of.steer != "/input/trackpad") {
+  const bool pad = of.steer == "/input/trackpad";
+  if (alone && !of.hold.empty())
+    labels.push_back(
+        {nameOf(of.hold) + ", " + name, pad ? "forward: go there; aside: turn" : "forward: go there; aside: scale"});
+  if (!pad) {
     labels.push_back({name, main ? "up, down: size; aside: turn" : "forward: go there"});
-    if (main) labels.push_back({name + " pressed", "next material"});
+    if (main) labels.push_back({name + " pressed", "next material; menu of a panel"});
   } else if (main) {
     labels.push_back({name, "middle: next material"});
     labels.push_back({"", "up, down: size; aside: shape"});
@@ -47,6 +51,8 @@ void addSteering(std::vector<HandLabel>& labels, const Suggestion& of, bool main
 /// What a trigger does on a panel and off it, and with the grip.
 const char* pulled(bool main) { return main ? "draw, press" : "erase, press"; }
 const char* pulledHeld(bool main) { return main ? "erase" : "draw"; }
+
+const char* held(bool alone) { return alone ? "hold" : "hold; both hands: the scene"; }
 
 /// As the window of a trial takes them, whichever hand they lead.
 std::vector<HandLabel> keys(bool main) {
@@ -66,10 +72,9 @@ std::vector<HandLabel> keys(bool main) {
           {"Tab", "the other hand"}};
 }
 
-std::vector<HandLabel> ofBareHand(bool main) {
-  std::vector<HandLabel> labels{
-      {"Pinch", pulled(main)}, {"Fist", "hold; both hands: the scene"}, {"Fist, Pinch", pulledHeld(main)}};
-  if (!main) labels.push_back({"Index, then Pinch", "point; go there"});
+std::vector<HandLabel> ofBareHand(bool main, bool alone) {
+  std::vector<HandLabel> labels{{"Pinch", pulled(main)}, {"Fist", held(alone)}, {"Fist, Pinch", pulledHeld(main)}};
+  if (!main || alone) labels.push_back({"Index, then Pinch", "point; go there"});
   return labels;
 }
 
@@ -78,18 +83,18 @@ std::vector<HandLabel> ofBareHand(bool main) {
 std::vector<HandLabel> labelsOf(std::string_view profile, size_t hand, const HandRoles& roles) {
   const bool main = hand == roles.main;
   if (profile == kMouse) return keys(main);
-  if (profile == kJointsAlone) return ofBareHand(main);
+  if (profile == kJointsAlone) return ofBareHand(main, roles.alone);
   std::vector<HandLabel> labels;
   const Suggestion* of = suggested(profile);
   if (!of) return labels;
-  if (of->bareHand) return ofBareHand(main);
+  if (of->bareHand) return ofBareHand(main, roles.alone);
   labels.push_back({nameOf(of->draw), pulled(main)});
   if (!of->hold.empty()) {
     const std::string hold = nameOf(of->hold);
-    labels.push_back({hold, "hold; both hands: the scene"});
+    labels.push_back({hold, held(roles.alone)});
     labels.push_back({hold + ", " + labels.front().part, pulledHeld(main)});
   }
-  addSteering(labels, *of, main);
+  addSteering(labels, *of, main, roles.alone);
   const std::string_view first = of->first(hand), second = of->second(hand);
   const char* const does[] = {main ? "undo" : "play, pause", main ? "board" : "make real"};
   if (!first.empty()) labels.push_back({nameOf(first), does[0]});

@@ -163,23 +163,19 @@ double Hands::number(XrAction action, size_t hand) const {
   return state.isActive ? double(state.currentState) : 0;
 }
 
-std::optional<HandPose> Hands::locate(XrSpace space, XrTime time, Vector3* velocity) const {
-  auto speed = structure<XrSpaceVelocity>(XR_TYPE_SPACE_VELOCITY);
+std::optional<HandPose> Hands::locate(XrSpace space, XrTime time) const {
   auto location = structure<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
-  location.next = &speed;
   check(xrLocateSpace(space, m_session.floor(), time, &location), "xrLocateSpace");
   constexpr XrSpaceLocationFlags kValid =
       XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   if ((location.locationFlags & kValid) != kValid) return {};
-  if (velocity && (speed.velocityFlags & XR_SPACE_VELOCITY_LINEAR_VALID_BIT))
-    *velocity = {double(speed.linearVelocity.x), double(speed.linearVelocity.y), double(speed.linearVelocity.z)};
   return poseOf(location.pose);
 }
 
 HandInput Hands::input(size_t hand, XrTime time) const {
   HandInput input;
-  input.grip = locate(m_gripSpaces[hand], time, &input.velocity);
-  input.aim = locate(m_aimSpaces[hand], time, nullptr);
+  input.grip = locate(m_gripSpaces[hand], time);
+  input.aim = locate(m_aimSpaces[hand], time);
   input.draw = number(m_draw, hand);
   input.hold = number(m_hold, hand);
   const XrActionStateGetInfo info = stateInfo(m_steer, hand);

@@ -39,7 +39,7 @@ class Hands {
   const Suggestion* held(size_t hand) const;  ///< nullptr: nothing that is suggested for
   XrPath profile(size_t hand) const;
   double number(XrAction action, size_t hand) const;
-  std::optional<HandPose> locate(XrSpace space, XrTime time, Vector3* velocity) const;
+  std::optional<HandPose> locate(XrSpace space, XrTime time) const;
 
   Runtime& m_runtime;
   Session& m_session;

@@ -56,8 +56,9 @@ struct HandsSeen {
   };
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
-  bool carries = false;  ///< both grips carry the scene
-  HandRoles roles;       ///< as the view had them
+  bool carries = false;    ///< both grips carry the scene
+  bool boardAhead = true;  ///< the board is before the wearer's eyes, or put away
+  HandRoles roles;         ///< as the view had them
 };
 
 /// What a hand feels for as long as it does.

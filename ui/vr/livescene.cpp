@@ -11,9 +11,9 @@
 namespace ps::vr {
 namespace {
 
-constexpr double kLongest = 0.2;    // s: after a longer wait nobody expects that it is made up for
-constexpr double kHeld = 0.5;       // of a grip's way
-constexpr double kNearPanel = 0.3;  // m, of a hand that points at one
+constexpr double kLongest = 0.2;             // s: after a longer wait nobody expects that it is made up for
+constexpr double kHeld = 0.5, kLetGo = 0.3;  // of a grip's way, apart so that a tremor lets nothing go
+constexpr double kNearPanel = 0.3;           // m, of a hand that points at one
 
 Vector3 tipOf(const HandPose& aim) { return aim.position + aim.orientation * Vector3(0, 0, -kTip); }
 
@@ -24,9 +24,15 @@ bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
 
 }  // namespace
 
-std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& frame) {
+std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& seen) {
+  HeadsetFrame frame = seen;
+  for (const size_t hand : {kLeft, kRight}) {
+    double& hold = frame.hands[hand].hold;
+    m_holds[hand] = hold > (m_holds[hand] ? kLetGo : kHeld);
+    hold = m_holds[hand] ? 1 : 0;
+  }
   take(m_link->shown(), frame);
-  m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.other()), m_view->keeps);
+  m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.goes()), m_view->keeps);
   m_panels.follow(frame, *m_view);
   tellHands(frame);
   showHands(frame);
@@ -52,6 +58,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
   seen.carries = m_moving.carries();
+  seen.boardAhead = m_panels.isBoardAhead(frame.head);
   seen.roles = m_view->roles;
   for (const size_t hand : {kLeft, kRight}) {
     const HandInput& input = frame.hands[hand];
@@ -61,6 +68,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     told.holds = input.hold > kHeld && !m_moving.usesGrip(hand);
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
+    if (m_moving.steers(hand, input)) told.input.steerX = told.input.steerY = 0;
     if (!input.aim) continue;
     told.tip = m_moving.stand().toScene(tipOf(*input.aim));
     const Quaternion turned = m_moving.stand().toScene(*input.aim).orientation;

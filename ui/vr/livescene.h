@@ -39,6 +39,7 @@ class LiveScene : public HeadsetScene {
   double m_came = 0, m_lasts = 0;  ///< s: when the matter did, and how long it takes to get there from that before
   Moving m_moving;
   std::array<uint64_t, 2> m_felt{};  ///< ticks
+  std::array<bool, 2> m_holds{};     ///< their grips are pressed
   Panels m_panels;
   Props m_props;             ///< kept for its memory
   size_t m_panelsThere = 0;  ///< of those in it: the others are before the eye

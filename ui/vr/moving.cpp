@@ -11,10 +11,10 @@
 namespace ps::vr {
 namespace {
 
-constexpr double kHeld = 0.5, kIdle = 0.1;  // of a grip's way, and of a trigger's
-constexpr double kPushed = 0.7;             // of a stick's
-constexpr double kTogether = 0.3;           // s, between two grips that are meant as one
-constexpr double kTurn = std::numbers::pi / 6;
+constexpr double kHeld = 0.5, kIdle = 0.1;                      // of a grip's way, and of a trigger's
+constexpr double kPushed = 0.7;                                 // of a stick's
+constexpr double kTogether = 0.3;                               // s, between two grips that are meant as one
+constexpr double kTurn = std::numbers::pi / 6, kLarger = 1.25;  // of a hand that is alone: at each push
 constexpr double kFarthest = 8, kSteep = 0.05;  // m, and how much a beam must fall on its way, of where one goes
 constexpr double kPinches = 0.6;                // s, within which a hand that pointed pinches
 constexpr double kGoalWidth = 0.2, kGoalHeight = 0.01;  // m
@@ -55,18 +55,19 @@ void Moving::follow(const HeadsetFrame& frame, const HandRoles& roles, bool busy
   go(frame, busy);
 }
 
+bool Moving::isGripped(const HandInput& input) { return input.grip && input.hold > kHeld; }
+
 /// While neither draws: then a grip means the opposite of what the brush does. A body that a hand took just before the
 /// other one came is put back by whoever gave it, and loose matter let go.
 void Moving::carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps) {
   const auto& [left, right] = frame.hands;
-  const auto holds = [](const HandInput& hand) { return hand.grip && hand.hold > kHeld; };
   for (const size_t hand : {kLeft, kRight}) {
     if (frame.hands[hand].hold <= kHeld)
       m_gripped[hand].reset(), m_usesGrip[hand] = false;
-    else if (!m_gripped[hand] && holds(frame.hands[hand]))
+    else if (!m_gripped[hand] && isGripped(frame.hands[hand]))
       m_gripped[hand] = frame.time;
   }
-  if (!holds(left) || !holds(right)) return m_carrying.reset();
+  if (!isGripped(left) || !isGripped(right)) return m_carrying.reset();
   const bool idle = left.draw < kIdle && right.draw < kIdle, kept = keeps[kLeft] || keeps[kRight];
   const bool together = frame.time - std::min(*m_gripped[kLeft], *m_gripped[kRight]) < kTogether;
   if (!m_carrying && !(idle && (together || !kept))) return;
@@ -86,9 +87,26 @@ void Moving::turnBy(int64_t steps, const Vector3& about) {
 void Moving::turn(const HeadsetFrame& frame) {
   const HandInput& hand = frame.hands[frame.hands[m_roles.other()].pad ? m_roles.other() : m_roles.main];
   const bool aside = std::abs(hand.steerX) > kPushed && std::abs(hand.steerX) > std::abs(hand.steerY);
-  const bool asked = aside && (!hand.pad || hand.steerPressed);
-  if (asked && !m_turns && !m_carrying) turnBy(hand.steerX > 0 ? 1 : -1, frame.head.position);
+  const bool grips = steers(m_roles.main, hand);
+  // The sides of the main hand's pad choose the shape of its brush.
+  const bool free = !hand.pad || !m_roles.alone || grips;
+  const bool asked = aside && free && (!hand.pad || hand.steerPressed);
+  if (asked && !m_turns && !m_carrying) {
+    if (grips && !hand.pad)
+      scaleBy(hand.steerX > 0 ? kLarger : 1 / kLarger, frame);
+    else
+      turnBy(hand.steerX > 0 ? 1 : -1, frame.head.position);
+  }
   m_turns = asked;
+}
+
+/// About where the hand is, as if another one went away from it.
+void Moving::scaleBy(double factor, const HeadsetFrame& frame) {
+  const std::optional<HandPose>& grip = frame.hands[m_roles.main].grip;
+  if (!grip) return;
+  const Vector3 there = grip->position, span(1, 0, 0);
+  m_stand = carried(m_stand, {there - span, there + span}, {there - factor * span, there + factor * span});
+  m_dimmed = kDimmed;
 }
 
 namespace {
@@ -104,8 +122,9 @@ std::optional<Vector3> floorAt(const HandPose& aim, const Vector3& head) {
 }  // namespace
 
 void Moving::go(const HeadsetFrame& frame, bool busy) {
-  const HandInput& hand = frame.hands[m_roles.other()];
-  const bool forward = hand.steerY > kPushed && hand.steerY > std::abs(hand.steerX);
+  const HandInput& hand = frame.hands[m_roles.goes()];
+  const bool means = !m_roles.alone || steers(m_roles.main, hand);
+  const bool forward = means && hand.steerY > kPushed && hand.steerY > std::abs(hand.steerX);
   const std::optional<Vector3> goal = std::exchange(m_goal, std::nullopt);
   m_goes = m_goes && hand.draw > kIdle;
   if (!hand.aim || m_carrying || busy) return m_pointed.reset();
@@ -118,7 +137,7 @@ void Moving::go(const HeadsetFrame& frame, bool busy) {
 
 /// The index leaves where it points as it comes to the thumb: where it was then is meant.
 void Moving::goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal) {
-  const HandInput& hand = frame.hands[m_roles.other()];
+  const HandInput& hand = frame.hands[m_roles.goes()];
   if (hand.points) {
     m_goal = floorAt(*hand.aim, frame.head.position);
     m_pointed = frame.time;
@@ -142,7 +161,7 @@ void Moving::arriveAt(const Vector3& goal, const HeadsetFrame& frame) {
 void Moving::addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const {
   const double scale = 1 / m_stand.scale;
   if (m_goal) {
-    const HandPose& aim = *frame.hands[m_roles.other()].aim;
+    const HandPose& aim = *frame.hands[m_roles.goes()].aim;
     addBeam(props, m_stand.toScene(aim), scale, (*m_goal - aim.position).norm(), accent);
     addVolume(props, m_stand.toScene(*m_goal), {scale * Vector3(kGoalWidth, kGoalHeight, kGoalWidth), false, accent});
   }

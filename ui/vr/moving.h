@@ -11,10 +11,10 @@
 namespace ps::vr {
 
 /// How the scene stands in the room, and how its wearer changes that: both grips carry it, unless one has had something
-/// in it before the other came, the main stick aside turns
-/// it about them by 30 degrees, which eyes bear better than a turn, and the other one forward takes them to where that
-/// hand points on the floor as soon as it is let go; where that is bare it points there with its index, and then
-/// pinches. While it moves the edge of what is seen is dimmed.
+/// in it before the other came; the main stick aside turns it about them by 30 degrees, which eyes bear better than a
+/// turn; and the other one forward takes them to where that hand points on the floor as soon as it is let go. A hand
+/// that is alone does that with its grip pressed, and so makes the scene larger or smaller by its stick aside. A bare
+/// hand points there with its index, and then pinches. While it moves the edge of what is seen is dimmed.
 class Moving {
  public:
   const Stand& stand() const { return m_stand; }
@@ -33,14 +33,20 @@ class Moving {
   /// m on the floor, where the wearer will be.
   const std::optional<Vector3>& goal() const { return m_goal; }
   /// Its pinch is none of the brush's business: it says go.
-  bool takes(size_t hand) const { return hand == m_roles.other() && (m_goes || (m_goal && m_pointed)); }
+  bool takes(size_t hand) const { return hand == m_roles.goes() && (m_goes || (m_goal && m_pointed)); }
+  /// Its stick is none of the brush's business: that of a hand that is alone, with its grip pressed.
+  bool steers(size_t hand, const HandInput& input) const {
+    return m_roles.alone && hand == m_roles.main && isGripped(input);
+  }
   bool dims() const { return m_dimmed > 0; }
   /// The way to the goal, and what dims. Comes last: that lies before all else.
   void addTo(Props& props, const HeadsetFrame& frame, const std::array<float, 3>& accent) const;
 
  private:
   void carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps);
+  static bool isGripped(const HandInput& input);
   void turn(const HeadsetFrame& frame);
+  void scaleBy(double factor, const HeadsetFrame& frame);
   void go(const HeadsetFrame& frame, bool busy);
   void goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal);
   void arriveAt(const Vector3& goal, const HeadsetFrame& frame);

@@ -12,8 +12,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOverHand = 0.12, kTilt = 35 * kDegree;  // of the palette: m from the palm, and from upright
 constexpr double kPinnedAway = 0.15, kPinnedUp = 0.05;    // m, of a pinned one from the hand that then points at it
+constexpr double kHandAway = 0.5;                         // m, of a hand from the eyes
 constexpr double kFacing = 0.55, kStillFacing = 0.4;      // cosine between the palm and the way to the eyes
 constexpr double kAway = 0.75, kBelow = 15 * kDegree;     // of the board: m from the eyes, and from their level
+constexpr double kFarBoard = 1.5, kAhead = 0.6;           // m, and cosine of an angle: it is out of sight beyond
 constexpr double kBesideHand = 0.05;                      // m, of labels
 constexpr double kBeforePanel = 0.006;                    // m, of a popup
 constexpr double kEdge = 0.026;  // tangent of 1.5 degrees, by which a beam may leave what it is on
@@ -59,7 +61,9 @@ void Panels::placePalette(const HeadsetFrame& frame, const PanelView& palette) {
   pinPalette(frame);
   const size_t hand = m_roles.other();
   if (m_pinned) {
-    m_places[kPalette] = Place{*m_pinned, palette.width, palette.height};
+    // Where it stands farther than a palette over a hand, it is as much larger.
+    const double size = std::max(1.0, m_pinnedFrom / kHandAway);
+    m_places[kPalette] = Place{*m_pinned, size * palette.width, size * palette.height};
   } else if (!m_roles.alone && palmFaces(frame, hand, was)) {
     const Vector3 middle =
         frame.hands[hand].grip->position + Vector3(0, kOverHand + palette.height / 2 * std::cos(kTilt), 0);
@@ -77,6 +81,7 @@ void Panels::pinPalette(const HeadsetFrame& frame) {
     if (!asks || !frame.hands[hand].grip) continue;
     if (std::exchange(m_pinned, std::nullopt)) continue;
     m_pinned = atWrist(*frame.hands[hand].grip);
+    m_pinnedFrom = (m_pinned->position - m_head).norm();
   }
 }
 
@@ -96,6 +101,13 @@ HandPose Panels::atWrist(const HandPose& palm) const {
   const Vector3 middle =
       palm.position + Vector3(0, kPinnedUp, 0) + kPinnedAway * beyond / std::max(beyond.norm(), 1e-3);
   return {middle, facing(middle, m_head, kTilt)};
+}
+
+bool Panels::isBoardAhead(const HandPose& head) const {
+  const std::optional<Place>& board = m_places[kBoard];
+  if (!board) return true;
+  const Vector3 way = board->pose.position - head.position;
+  return way.norm() < kFarBoard && way.normalized().dot(head.orientation * Vector3(0, 0, -1)) > kAhead;
 }
 
 /// It stays where it was brought.
@@ -120,9 +132,10 @@ void Panels::placePopup(const HeadsetView& view) {
   m_places[kPopup].reset();
   if (!popup.image || !m_places[popup.on]) return;
   Place place = *m_places[popup.on];
-  place.pose.position += place.pose.orientation * Vector3(popup.right, -popup.down, kBeforePanel);
-  place.width = popup.width;
-  place.height = popup.height;
+  const double size = place.width / view.panels[popup.on].width;
+  place.pose.position += place.pose.orientation * Vector3(size * popup.right, -size * popup.down, kBeforePanel);
+  place.width = size * popup.width;
+  place.height = size * popup.height;
   m_places[kPopup] = place;
 }
 

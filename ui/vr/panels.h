@@ -37,6 +37,8 @@ class Panels {
   bool isNear(const Vector3& place, double metres) const;
   /// m along where a hand would point from a place, to the first panel there.
   std::optional<double> ahead(const HandPose& aim) const;
+  /// Whether who looks from there has the board before them; also where it is put away.
+  bool isBoardAhead(const HandPose& head) const;
   /// Its trigger is none of the brush's business.
   bool takes(size_t hand) const { return m_pointed.at(hand) || m_presses.at(hand); }
   /// m, in the room, where the hand's beam ends.
@@ -65,6 +67,7 @@ class Panels {
   std::optional<HandPose> m_board;  ///< since it was brought
   HandRoles m_roles;
   std::optional<HandPose> m_pinned;  ///< the palette, since it was asked for
+  double m_pinnedFrom = 0;           ///< m, from the eyes then
   struct Asks {
     bool byMenu = false, byPalm = false;
   };

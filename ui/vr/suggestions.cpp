@@ -34,7 +34,8 @@ const std::vector<Suggestion>& suggestions() {
       {"/interaction_profiles/htc/vive_controller", "/input/trigger/value", "/input/squeeze/click", "/input/trackpad",
        "/input/trackpad/click", "/input/menu/click", "", "/input/menu/click", "", "", false, "", true},
       likeTouch("/interaction_profiles/oculus/touch_controller", "", true),
-      {"/interaction_profiles/valve/index_controller", "/input/trigger/value", "/input/squeeze/value",
+      // Its squeeze/value is that of a touch, which a hand around it always is.
+      {"/interaction_profiles/valve/index_controller", "/input/trigger/value", "/input/squeeze/force",
        "/input/thumbstick", "/input/thumbstick/click", "/input/a/click", "/input/b/click", "/input/a/click",
        "/input/b/click"},
       {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value", "/input/squeeze/click",
