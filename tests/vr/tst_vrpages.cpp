@@ -49,7 +49,9 @@ class VrPagesTest : public PanelsTest {
   void theTimelineIsScrubbed();
   void theTimelinesTargetsAreLargeEnough();
   void marksOfRowsAreLargeEnough();
-  void aPointOfACurveIsMoved_data();
+  void aValueIsDragged_data() { byBeamAndTip(); }
+  void aValueIsDragged();
+  void aPointOfACurveIsMoved_data() { byBeamAndTip(); }
   void aPointOfACurveIsMoved();
   void aGraphIsZoomed_data();
   void aGraphIsZoomed();
@@ -57,6 +59,11 @@ class VrPagesTest : public PanelsTest {
   void rowsReachTheWearer();
 
  private:
+  static void byBeamAndTip() {
+    QTest::addColumn<bool>("byTip");
+    QTest::newRow("by a beam") << false;
+    QTest::newRow("by a fingertip") << true;
+  }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport* transport() {
     QWidget* board = panels().widget(vr::kBoard);
@@ -194,10 +201,44 @@ void VrPagesTest::marksOfRowsAreLargeEnough() {
   document().undoStack().undo();
 }
 
-void VrPagesTest::aPointOfACurveIsMoved_data() {
-  QTest::addColumn<bool>("byTip");
-  QTest::newRow("by a beam") << false;
-  QTest::newRow("by a fingertip") << true;
+/// A slider of the document, by the hand that the headset has: as one step of undo, to where the mouse drags it.
+void VrPagesTest::aValueIsDragged() {
+  QFETCH(bool, byTip);
+  const std::string body = document().project().bodies.front().id;
+  const Address address{Owner::Body, body, "temperature"};
+  const auto kelvin = [&] { return responseOf(document().value(address)).at(293.15); };
+  m_window->selection().selectBody(body);
+  ScriptedRun run(vrScript());
+  enter();
+  panels().showPage(QStringLiteral("Body"));
+  QTest::qWait(100);
+  ParameterRow* row = rowOf(QStringLiteral("body/%1/temperature").arg(QString::fromStdString(body)));
+  QVERIFY(row);
+  for (QWidget* parent = row->parentWidget(); parent; parent = parent->parentWidget())
+    if (auto* area = qobject_cast<QScrollArea*>(parent)) area->ensureWidgetVisible(row);
+  QTest::qWait(50);
+  const QRect track = row->sliderRect();
+  const QPoint from(track.left() + track.width() / 4, track.center().y()), way(track.width() / 2, 0);
+  const int steps = document().undoStack().index();
+  const double before = kelvin();
+  hands::pull(*row, from, way);
+  const double wanted = kelvin();
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  document().undoStack().undo();
+  QVERIFY(kelvin() == before && std::abs(wanted - before) > 10);
+  run.goOn(vrScript({}, boardKey(0, *row, from, byTip, false) + boardKey(20, *row, from, byTip, false) +
+                            boardKey(30, *row, from, byTip, true) + boardKey(60, *row, from + way, byTip, true) +
+                            boardKey(70, *row, from + way, byTip, true) +
+                            boardKey(80, *row, from + way, byTip, false)));
+  QTRY_COMPARE_WITH_TIMEOUT(document().undoStack().index(), steps + 1, 2 * kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(std::abs(kelvin() - wanted) < 0.05 * std::abs(wanted - before), kLong);  // some pixels
+  leave();  // while the trigger is pulled, perhaps: the gesture ends all the same
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  QVERIFY(document().setParameter(address, before).isEmpty());
+  QCOMPARE(document().undoStack().index(), steps + 2);
+  QVERIFY(run.lines("violation").empty());
+  document().undoStack().undo();
+  document().undoStack().undo();
 }
 
 /// By the hand that the headset has, as one step of undo, to where the same way of the mouse moves it.

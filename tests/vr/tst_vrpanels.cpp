@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 using namespace ps;
@@ -48,6 +49,8 @@ class VrPanelsTest : public PanelsTest {
   void aLoneHandPinsThePalette();
   void aMenuPinsThePalette();
   void theBoardStandsBeforeTheWearer();
+  void theBoardComesFromOutOfSight();
+  void aBeamAtAnEdgeKeepsWhatItLeft();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
   void aTriggerPulledElsewhereDraws();
@@ -60,6 +63,7 @@ class VrPanelsTest : public PanelsTest {
   void pagesAreTheWindowsOwn();
   void namesLeadToTheirPages();
   void menusComeAlong();
+  void aStickOpensMenus();
   void gravityIsTakenAndGivenBack();
   void labelsSayWhatControllersDo_data();
   void labelsSayWhatControllersDo();
@@ -143,12 +147,15 @@ void VrPanelsTest::aLoneHandPinsThePalette() {
   const auto place = panels.place(vr::kPalette);
   QVERIFY(place && std::abs(place->pose.position.y() - shows.position.y()) < 0.1);
   QVERIFY(place->pose.position.z() < shows.position.z() - 0.1);  // beyond it
+  // As large to the eye as one that hangs over a hand, half a metre away.
+  const double away = (place->pose.position - scriptHead().position).norm();
+  QVERIFY(away > 0.5 && place->width / away > 0.30 / 0.5 - 1e-9 && place->height / away > 0.27 / 0.5 - 1e-9);
   // From where the hand is it can be pointed at and pressed.
   for (const double pulled : {0.0, 1.0, 0.0}) {
-    panels.follow(frameOf({}, pointing(shows.position, place->at(0.3, 0.7)), pulled), view);
+    panels.follow(frameOf({}, pointing(shows.position, place->at(0.6, 0.6)), pulled), view);
     const auto point = panels.pointed(vr::kRight);
     QVERIFY(point && point->panel == vr::kPalette && point->pressed == (pulled > 0));
-    QVERIFY(std::abs(point->x - 0.3) < 1e-6 && std::abs(point->y - 0.7) < 1e-6);
+    QVERIFY(std::abs(point->x - 0.6) < 1e-6 && std::abs(point->y - 0.6) < 1e-6);
     QCOMPARE(panels.place(vr::kPalette)->pose.position, place->pose.position);
   }
   panels.follow(frameOf({}, shows), view);
@@ -201,9 +208,54 @@ void VrPanelsTest::theBoardStandsBeforeTheWearer() {
   turned.head.orientation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   panels.follow(turned, view);
   QCOMPARE(panels.place(vr::kBoard)->pose.position, stands);
+  QVERIFY(panels.isBoardAhead(scriptHead()) && !panels.isBoardAhead(turned.head));
   ++view.brought;
   panels.follow(turned, view);
   QVERIFY(panels.place(vr::kBoard)->pose.position.x() < scriptHead().position.x() - 0.7);
+  QVERIFY(panels.isBoardAhead(turned.head));
+}
+
+/// By its button or another page; where it is before the wearer the button puts it away, and another page leaves it.
+void VrPanelsTest::theBoardComesFromOutOfSight() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  const auto brought = [&](bool ahead, const std::function<void()>& asks) {
+    vr::HandsSeen seen;
+    seen.boardAhead = ahead;
+    vr::HeadsetView before, after;
+    panels().describe(before);
+    panels().act(seen);
+    asks();
+    panels().describe(after);
+    return after.brought - before.brought;
+  };
+  QCOMPARE(brought(false, [&] { panels().toggleBoard(); }), uint64_t{1});
+  QVERIFY(panels().widget(vr::kBoard));
+  QCOMPARE(brought(false, [&] { panels().showPage(QStringLiteral("Scene")); }), uint64_t{1});
+  QCOMPARE(brought(true, [&] { panels().showPage(QStringLiteral("Brush")); }), uint64_t{0});
+  QCOMPARE(brought(true, [&] { panels().toggleBoard(); }), uint64_t{0});
+  QVERIFY(!panels().widget(vr::kBoard));
+}
+
+/// A gap is no target: what a hand has just been on stays meant within 1.5 degrees of its edge.
+void VrPanelsTest::aBeamAtAnEdgeKeepsWhatItLeft() {
+  enterWithout();
+  painted();
+  QToolButton *undo = button(vr::kPalette, "Undo"), *play = button(vr::kPalette, "Play or pause");
+  QVERIFY(undo && play);
+  const QSignalSpy clicks(play, &QToolButton::clicked);
+  const auto isUnder = [](const QWidget* one) { return one->testAttribute(Qt::WA_UnderMouse); };
+  const QPointF middle = QRectF(play->rect()).center(), above(middle.x(), -4);
+  at(vr::kPalette, *play, above, false);
+  QVERIFY(!isUnder(play));  // it did not come from there
+  at(vr::kPalette, *play, middle, false);
+  QVERIFY(isUnder(play));
+  for (const bool pressed : {false, true, false}) at(vr::kPalette, *play, above, pressed);
+  QVERIFY(isUnder(play));
+  QCOMPARE(clicks.count(), 1);
+  click(vr::kPalette, *play);
+  at(vr::kPalette, *undo, QRectF(undo->rect()).center(), false);
+  QVERIFY(!isUnder(play) && isUnder(undo));
 }
 
 void VrPanelsTest::beamsPressAndKeepWhatTheyPress() {
@@ -602,6 +654,46 @@ void VrPanelsTest::menusComeAlong() {
   QTRY_VERIFY_WITH_TIMEOUT(!offered.isVisible(), 2 * kLong);
   QVERIFY(seen);
   QCOMPARE(chosen.count(), 1);
+}
+
+/// Pressed over a row, as the mouse's right button would; what it offers lies over the board.
+void VrPanelsTest::aStickOpensMenus() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  const ParameterRow* radius = rowOf(QStringLiteral("radius"));
+  QVERIFY(radius);
+  QStringList offered;
+  bool isSeen = false;
+  QTimer watch, patience;
+  connect(&watch, &QTimer::timeout, this, [&] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    if (!menu) return;
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    if (!view.panels[vr::kPopup].image) return;
+    isSeen = true;
+    for (const QAction* action : menu->actions()) offered << action->text();
+    menu->close();
+  });
+  connect(&patience, &QTimer::timeout, this, [] {
+    if (QWidget* popup = QApplication::activePopupWidget()) popup->close();
+  });
+  watch.start(50);
+  patience.start(kLong);
+  const QPointF there = shareOf(vr::kBoard, *radius, radius->rect().center());
+  vr::HandsSeen seen;
+  seen.hands[vr::kRight].panel = vr::PanelPoint{vr::kBoard, there.x(), there.y(), 1, false, false};
+  for (const bool pressed : {false, true}) {
+    seen.seconds = m_seconds += 1;
+    seen.hands[vr::kRight].input.steerPressed = pressed;
+    panels().act(seen);
+  }
+  QTRY_VERIFY_WITH_TIMEOUT(isSeen, kLong);
+  QVERIFY2(offered.contains(QStringLiteral("Reset")) && offered.contains(QStringLiteral("Explain")),
+           qPrintable(offered.join(QStringLiteral(", "))));
+  QCOMPARE(offered.count(QStringLiteral("Reset")), 1);
 }
 
 void VrPanelsTest::gravityIsTakenAndGivenBack() {

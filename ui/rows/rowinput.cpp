@@ -361,6 +361,9 @@ bool ParameterRow::event(QEvent* event) {
       update();
       break;
     }
+    case QEvent::Hide:  // no release comes to what is hidden: the document's gesture would stay open
+      d->finish();
+      break;
     case QEvent::FocusOut:
       if (!d->dragging) d->finish();
       update();

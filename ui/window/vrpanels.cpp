@@ -13,11 +13,13 @@
 #include "ui/window/vrlabels.h"
 #include "ui/window/vrpalette.h"
 
+#include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtGui/QPointingDevice>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QAbstractScrollArea>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -44,8 +46,8 @@ constexpr QSize kBoardSize{385, 308}, kPaletteSize{360, 332};
 constexpr double kSharpness = 2.5;               // pixels painted for each logical one
 constexpr int kOpacity = 237;                    // 93 % of 255
 constexpr int kPaint = 100, kPaintTouched = 30;  // ms between pictures
-constexpr int kTwice = 400;                      // ms within which a second press makes it a double click
-constexpr double kTwiceReach = 8;                // px
+constexpr double kTwice = 0.4;                   // s within which a second press makes it a double click
+constexpr double kTwiceReach = 8, kSticks = 15;  // px; the latter are 1.5 degrees
 constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
 constexpr int kNotch = 120;
 constexpr int kHeader = 28, kNoteEdge = 8;
@@ -58,6 +60,10 @@ const QPointingDevice& handDevice() {
                                       QPointingDevice::PointerType::Finger,
                                       QInputDevice::Capability::Position | QInputDevice::Capability::Hover, 1, 1);
   return device;
+}
+
+bool takesPresses(const QWidget& widget) {
+  return widget.isEnabled() && (widget.focusPolicy() != Qt::NoFocus || widget.inherits("QAbstractButton"));
 }
 
 /// Shown to nobody, so that it is laid out and follows what it shows.
@@ -145,7 +151,10 @@ void VrPanels::showLabels(bool shown) {
   m_touched = true;
 }
 
-VrPanels::~VrPanels() { letGo(); }
+VrPanels::~VrPanels() {
+  letGo();
+  m_board->hide();  // what is under way there ends
+}
 
 QWidget* VrPanels::makePage(const QString& title) {
   QWidget*& page = m_made[title];
@@ -210,20 +219,20 @@ void VrPanels::refuse(const QString& title, const QString& why) {
 
 void VrPanels::showCurve() { showPage(QStringLiteral("Curve")); }
 
-/// Where it stands already it stays.
+/// Where it is in sight already it stays.
 void VrPanels::showPage(const QString& title) {
   QWidget* page = makePage(title);
   if (!page) return;
   m_pages->setCurrentWidget(page);
   m_title->setText(title);
   if (m_boardShown) m_note->hide();
-  if (!std::exchange(m_boardShown, true)) ++m_brought;
+  if (!std::exchange(m_boardShown, true) || !m_boardAhead) ++m_brought;
   m_touched = true;
 }
 
 void VrPanels::toggleBoard() {
   m_touched = true;
-  if (m_boardShown) {
+  if (m_boardShown && m_boardAhead) {
     m_boardShown = false;
   } else {
     showPage(m_pages->count() > 0 ? m_title->text() : QString::fromLatin1(kPages[0]));
@@ -294,11 +303,17 @@ void VrPanels::describe(vr::HeadsetView& view) const {
 
 void VrPanels::act(const vr::HandsSeen& seen) {
   const uint64_t act = ++m_acts;
+  m_boardAhead = seen.boardAhead;
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
     const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
     m_labels[hand]->setProfile(seen.hands[hand].input.profile, hand, seen.roles);
-    follow(m_pointers[hand], point);
+    follow(m_pointers[hand], point, seen.seconds);
     if (act != m_acts) return;  // a menu was open meanwhile: these hands are old
+    const vr::HandInput& input = seen.hands[hand].input;
+    const bool asked = std::exchange(m_pointers[hand].asks, input.steerPressed);
+    if (point && input.steerPressed && !asked && std::hypot(input.steerX, input.steerY) < kPushed)
+      openMenu(m_pointers[hand]);
+    if (act != m_acts) return;
     if (point && std::abs(seen.hands[hand].input.steerY) > kPushed)
       scroll(m_pointers[hand], seen.hands[hand].input.steerY, seen.seconds);
   }
@@ -320,7 +335,27 @@ void VrPanels::leave(Pointer& pointer) {
   pointer.on = nullptr;
 }
 
-void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point) {
+/// What is there. Where that takes no press, a button that the hand has just left is meant still, at its edge; so is
+/// one that it presses.
+QWidget* VrPanels::aimedAt(Pointer& pointer) {
+  QWidget* child = pointer.on->childAt(pointer.at.toPoint());
+  if (!child) child = pointer.on;
+  auto* last = qobject_cast<QAbstractButton*>(pointer.grabs ? pointer.grabs.data() : pointer.under.data());
+  const bool elsewhere = pointer.grabs
+                             ? child != last
+                             : !takesPresses(*child) && !qobject_cast<QAbstractScrollArea*>(child->parentWidget());
+  if (last && elsewhere && pointer.on->isAncestorOf(last)) {
+    const QRectF own(last->mapTo(pointer.on, QPoint(0, 0)), last->size());
+    if (own.adjusted(-kSticks, -kSticks, kSticks, kSticks).contains(pointer.at)) {
+      pointer.at = {std::clamp(pointer.at.x(), own.left(), own.right() - 1),
+                    std::clamp(pointer.at.y(), own.top(), own.bottom() - 1)};
+      return last;
+    }
+  }
+  return pointer.grabs ? pointer.grabs.data() : child;
+}
+
+void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point, double seconds) {
   QWidget* on = point ? widget(point->panel) : nullptr;
   if (on != pointer.on) leave(pointer);
   if (!on) return;
@@ -328,11 +363,10 @@ void VrPanels::follow(Pointer& pointer, const std::optional<vr::PanelPoint>& poi
   const bool moved = on != pointer.on || (at - pointer.at).manhattanLength() > 0.01;
   pointer.on = on;
   pointer.at = at;
-  QWidget* child = on->childAt(at.toPoint());
-  enter(pointer, pointer.grabs ? pointer.grabs.data() : child ? child : on);
+  enter(pointer, aimedAt(pointer));
   if (moved && pointer.under) send(pointer, *pointer.under, QEvent::MouseMove, Qt::NoButton);
   if (!pointer.on || point->pressed == pointer.pressed) return;
-  point->pressed ? press(pointer) : release(pointer);
+  point->pressed ? press(pointer, seconds) : release(pointer);
 }
 
 /// What can be used is felt as one comes upon it.
@@ -350,14 +384,15 @@ void VrPanels::enter(Pointer& pointer, QWidget* under) {
   const QPointF local = under->mapFrom(pointer.on, pointer.at.toPoint());
   QEnterEvent event(local, pointer.at, pointer.on->mapToGlobal(pointer.at));
   deliver(*under, event);
-  if (under->isEnabled() && (under->focusPolicy() != Qt::NoFocus || under->inherits("QAbstractButton"))) {
+  if (takesPresses(*under)) {
     ++pointer.ticks;
     m_ticked = true;
   }
 }
 
-void VrPanels::press(Pointer& pointer) {
-  const bool twice = pointer.sincePress.isValid() && !pointer.sincePress.hasExpired(kTwice) &&
+/// By the headset's clock: on a busy machine the window hears of two presses later, and later apart.
+void VrPanels::press(Pointer& pointer, double seconds) {
+  const bool twice = pointer.pressedSince && std::abs(seconds - *pointer.pressedSince) < kTwice &&
                      (pointer.at - pointer.pressedAt).manhattanLength() < kTwiceReach;
   pointer.pressed = m_touched = true;
   if (m_popup && m_popup->isVisible() && pointer.on != m_popup) {
@@ -366,7 +401,7 @@ void VrPanels::press(Pointer& pointer) {
   }
   pointer.grabs = pointer.under;
   pointer.pressedAt = pointer.at;
-  twice ? pointer.sincePress.invalidate() : pointer.sincePress.start();
+  pointer.pressedSince = twice ? std::nullopt : std::optional(seconds);
   if (pointer.grabs)
     send(pointer, *pointer.grabs, twice ? QEvent::MouseButtonDblClick : QEvent::MouseButtonPress, Qt::LeftButton);
 }
@@ -376,6 +411,15 @@ void VrPanels::release(Pointer& pointer) {
   m_touched = true;
   const QPointer<QWidget> held = std::exchange(pointer.grabs, nullptr);
   if (held) send(pointer, *held, QEvent::MouseButtonRelease, Qt::LeftButton);
+}
+
+/// As the mouse's right button does: of what is there, or of what that lies on.
+void VrPanels::openMenu(Pointer& pointer) {
+  if (!pointer.under || pointer.pressed) return;
+  m_touched = true;
+  QContextMenuEvent event(QContextMenuEvent::Mouse, pointer.under->mapFrom(pointer.on, pointer.at.toPoint()),
+                          pointer.on->mapToGlobal(pointer.at).toPoint());
+  deliver(*pointer.under, event);
 }
 
 /// As a wheel: a notch forward where the stick is pushed forward.

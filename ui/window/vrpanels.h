@@ -47,7 +47,7 @@ class VrPanels : public QObject {
 
   void act(const vr::HandsSeen& seen);
   void letGo();
-  /// Sets the board before the wearer, or puts it away where it stands there.
+  /// Sets the board before the wearer, or puts it away where they have it before them.
   void toggleBoard();
   void showPage(const QString& title);
   /// What the controllers' parts do: of themselves for the first two minutes, then where they are asked for.
@@ -67,16 +67,18 @@ class VrPanels : public QObject {
   struct Pointer {
     QPointer<QWidget> on, under, grabs;  ///< a panel, what is there of it, and what is pressed
     QPointF at;                          ///< of the panel
-    bool pressed = false;
-    double scrolled = 0;  ///< s, when it scrolled last
-    QElapsedTimer sincePress;
+    bool pressed = false, asks = false;  ///< the latter: for a menu already
+    double scrolled = 0;                 ///< s, when it scrolled last
+    std::optional<double> pressedSince;  ///< s, on the headset's clock; nothing after a double press
     QPointF pressedAt;
     uint64_t ticks = 0;
   };
-  void follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point);
+  void follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point, double seconds);
+  QWidget* aimedAt(Pointer& pointer);
   void enter(Pointer& pointer, QWidget* under);
-  void press(Pointer& pointer);
+  void press(Pointer& pointer, double seconds);
   void release(Pointer& pointer);
+  void openMenu(Pointer& pointer);
   void scroll(Pointer& pointer, double way, double seconds);
   void leave(Pointer& pointer);
   void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button);
@@ -97,7 +99,7 @@ class VrPanels : public QObject {
   QLabel *m_title = nullptr, *m_note = nullptr;
   QStackedWidget* m_pages = nullptr;
   std::map<QString, QWidget*> m_made;
-  bool m_boardShown = false;
+  bool m_boardShown = false, m_boardAhead = true;
   uint64_t m_brought = 0;
   int64_t m_turns = 0;  ///< of the wearer, to the right, that were asked for
   std::array<Pointer, 2> m_pointers;
