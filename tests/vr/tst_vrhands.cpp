@@ -63,6 +63,7 @@ class VrHandsTest : public VrWindowTest {
   void cleanupTestCase() { m_window.reset(); }
 
   void aTriggerDrawsAStrokeThatAButtonTakesBack();
+  void aStrokeOutlivesEdits();
   void bothHandsDrawAtOnce();
   void oneHandErases_data();
   void oneHandErases();
@@ -197,6 +198,40 @@ void VrHandsTest::aTriggerDrawsAStrokeThatAButtonTakesBack() {
   QCOMPARE(felt.size(), size_t{1});
   QCOMPARE(felt[0]["haptic"].get<std::string>(), std::string("/user/hand/right/output/haptic"));
   QVERIFY(run.lines("violation").empty());
+}
+
+/// What somebody else sets meanwhile does not end it; what is undone is the stroke, which can be redone.
+void VrHandsTest::aStrokeOutlivesEdits() {
+  const vr::Stand s = stand();
+  const Vector3 from(-0.15, 0.5, 0.1), to(0.15, 0.5, 0.1);
+  const auto draws = [&](const Vector3& begins, const Vector3& ends) {
+    return vrScript({}, tipKey(5, "right", s, begins, kLetGo) + tipKey(20, "right", s, begins, kPulled) +
+                            tipKey(120, "right", s, ends, kPulled) + tipKey(130, "right", s, ends, kLetGo));
+  };
+  ScriptedRun run(draws(from, to));
+  enter();
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > 50, kLong);
+  QVERIFY(vr().frames() < 110);
+  QVERIFY(document().setParameter({Owner::Material, "water", "viscosity"}, 0.002).isEmpty());
+  QCOMPARE(steps(), 1);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), 2, kLong);
+  QCOMPARE(document().undoStack().undoText(), QStringLiteral("brush stroke"));
+  const auto [low, high] = boxOfCells(document().project().bodies.back());
+  QVERIFY(low.x() < from.x() && high.x() > to.x());
+  const Vector3 above(0, 0.15, 0);
+  const uint64_t began = vr().frames();
+  run.goOn(draws(from + above, to + above));
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > began + 60, kLong);
+  document().undoStack().undo();
+  QCOMPARE(steps(), 2);
+  QCOMPARE(document().undoStack().redoText(), QStringLiteral("brush stroke"));
+  QCOMPARE(bodies(), m_before + 1);
+  document().undoStack().redo();
+  QCOMPARE(steps(), 3);
+  leave();
+  QCOMPARE(steps(), 3);
+  QVERIFY(run.lines("violation").empty());
+  while (document().undoStack().canUndo()) document().undoStack().undo();
 }
 
 /// The left one with its grip held: it draws then, as the right one erases.

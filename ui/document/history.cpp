@@ -75,6 +75,7 @@ void History::append(std::unique_ptr<QUndoCommand> command) {
 }
 
 void History::undo() {
+  if (m_macros.empty()) Q_EMIT undoing();
   if (!canUndo()) return;
   const int place = m_index - 1;
   QUndoCommand& step = *command(place);

@@ -73,6 +73,7 @@ class History : public QObject {
   void setMatter(std::shared_ptr<const MatterBytes> bytes);
 
  Q_SIGNALS:
+  void undoing();  ///< about to: what is in the making may still become the step that is undone
   void indexChanged(int index);
   void cleanChanged(bool clean);
   void canUndoChanged(bool can);

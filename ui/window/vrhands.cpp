@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <variant>
 
 namespace ps {
 namespace {
@@ -36,17 +37,46 @@ VrHands::VrHands(Session& session, Toolbox& tools)
       m_brushes{HandBrush(tools), HandBrush(tools)},
       m_grabs{HandBrush(tools, kGrabBrush), HandBrush(tools, kGrabBrush)},
       m_held{HandTool(tools), HandTool(tools)} {
-  // As with the mouse, a stroke in the making does not outlive an edit; only the other hand's end is none of its own.
-  connect(&session.document().undoStack(), &History::indexChanged, this, [this] {
-    const auto finishes = [](const HandBrush& brush) { return brush.finishes(); };
-    if (m_ends || std::any_of(m_brushes.begin(), m_brushes.end(), finishes)) return;
-    for (HandBrush& brush : m_brushes) brush.cancel();
-    for (HandBrush& grab : m_grabs) grab.cancel();
-    for (HandTool& held : m_held) held.letGo();
+  connect(&session.document(), &Document::changed, this, &VrHands::onChanged);
+  connect(&session.document().undoStack(), &History::undoing, this, [this] {
+    if (!ends()) finishStrokes();
   });
 }
 
+/// What changes in the document is the end of a stroke of these hands.
+bool VrHands::ends() const {
+  return m_ends || std::any_of(m_brushes.begin(), m_brushes.end(), [](const HandBrush& b) { return b.finishes(); });
+}
+
+/// A stroke in the making is not lost by what another hand does, or who sits at the desktop: it ends where something
+/// comes, goes or becomes another that it may lie on, and otherwise goes on. What it builds on may be gone, though.
+void VrHands::onChanged(const ChangeEvent& event) {
+  if (ends()) return;
+  const auto* body = std::get_if<BodyChanged>(&event);
+  const auto* stroke = std::get_if<StrokeChanged>(&event);
+  const auto* value = std::get_if<ParameterChanged>(&event);
+  const bool lost = std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event) ||
+                    (body && !m_session.document().body(body->id)) || (stroke && !stroke->done);
+  if (lost) {
+    for (HandBrush& brush : m_brushes) brush.cancel();
+    for (HandBrush& grab : m_grabs) grab.cancel();
+    for (HandTool& held : m_held) held.letGo();
+  } else if (body || stroke || (value && (value->address.owner == Owner::Solver || value->address.owner == Owner::Body)) ||
+             std::holds_alternative<PortChanged>(event) || std::holds_alternative<WallsChanged>(event)) {
+    m_edited = true;  // it may be under way
+  }
+}
+
+void VrHands::finishStrokes() {
+  m_edited = false;
+  m_ends = true;
+  for (HandBrush& brush : m_brushes) brush.finish();
+  for (HandTool& held : m_held) held.letGo();
+  m_ends = false;
+}
+
 void VrHands::act(const vr::HandsSeen& seen, const SnapshotPtr& scene) {
+  if (m_edited) finishStrokes();
   for (const size_t hand : {kLeft, kRight}) {
     draw(hand, seen, scene);
     press(hand, seen.roles, seen.hands[hand].input, seen.seconds);
@@ -164,11 +194,8 @@ void VrHands::step(int direction, double seconds) {
 }
 
 void VrHands::letGo() {
-  m_ends = true;
-  for (HandBrush& brush : m_brushes) brush.finish();
+  finishStrokes();
   for (HandBrush& grab : m_grabs) grab.finish();
-  for (HandTool& held : m_held) held.letGo();
-  m_ends = false;
   m_seen = {};
   m_firstSince = {};
 }

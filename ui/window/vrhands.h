@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "ui/document/changeevent.h"
 #include "ui/tools/handbrush.h"
 #include "ui/tools/handtool.h"
 #include "ui/vr/headsetlink.h"
@@ -36,6 +37,9 @@ class VrHands : public QObject {
   void realWanted();  ///< what is held shall be let go
 
  private:
+  bool ends() const;
+  void onChanged(const ChangeEvent& event);
+  void finishStrokes();
   void draw(size_t hand, const vr::HandsSeen& seen, const SnapshotPtr& scene);
   bool lead(size_t hand, const HandInScene& there, bool carries, const SnapshotPtr& scene);
   bool grab(size_t hand, HandInScene there, const SnapshotPtr& scene);
@@ -57,6 +61,7 @@ class VrHands : public QObject {
   double m_stepped = 0;                               ///< s, when the brush got another size
   std::array<std::optional<double>, 2> m_firstSince;  ///< s, of a hand with one button for both
   bool m_ends = false;                                ///< what changes in the document is the end of a stroke here
+  bool m_edited = false;                              ///< by somebody else since they acted last
   bool m_changed = false;
 };
 
