@@ -17,6 +17,7 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
 #include <QtWidgets/QTabBar>
+#include <QtWidgets/QToolButton>
 
 using namespace ps;
 
@@ -140,6 +141,25 @@ class TestLayout : public QObject {
     resize({1600, 1000});
     QTRY_VERIFY(dock("dock.materials")->isVisible() && materials()->isVisible());
     QTRY_COMPARE(dock("dock.outliner")->width(), 236);
+  }
+
+  /// A workspace that one comes back to in a narrower window is laid for that.
+  void aNarrowerWindowCutsNoTab() {
+    open({1600, 1000});
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    m_window->showWorkspace(MainWindow::kSceneTab);
+    resize({1280, 800});
+    m_window->showWorkspace(MainWindow::kTuneTab);
+    QTest::qWait(50);
+    int known = 0;
+    for (const QTabBar* bar : m_window->findChildren<QTabBar*>()) {
+      if (!bar->isVisible() || bar->visibleRegion().isEmpty()) continue;
+      ++known;
+      const QRect last = bar->tabRect(bar->count() - 1);
+      QVERIFY2(bar->visibleRegion().boundingRect().contains(last), qPrintable(bar->tabText(bar->count() - 1)));
+      for (const QToolButton* arrow : bar->findChildren<QToolButton*>()) QVERIFY(!arrow->isVisible());
+    }
+    QVERIFY(known >= 2);
   }
 
   void whatSomebodyArrangedStays() {
