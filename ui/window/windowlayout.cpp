@@ -196,6 +196,7 @@ void WindowLayout::setWorkspace(Workspace workspace) {
   if (!hasScene(workspace) || !hasScene(m_workspace)) setFullViewport(false);
   const QPointer<QWidget> held = QApplication::focusWidget();
   m_left[m_workspace] = stateNow();
+  m_leftWidth[m_workspace] = m_window.width();
   m_waiting.clear();
   m_workspace = workspace;
   fitToWorkspace();
@@ -220,9 +221,14 @@ void WindowLayout::fitToWorkspace() {
   if (auto* timeline = dock(kTransport)->findChild<Timeline*>()) timeline->setSlim(sketches);
 }
 
-/// Docks of this workspace as somebody arranged them; else as they are by default, in a window as wide as it is now.
+/// Docks of this workspace as they were left, unless nobody arranged them and they were left in a window of another
+/// width; else as they are by default.
 void WindowLayout::restoreOrLay(const QByteArray& state) {
-  if (state.isEmpty() || !isOwn() || !restoreDocks(state)) lay();
+  const DockColumn& now = dockColumn(m_window.width());
+  const auto left = m_leftWidth.find(m_workspace);
+  const bool sameWidth = left == m_leftWidth.end() || &dockColumn(left->second) == &now;
+  const bool fits = isOwn() || (sameWidth && (m_workspace != Workspace::Scene || m_joined == now.joined));
+  if (state.isEmpty() || !fits || !restoreDocks(state)) lay();
 }
 
 /// Those of this workspace, as a state has them; it may be from before there were some of the docks.
@@ -284,7 +290,9 @@ void WindowLayout::restore() {
   if (m_options.dark != Theme::current().dark()) Theme::apply(*qApp, m_options.dark);
   if (settings.contains(QLatin1String(kGeometry))) restoreWindow(settings);
   for (const auto& [workspace, key] : kStates) {
-    if (workspace != m_workspace) m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
+    if (workspace == m_workspace) continue;
+    m_left[workspace] = settings.value(QLatin1String(key)).toByteArray();
+    if (m_waitingSize.isValid()) m_leftWidth[workspace] = m_waitingSize.width();
   }
   if (m_view) restoreView(*m_view, settings);
 }
@@ -364,7 +372,7 @@ void WindowLayout::setDark(bool dark) {
 
 void WindowLayout::setFullViewport(bool on) {
   if (on == m_full) return;
-  if (on) m_beforeFull = stateNow();
+  if (on) m_beforeFull = stateNow(), m_leftWidth[m_workspace] = m_window.width();
   m_waiting.clear();
   m_full = on;
   for (size_t i = 0; i < m_docks.size(); ++i) m_docks[i]->setVisible(!on && shows(i));

@@ -98,6 +98,7 @@ class WindowLayout : public QObject {
   QByteArray m_beforeFull;
   Workspace m_workspace{};
   std::map<Workspace, QByteArray> m_left;  ///< states of those that were shown before
+  std::map<Workspace, int> m_leftWidth;    ///< px, of the window then
   int m_own = 0;                           ///< a bit for each workspace that somebody arranged
   bool m_joined = false;                   ///< materials are a page of the outliner's dock
   QByteArray m_waiting;                    ///< a state, until the window is as large as
