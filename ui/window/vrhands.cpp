@@ -61,7 +61,8 @@ void VrHands::onChanged(const ChangeEvent& event) {
     for (HandBrush& brush : m_brushes) brush.cancel();
     for (HandBrush& grab : m_grabs) grab.cancel();
     for (HandTool& held : m_held) held.letGo();
-  } else if (body || stroke || (value && (value->address.owner == Owner::Solver || value->address.owner == Owner::Body)) ||
+  } else if (body || stroke ||
+             (value && (value->address.owner == Owner::Solver || value->address.owner == Owner::Body)) ||
              std::holds_alternative<PortChanged>(event) || std::holds_alternative<WallsChanged>(event)) {
     m_edited = true;  // it may be under way
   }
