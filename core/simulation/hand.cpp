@@ -196,12 +196,11 @@ void Hand::hold(const Engine& engine, const api::Touch& touch, const Grip& grip,
 
 Hand::Mean Hand::meanOf(const Engine& engine, const Grip& grip, const Vector3& near) {
   const ParticleStore& store = engine.particles();
-  Mean mean{0, 0, {0, 0, 0}, {0, 0, 0}};
+  Mean mean{0, {0, 0, 0}, {0, 0, 0}};
   for (const Held& one : grip.held) {
     const size_t row = store.indexOf(one.id);
     if (row >= store.size()) continue;
     const double mass = store.mass()[row];
-    ++mean.count;
     mean.mass += mass;
     mean.place += mass * offsetOf(store, row, double3Of(near));
     mean.velocity += mass * vectorOf(store.velocity()[row]);
@@ -213,7 +212,7 @@ Hand::Mean Hand::meanOf(const Engine& engine, const Grip& grip, const Vector3& n
 void Hand::note(const Engine& engine, const Vector3& centre, Grip& grip) {
   const double now = engine.solver().time();
   const Mean mean = meanOf(engine, grip, grip.marks.empty() ? centre : grip.marks.back().place);
-  if (mean.count == 0 || (!grip.marks.empty() && grip.marks.back().time == now)) return;
+  if (mean.mass == 0 || (!grip.marks.empty() && grip.marks.back().time == now)) return;
   if (grip.marks.size() == kMarks) grip.marks.erase(grip.marks.begin());
   grip.marks.push_back({now, mean.place});
 }
@@ -225,7 +224,7 @@ void Hand::throwOn(const Engine& engine, const Grip& grip, std::vector<Vector3>&
   const Mark &last = grip.marks.back(), &first = grip.marks.front();
   if (last.time < engine.solver().time() - kThrown) return;  // it has come to rest
   const Mean mean = meanOf(engine, grip, last.place);
-  if (mean.count == 0) return;
+  if (mean.mass == 0) return;
   const ParticleStore& store = engine.particles();
   const Vector3 speed = atMost((last.place - first.place) / (last.time - first.time), kFastest);
   const Vector3 more = atMost(speed - mean.velocity, grip.force * compileSettings(engine.project()).dt / mean.mass);

@@ -68,8 +68,7 @@ class Hand {
   static void hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change);
   /// What of it is still there. Its mean place, m, in the image nearest to `near`; its mean velocity, m/s.
   struct Mean {
-    size_t count = 0;
-    double mass = 0;  ///< kg
+    double mass = 0;  ///< kg; 0: nothing
     Vector3 place, velocity;
   };
   static Mean meanOf(const Engine& engine, const Grip& grip, const Vector3& near);

@@ -626,6 +626,22 @@ class TestContentWindow : public SampleWindowTest {
   }
 
   /// A row may be told of another quantity than its own, whose unit is then said.
+  /// A low view has a legend too, whose bar is shorter; in one without room for it there is none.
+  void aLowViewHasALegend() {
+    OverlayState state;
+    state.field = session().fields().find("temperature");
+    state.range = {260, 390};
+    const auto bar = [&](int height) {
+      state.size = QSizeF(480, height);
+      TextDevice device(QSize(480, height));
+      QPainter painter(&device);
+      return paintOverlays(painter, state).legendBar;
+    };
+    const double whole = bar(600).height();
+    QVERIFY(bar(300).height() > 60 && bar(300).height() < whole && bar(300).bottom() < 300);
+    QVERIFY(bar(150).isEmpty());
+  }
+
   void limitsHaveTheirOwnUnits() {
     const Address address{Owner::Solver, "", "particle_spacing"};
     const Limit limit{"solver.particle_spacing", 0.25, 0.3, "m³"};

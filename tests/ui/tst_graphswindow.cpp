@@ -10,6 +10,7 @@
 #include "ui/graphs/stackview.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/rows/rowcommands.h"
 #include "ui/session/selection.h"
 #include "ui/window/dock.h"
 
@@ -66,6 +67,21 @@ class TestGraphsWindow : public SampleWindowTest {
     // On a stack it gets a graph of its own.
     QVERIFY(hands::drop(*graphs()->phases(), *data));
     QCOMPARE(graphs()->plots().size(), size_t{3});
+  }
+
+  /// By the menu of any of its rows: what it measures.
+  void aRowOfAProbePlotsIt() {
+    m_window->selection().select(OutlineKind::Probe, "ice_mass");
+    ParameterRow* row = nullptr;
+    for (ParameterRow* one : m_window->findChildren<ParameterRow*>()) {
+      if (one->isVisible() && one->key().startsWith(QStringLiteral("probe/ice_mass/"))) row = one;
+    }
+    QVERIFY(row && whyNot(*row, RowCommand::Plot).isEmpty());
+    const size_t before = document().graphs().size();
+    perform(*row, RowCommand::Plot, {});
+    QCOMPARE(document().graphs().size(), before + 1);
+    QCOMPARE(document().graphs().back().series, (std::vector<std::string>{"probe/ice_mass"}));
+    document().undoStack().undo();
   }
 
   void graphsAreAddedSplitMovedAndRemoved() {

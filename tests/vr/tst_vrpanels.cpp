@@ -773,6 +773,9 @@ void VrPanelsTest::labelsFollowTheMainHand() {
   QCOMPARE(does(kTouch, vr::kLeft, "X"), std::string("play, pause"));
   QCOMPARE(does(kTouch, vr::kLeft, "Trigger", leftHanded), std::string("draw, press"));
   QCOMPARE(does(kTouch, vr::kRight, "Trigger", leftHanded), std::string("erase, press"));
+  const vr::HandRoles alone{vr::kRight, true};
+  QCOMPARE(does(kTouch, vr::kRight, "Grip", alone), std::string("hold"));
+  QCOMPARE(does(kTouch, vr::kRight, "Grip, Stick", alone), std::string("forward: go there; aside: scale"));
   QCOMPARE(does(kTouch, vr::kLeft, "X", leftHanded), std::string("undo"));
   QCOMPARE(does(kTouch, vr::kRight, "Stick", leftHanded), std::string("forward: go there"));
   for (const size_t hand : {vr::kLeft, vr::kRight})

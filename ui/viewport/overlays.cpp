@@ -20,7 +20,8 @@ namespace ps {
 namespace {
 
 constexpr double kMargin = 10, kPadding = 8, kLine = 22;
-constexpr double kShorter = 92;  // px, that the bar of a legend may lack: 100 are left
+// px: of the bar of a legend that may be lacking, so that 100 are left; and above it that it leaves free.
+constexpr double kShorter = 92, kAboveLegend = 100;
 
 void paintGround(QPainter& painter, const QRectF& rect, double radius = 4) {
   const Theme& theme = Theme::current();
@@ -101,11 +102,11 @@ void paintLegendOver(QPainter& painter, const OverlayState& state, OverlayHits& 
   }
   QSizeF size = legendSize(map, text, marks);
   // In a low view its bar is shorter.
-  const double room = state.size.height() - kMargin - 100;
+  const double room = state.size.height() - kMargin - kAboveLegend;
   if (map.classes.empty()) size.setHeight(std::max(size.height() - kShorter, std::min(size.height(), room)));
   const QRectF rect(state.size.width() - kMargin - size.width(), state.size.height() - kMargin - size.height(),
                     size.width(), size.height());
-  if (rect.top() < 100) return;  // too little room
+  if (rect.top() < kAboveLegend) return;  // too little room
   hits.legend = rect;
   hits.legendTitle = text.title;
   hits.legendClasses = static_cast<int>(map.classes.size());
