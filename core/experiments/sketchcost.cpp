@@ -8,6 +8,7 @@
 #include "core/simulation/declared.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/hand.h"
+#include "core/simulation/standing.h"
 #include "core/sketch/cellset.h"
 
 #include <algorithm>
@@ -64,6 +65,27 @@ class Measure {
     body.shape = shape;
     const auto made = std::make_shared<const Body>(body);
     stroke("draws " + what, from, [&](auto cells) { return AddCells{made, std::move(cells), 0, ++m_key}; });
+    m_drawn = made;
+  }
+  /// With the body that was drawn last, wherever it is by now: each stroke finds out anew how it stands.
+  void goOn() {
+    Body loose = *m_drawn;
+    loose.parameters.values["held"] = false;
+    m_drawn = std::make_shared<const Body>(std::move(loose));
+    m_engine.apply(SetParameter{{Owner::Body, m_drawn->id, "held"}, false});
+    for (int frame = 0; frame < 10; ++frame) m_engine.step();
+    EditTimes times{"draws on a body that has moved", kSampleLimit, {}};
+    RigidMove stands;
+    api::Cell middle{};
+    for (long k = 0; k < m_samples; ++k) {
+      times.milliseconds.push_back(millisecondsOf([&] {
+        if (k % kWay == 0) stands = frameOf(*m_drawn, middle);
+        const api::Cell at{middle.x + static_cast<int>(k % kWay), middle.y, middle.z};
+        m_engine.apply(AddCells{m_drawn, ballAt(at, k % kWay == 0), 0, ++m_key, stands});
+      }));
+      m_engine.step();
+    }
+    m_cost.edits.push_back(std::move(times));
   }
   void erase() {
     stroke("erases", inside(), [&](auto cells) { return TakeCells{lattice(), std::move(cells), {}, ++m_key}; });
@@ -104,6 +126,24 @@ class Measure {
   SketchCost result() { return std::move(m_cost); }
 
  private:
+  /// Of a body by the matter about its middle, and the cell above it there.
+  RigidMove frameOf(const Body& body, api::Cell& above) const {
+    const SnapshotPtr now = m_engine.snapshot();
+    const auto index =
+        static_cast<uint32_t>(std::find(now->bodyIds->begin(), now->bodyIds->end(), body.id) - now->bodyIds->begin());
+    Vector3 sum = Vector3::Zero();
+    double count = 0;
+    for (size_t i = 0; i < now->body.size(); ++i) {
+      if (now->body[i] == index) sum += vectorOf(now->position[i]), ++count;
+    }
+    const auto stands = standingNear(*now, index, {}, sum / std::max(count, 1.0), 2 * kRadius * m_spacing);
+    if (!stands) throw InputError("The body '" + body.id + "' has moved, and nothing of it is as it was drawn");
+    SketchGrid grid = gridOf(std::get<VoxelShape>(body.shape));
+    grid.pose = *stands;
+    above = grid.cellAt(sum / count);
+    above.y += 2 * kRadius;
+    return *stands;
+  }
   template <class Work>
   static double millisecondsOf(Work&& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -135,6 +175,7 @@ class Measure {
   double m_spacing = 0;                     ///< m
   Vector3 m_low{0, 0, 0}, m_high{0, 0, 0};  ///< m, of the matter
   MatterKey m_key = 1;
+  std::shared_ptr<const Body> m_drawn;
 };
 
 api::Touch touchOf(api::TouchKind kind) {
@@ -173,6 +214,7 @@ SketchCost measureSketch(const Project& project, PluginRegistry& plugins, long s
   measure.touch("heats", touchOf(Heat), measure.inside());
   measure.touch("pushes", touchOf(Push), measure.inside());
   measure.touch("holds", touchOf(Hold), measure.inside());
+  measure.goOn();
   return measure.result();
 }
 

@@ -23,10 +23,11 @@ struct SketchCost {
 
 /// Strokes go by a ball four particles in radius, which goes on by one at each sample, and hands have such balls, at
 /// four places a frame. In this order: strokes draw liquid above the matter of a scene and held ice above that, a hand
-/// cuts and welds the ice, strokes erase, paint and tint in the matter, and a hand heats, pushes and holds there.
-/// `samples`, at least 1, of each kind, a frame between two. The scene needs a material "water", matter about its
-/// middle, and above it room of 24 particle spacings. Throws InputError where no scene can be made of it, a plugin is
-/// missing that this needs, or what is to be cut is not tied.
+/// cuts and welds the ice, strokes erase, paint and tint in the matter, and a hand heats, pushes and holds there; last
+/// of all the ice is let go, and strokes draw on it where it has fallen to. `samples`, at least 1, of each kind, a
+/// frame between two. The scene needs a material "water", matter about its middle, and above it room of 24 particle
+/// spacings. Throws InputError where no scene can be made of it, a plugin is missing that this needs, or what is to be
+/// cut is not tied.
 SketchCost measureSketch(const Project& project, PluginRegistry& plugins, long samples);
 
 }  // namespace ps

@@ -29,7 +29,7 @@ struct SetTogether {
 };
 using LoggedEdit =
     std::variant<SetTogether, UpdateDocument, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack, PaintCells,
-                 MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
+                 MoveBody, PassMatter, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch, RedoTouch>;
 struct LogEntry {
   uint64_t frame = 0;
   LoggedEdit edit;
@@ -107,11 +107,27 @@ const FieldTable<SetTracks>& tracksFields() {
       .rows = {field("tracks", &SetTracks::tracks, List{Object{trackFields()}}, "").required()}};
   return table;
 }
+struct Turn : Plain {
+  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
+  void read(Json& value, Quaternion& out, const PluginRegistry&) const {
+    for (int k = 0; k < 4; ++k) out.coeffs()[k] = value[static_cast<size_t>(k)].get<double>();
+    if (!(std::abs(out.norm() - 1) < 1e-9)) throw InputError("a body was turned by no rotation");
+  }
+  Json write(const Quaternion& turn) const { return {turn.x(), turn.y(), turn.z(), turn.w()}; }
+};
+const FieldTable<RigidMove>& rigidMoveFields() {
+  static const FieldTable<RigidMove> table{.rows = {field("turn", &RigidMove::turn, Turn{}, "").required(),
+                                                    field("shift", &RigidMove::shift, Vector{"m"}, "").required()}};
+  return table;
+}
 const FieldTable<AddCells>& addFields() {
-  static const FieldTable<AddCells> table{.rows = {field("body", &AddCells::body, SketchedBody{}, "").required(),
-                                                   field("cells", &AddCells::cells, Cells{}, "").required(),
-                                                   field("palette", &AddCells::palette, Integer{0, 65535}, ""),
-                                                   field("key", &AddCells::key, Key{}, "")}};
+  static const FieldTable<AddCells> table{
+      .rows = {field("body", &AddCells::body, SketchedBody{}, "").required(),
+               field("cells", &AddCells::cells, Cells{}, "").required(),
+               field("palette", &AddCells::palette, Integer{0, 65535}, ""), field("key", &AddCells::key, Key{}, ""),
+               field("way", &AddCells::way, Object{rigidMoveFields()}, "").omittedWhen([](const AddCells& cells) {
+                 return cells.way.isNothing();
+               })}};
   return table;
 }
 const FieldTable<TakeCells>& takeCellsFields() {
@@ -146,24 +162,18 @@ const FieldTable<PaintCells>& paintCellsFields() {
                field("spared", &PaintCells::spared, List{Id{}}, ""), field("key", &PaintCells::key, Key{}, "")}};
   return table;
 }
-struct Turn : Plain {
-  Json schema() const { return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}}; }
-  void read(Json& value, Quaternion& out, const PluginRegistry&) const {
-    for (int k = 0; k < 4; ++k) out.coeffs()[k] = value[static_cast<size_t>(k)].get<double>();
-    if (!(std::abs(out.norm() - 1) < 1e-9)) throw InputError("a body was turned by no rotation");
-  }
-  Json write(const Quaternion& turn) const { return {turn.x(), turn.y(), turn.z(), turn.w()}; }
-};
-const FieldTable<RigidMove>& rigidMoveFields() {
-  static const FieldTable<RigidMove> table{.rows = {field("turn", &RigidMove::turn, Turn{}, "").required(),
-                                                    field("shift", &RigidMove::shift, Vector{"m"}, "").required()}};
-  return table;
-}
 const FieldTable<MoveBody>& moveFields() {
   static const FieldTable<MoveBody> table{
       .rows = {field("body", &MoveBody::body, SketchedBody{}, "").required(),
                field("move", &MoveBody::move, Object{rigidMoveFields()}, "").required(),
                field("led", &MoveBody::led, Toggle{}, "")}};
+  return table;
+}
+const FieldTable<PassMatter>& passFields() {
+  static const FieldTable<PassMatter> table{
+      .rows = {field("from", &PassMatter::from, Id{}, "").required(), field("to", &PassMatter::to, Id{}, "").required(),
+               field("lattice", &PassMatter::lattice, Object{voxelFields()}, ""),
+               field("cells", &PassMatter::cells, Cells{}, ""), field("all", &PassMatter::all, Toggle{}, "")}};
   return table;
 }
 const FieldTable<NameMatter>& nameFields() {
@@ -245,10 +255,10 @@ struct AnyEdit : EditKind<LoggedEdit> {
                  {"add_cells", "", &addFields()}, {"take_cells", "", &takeCellsFields()},
                  {"take_body", "", &takeBodyFields()}, {"take_matter", "", &takeMatterFields()},
                  {"put_back", "", &putBackFields()}, {"paint_cells", "", &paintCellsFields()},
-                 {"move_body", "", &moveFields()}, {"name_matter", "", &nameFields()},
-                 {"return_body", "", &returnFields()}, {"forget_matter", "", &forgetFields()},
-                 {"touch_matter", "", &touchMatterFields()}, {"undo_touch", "", &keyFields<UndoTouch>()},
-                 {"redo_touch", "", &keyFields<RedoTouch>()}) {}
+                 {"move_body", "", &moveFields()}, {"pass_matter", "", &passFields()},
+                 {"name_matter", "", &nameFields()}, {"return_body", "", &returnFields()},
+                 {"forget_matter", "", &forgetFields()}, {"touch_matter", "", &touchMatterFields()},
+                 {"undo_touch", "", &keyFields<UndoTouch>()}, {"redo_touch", "", &keyFields<RedoTouch>()}) {}
 };
 
 const FieldTable<LogEntry>& entryFields() {
@@ -280,6 +290,9 @@ void require(const MoveBody& command) {
 }
 void require(const TakeCells& command) { requireLattice(command.lattice); }
 void require(const PaintCells& command) { requireLattice(command.lattice); }
+void require(const PassMatter& command) {
+  if (!command.all) requireLattice(command.lattice);
+}
 void require(const TakeMatter& command) { requireLattice(command.lattice); }
 void require(const NameMatter& command) { requireLattice(command.lattice); }
 

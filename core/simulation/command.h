@@ -48,6 +48,7 @@ struct AddCells {
   CellIndices cells;
   int palette = 0;
   MatterKey key = 0;  ///< adds what is born to what the key names
+  RigidMove way{};    ///< from where the body is drawn to where it stands by now, and its cells come
 };
 /// Takes what stands in cells of a lattice, except matter of some bodies.
 struct TakeCells {
@@ -88,6 +89,14 @@ struct MoveBody {
   std::shared_ptr<const Body> body;  ///< as it is there
   RigidMove move;                    ///< from where the engine's document has it
   bool led = false;  ///< what is fixed goes there as time passes, through what is in its way: Solver::lead()
+};
+/// Matter of a body becomes another one's, which has come from it or goes back to it: all of it, or what was made of
+/// some cells of its lattice (RestPlaces). It stays where it is, and tied as it was.
+struct PassMatter {
+  std::string from, to;  ///< Body::id
+  VoxelShape lattice{};  ///< see latticeOf()
+  CellIndices cells{};
+  bool all = false;  ///< instead of the cells
 };
 /// Names the matter of a body that stands in cells of a lattice; right after a reset, when nothing has moved.
 struct NameMatter {
@@ -152,7 +161,7 @@ struct ShowFields {
 };
 
 using Command = std::variant<SetParameter, UpdateProject, SetTracks, AddCells, TakeCells, TakeBody, TakeMatter, PutBack,
-                             PaintCells, MoveBody, NameMatter, ReturnBody, ForgetMatter, TouchMatter, UndoTouch,
-                             RedoTouch, Reset, ReturnToState, ShowFields, SetProbes>;
+                             PaintCells, MoveBody, PassMatter, NameMatter, ReturnBody, ForgetMatter, TouchMatter,
+                             UndoTouch, RedoTouch, Reset, ReturnToState, ShowFields, SetProbes>;
 
 }  // namespace ps

@@ -113,7 +113,7 @@ std::vector<uint32_t> Engine::Impl::born(Spawn spawn, const std::string& id, con
   return solver->spawn(spawn);
 }
 
-std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body) {
+std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body, const RigidMove& way) {
   if (toggleOf(body.parameters, bodyParameters(), "fixed")) {
     const uint32_t index = bodyIndex(body.id);
     fixedBodies.resize(bodyIds->size());
@@ -129,7 +129,10 @@ std::vector<uint32_t> Engine::Impl::born(ColouredSpawn spawn, const Body& body) 
     }
   }
   const uint32_t colour = spawn.colour;
+  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+  const std::vector<api::Double3> places = voxels ? spawn.position : std::vector<api::Double3>{};
   std::vector<uint32_t> ids = born(Spawn(std::move(spawn)), body.id, body.name);
+  if (voxels) noteRest(*voxels, way, ids, places);
   if (colour != 0) giveColour(solver->particles(), ids, colour);
   return ids;
 }
@@ -388,6 +391,8 @@ void Engine::apply(const Command& command) {
     setTracks(animated->tracks);
   } else if (const auto* moved = std::get_if<MoveBody>(&command)) {
     moveBody(*moved->body, moved->move, moved->led);
+  } else if (const auto* passed = std::get_if<PassMatter>(&command)) {
+    passMatter(*passed);
   } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
     m->project.probes = measured->probes;
     m->nameProbes();
@@ -429,6 +434,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->keptForUndo = m->named.bytes();
   snapshot->bodyIds = m->bodyIds;
+  snapshot->rest = m->rest;
   snapshot->heldBodies = m->heldBodies();
   snapshot->materialIds = idsOf(m->project.materials);
   snapshot->materialLook = m->tables.looks();

@@ -60,9 +60,12 @@ class Engine {
   /// Nothing happens where the project has no such body. `led`: see MoveBody; what is not fixed is carried all the
   /// same.
   void moveBody(const Body& body, const RigidMove& move, bool led = false);
+  /// Matter of one body becomes another one's: see PassMatter. Nothing happens where there is none of it.
+  void passMatter(const PassMatter& passed);
   /// Adds a sketched body, or more cells of one that exists, at rest; cells where a live particle is within 0.9
-  /// spacings stay free. Returns the ids of the new particles.
-  std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette);
+  /// spacings stay free. Returns the ids of the new particles. `way`: see AddCells.
+  std::vector<uint32_t> addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette,
+                                 const RigidMove& way = {});
   /// Adds a body as it is at the start, without what would stand within 0.9 spacings of a live particle. Returns the
   /// ids of the new particles.
   std::vector<uint32_t> addBody(const Body& body);

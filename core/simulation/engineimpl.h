@@ -7,6 +7,7 @@
 #include "core/simulation/matterflow.h"
 #include "core/simulation/namedmatter.h"
 #include "core/simulation/particlefield.h"
+#include "core/simulation/restplaces.h"
 #include "core/simulation/scenestate.h"
 #include "core/simulation/toolmeter.h"
 #include "core/simulation/tracks.h"
@@ -70,7 +71,10 @@ struct Engine::Impl {
   void carry(const Body& from, const RigidMove& move, bool led = false);
   /// Leads the bodies that were born fixed, whatever the document says of them by now; one that has left it stands.
   void lead();
-  std::vector<uint32_t> born(ColouredSpawn spawn, const Body& body);
+  /// `way`: from where the document has a sketch to where it stands.
+  std::vector<uint32_t> born(ColouredSpawn spawn, const Body& body, const RigidMove& way = {});
+  void noteRest(const VoxelShape& voxels, const RigidMove& way, std::span<const uint32_t> ids,
+                std::span<const api::Double3> places);
   std::vector<uint32_t> born(Spawn spawn, const std::string& id, const std::string& name);
   /// Without those that an emitter holds.
   std::vector<uint32_t> notHeld(const std::vector<uint32_t>& ids) const;
@@ -116,6 +120,7 @@ struct Engine::Impl {
   std::vector<std::string> probeNames;
   std::shared_ptr<const std::vector<Probe>> measured;  ///< the project's probes, for frames to share
   std::vector<Vector3> start;  ///< m, places at the start by the particles' ids, if a probe has a region
+  std::shared_ptr<const RestPlaces> rest = std::make_shared<const RestPlaces>();  ///< for frames to share
   StepReport lastReport;
   MatterFlow flow;
   ToolMeter tools;

@@ -3,10 +3,12 @@
 #include "core/base/error.h"
 #include "core/particles/colourfield.h"
 #include "core/scene/pose.h"
+#include "core/scene/shownname.h"
 #include "core/simulation/compile.h"
 #include "core/simulation/engineimpl.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/truesurface.h"
+#include "core/sketch/cellset.h"
 
 #include <algorithm>
 #include <iterator>
@@ -48,13 +50,59 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   m->lead();
 }
 
-std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette) {
+void Engine::passMatter(const PassMatter& passed) {
+  const std::vector<std::string>& known = *m->bodyIds;
+  const auto from = static_cast<uint32_t>(std::find(known.begin(), known.end(), passed.from) - known.begin());
+  std::vector<api::Cell> list;
+  for (const CellIndex& c : passed.cells) list.push_back({c[0], c[1], c[2]});
+  const CellSet cells(list);
+  const SketchGrid drawn{passed.lattice.origin, passed.lattice.spacing};
+  const ParticleStore& store = m->solver->particles();
+  std::vector<uint32_t> ids;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] != from) continue;
+    const auto rest = passed.all ? std::nullopt : m->rest->of(store.id()[i]);
+    if (passed.all || (rest && cells.contains(drawn.cellAt(*rest)))) ids.push_back(store.id()[i]);
+  }
+  if (ids.empty()) return;
+  const uint32_t to = m->bodyIndex(passed.to);
+  m->fixedBodies.resize(m->bodyIds->size());
+  m->fixedBodies[to] = m->fixedBodies[from];
+  m->bodyNames.resize(m->bodyIds->size());
+  for (const Body& body : m->project.bodies) {
+    if (body.id == passed.to) m->bodyNames[to] = shownName(body);
+  }
+  m->solver->setBodyNames(m->bodyNames);
+  m->solver->pass(ids, from, to);
+  m->recompile({{Owner::Body, Owner::Constraint}});
+  m->holdBodies();
+}
+
+void Engine::Impl::noteRest(const VoxelShape& voxels, const RigidMove& way, std::span<const uint32_t> ids,
+                            std::span<const api::Double3> places) {
+  const RigidMove back = way.after(poseOf(voxels)).inverse();
+  std::vector<RestPlaces::Place> own;
+  own.reserve(places.size());
+  for (const api::Double3& place : places) {
+    const Vector3 p = back.of(vectorOf(place));
+    own.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+  }
+  auto known = std::make_shared<RestPlaces>(*rest);  // snapshots hold what was known
+  known->add(ids, own);
+  rest = std::move(known);
+}
+
+std::vector<uint32_t> Engine::addCells(const Body& body, const std::vector<std::array<int, 3>>& cells, int palette,
+                                       const RigidMove& way) {
   const double edge = std::get<VoxelShape>(body.shape).spacing / m->spacing;
   m->requireRoomFor(static_cast<double>(cells.size()) * edge * edge * edge, body);
   ColouredSpawn spawn = compileCells(m->project, m->plugins, m->tables.tables(), body, palette, cells, m->spacing);
+  if (!way.isNothing()) {
+    for (api::Double3& place : spawn.position) place = double3Of(way.of(vectorOf(place)));
+  }
   spawn.position = freePositions(m->solver->particles(), spawn.position, 0.9 * m->spacing);
   std::vector<uint32_t> ids;
-  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body);
+  if (!spawn.position.empty()) ids = m->born(std::move(spawn), body, way);
   m->overlay.lift(m->project);
   std::vector<Body>& bodies = m->project.bodies;
   const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == body.id; });

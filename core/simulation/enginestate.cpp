@@ -20,7 +20,8 @@ SceneState Engine::Impl::sceneState() const {
           bodyNames,
           std::move(constraints),
           fixedBodies,
-          start};
+          start,
+          *rest};
 }
 
 std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) const {
@@ -38,6 +39,7 @@ std::unique_ptr<Engine::Impl> Engine::Impl::restored(const StateReader& reader) 
   next->fixedBodies = std::move(state.fixedBodies);
   next->bodyNames = std::move(state.bodyNames);
   next->start = std::move(state.start);
+  next->rest = std::make_shared<const RestPlaces>(std::move(state.rest));
   for (const Body& body : source.bodies) next->bodyIndex(body.id);
   for (const Emitter& emitter : source.emitters) next->bodyIndex(emitter.id);
   next->solver->setBodyNames(next->bodyNames);

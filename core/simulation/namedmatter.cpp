@@ -151,7 +151,7 @@ void NamedMatter::putBack(Engine& engine, Entry& entry) {
 
 void NamedMatter::obey(Engine& engine, const AddCells& command) {
   finishHands(engine);
-  const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette);
+  const std::vector<uint32_t> ids = engine.addCells(*command.body, command.cells, command.palette, command.way);
   if (command.key == 0) return;
   Entry& entry = m_entries[command.key];
   entry.ids.insert(entry.ids.end(), ids.begin(), ids.end());

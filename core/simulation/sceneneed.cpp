@@ -5,6 +5,7 @@
 #include "core/parameters/wording.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/solidform.h"
+#include "core/simulation/restplaces.h"
 #include "core/solver/footprint.h"
 #include "core/solver/settings.h"
 
@@ -130,7 +131,8 @@ struct Common {
   double bytesOf(const Body& body) const {
     MatterFootprint own = matter;
     own.dry = nothingFlows;
-    return bytesOf(own, body.material, layersOf(body, scale.spacing), body.constraints);
+    const double rest = std::holds_alternative<VoxelShape>(body.shape) ? sizeof(RestPlaces::Place) : 0;
+    return rest + bytesOf(own, body.material, layersOf(body, scale.spacing), body.constraints);
   }
   /// Of what is poured.
   double bytesOf(const std::string& material) const { return bytesOf(matter, material, kDeep, {}); }

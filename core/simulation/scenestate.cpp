@@ -33,6 +33,7 @@ void SceneState::save(StateWriter& writer) const {
     for (const double c : place) writer.put(c);
   }
   writer.close();
+  rest.save(writer);
 }
 
 SceneState SceneState::read(const StateReader& reader) {
@@ -57,6 +58,7 @@ SceneState SceneState::read(const StateReader& reader) {
   const std::vector<double> places = reader.array<double>("scene/start");
   if (places.size() % 3 != 0) StateReader::fail("scene/start", "is not made of places");
   for (size_t k = 0; k < places.size(); k += 3) state.start.push_back({places[k], places[k + 1], places[k + 2]});
+  state.rest = RestPlaces::read(reader);
   return state;
 }
 

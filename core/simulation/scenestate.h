@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/scene/project.h"
+#include "core/simulation/restplaces.h"
 
 #include <cstdint>
 #include <string>
@@ -22,6 +23,7 @@ struct SceneState {
   std::vector<std::string> constraints;        ///< plugins, in the order in which they came to the scene
   std::vector<uint8_t> fixedBodies;            ///< 1 for bodies that were born fixed
   std::vector<Vector3> start;                  ///< m, places at the start by the particles' ids, for probes of regions
+  RestPlaces rest;                             ///< of sketches
 
   void save(StateWriter& writer) const;
   /// Throws InputError for what is damaged.

@@ -58,6 +58,7 @@ struct ToolContact {
 };
 
 struct ParticleField;
+class RestPlaces;
 /// What one field is of each particle, in its unit.
 struct FieldValues {
   std::shared_ptr<const ParticleField> field;
@@ -90,8 +91,9 @@ struct Snapshot {
   std::vector<uint32_t> colour;     ///< of their own, see colourNumber(); empty: none has one
   std::vector<FieldValues> fields;  ///< those that were asked for beside what stands above, where particles have them
   std::shared_ptr<const std::vector<std::string>> bodyIds;  ///< Body::id by the index in `body`
-  std::vector<uint8_t> heldBodies;       ///< 1 for those whose matter is held until it is let go, by the same index
-  std::vector<std::string> materialIds;  ///< SceneMaterial::id by the index in `material`
+  std::shared_ptr<const RestPlaces> rest;  ///< where particles of sketches were made; nullptr: nobody knows
+  std::vector<uint8_t> heldBodies;         ///< 1 for those whose matter is held until it is let go, by the same index
+  std::vector<std::string> materialIds;    ///< SceneMaterial::id by the index in `material`
   std::vector<std::array<float, 4>> materialLook;  ///< sRGB and clearness, 0..1, by material index
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;

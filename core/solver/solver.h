@@ -105,6 +105,11 @@ class Solver {
   /// of before. Those that are gone, or of another material again, are skipped.
   void unpaint(const PaintedMatter& painted);
 
+  /// Particles of one body are another one's from now on, by its index: what has come apart. They stay as they are, and
+  /// tied as they were; the other one is tied by the same plugins with the same parameters until others are set. Those
+  /// that are gone, or of another body than `from`, are skipped.
+  void pass(std::span<const uint32_t> ids, uint32_t from, uint32_t to);
+
   /// Carries all particles of a body to another place: turns them about the mean of their places, which goes by `way`
   /// m. What structure ties to them comes along, but for what is fixed of other bodies. Each keeps its temperature and
   /// its velocity against the others; their mean velocity stays, so that kinetic energy and momentum do. What ties them

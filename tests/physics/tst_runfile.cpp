@@ -34,6 +34,7 @@ class TestRunFile : public QObject {
   Q_OBJECT
  private Q_SLOTS:
   void aBodyThatCameIsOfItsMesh();
+  void strokesOnWhatMovedAndPartingsAreInTheFile();
   void statesThatOneRunGaveUpAreInTheFile();
 
  private:
@@ -65,6 +66,52 @@ void TestRunFile::aBodyThatCameIsOfItsMesh() {
   RunRecord again(kPlenty);
   again.adopt(throughAFile(record.content(), project, m_plugins), 1);
   QCOMPARE(again.extent().last, uint64_t{8});
+  QCOMPARE(replayed(again.restorePoint(8).value(), m_plugins)->stateHash(), engine.stateHash());
+}
+
+/// A stroke goes on with a bar that has fallen and been turned, and half of it becomes a body of its own.
+void TestRunFile::strokesOnWhatMovedAndPartingsAreInTheFile() {
+  Project project = scenes::iceOnPlate(4, 400);
+  Body bar;
+  bar.id = bar.name = "bar", bar.material = "water";
+  bar.constraints.push_back({"bonds", {}, {}});
+  VoxelShape shape;
+  shape.origin = Vector3::Constant(0.015);
+  shape.spacing = 0.03;
+  shape.palette.push_back({"water", 260, {}});
+  shape.runs = {{-1, 20, 0, 6, 0}};
+  bar.shape = shape;
+  project.bodies.push_back(bar);
+  Engine engine(project, m_plugins);
+  RunRecord record(kPlenty);
+  record.begin(engine.revision());
+  record.keepState(engine);
+  const auto edit = [&](uint64_t frame, const Command& command) {
+    engine.apply(command);
+    record.add({frame, command});
+  };
+  const size_t before = engine.snapshot()->id.size();
+  for (uint64_t frame = 0; frame <= 8; ++frame) {
+    if (frame == 3) {
+      const RigidMove way{Quaternion(Eigen::AngleAxisd(0.5, Vector3(0, 1, 0))), {0, 0.1, 0}};
+      edit(frame, AddCells{std::make_shared<const Body>(bar), {{5, 20, 0}, {6, 20, 0}}, 0, 7, way});
+    } else if (frame == 5) {
+      Body half = bar;
+      half.id = half.name = "half";
+      project.bodies.push_back(half);
+      edit(frame, UpdateProject{std::make_shared<const Project>(project)});
+      edit(frame, PassMatter{"bar", "half", shape, {{3, 20, 0}, {4, 20, 0}, {5, 20, 0}}, false});
+    }
+    record.add(engine.snapshot());
+    record.settle();
+    if (frame < 8) engine.step();
+  }
+  const SnapshotPtr now = engine.snapshot();
+  QCOMPARE(now->id.size(), before + 2);
+  const auto half = std::find(now->bodyIds->begin(), now->bodyIds->end(), "half") - now->bodyIds->begin();
+  QCOMPARE(std::count(now->body.begin(), now->body.end(), static_cast<uint32_t>(half)), std::ptrdiff_t{3});
+  RunRecord again(kPlenty);
+  again.adopt(throughAFile(record.content(), project, m_plugins), 1);
   QCOMPARE(replayed(again.restorePoint(8).value(), m_plugins)->stateHash(), engine.stateHash());
 }
 

@@ -4,10 +4,12 @@
 #include "ui/tools/tooltable.h"
 
 #include <QtGui/QAction>
+#include <QtTest/QSignalSpy>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPushButton>
 
 #include <algorithm>
+#include <tuple>
 
 using namespace ps;
 
@@ -88,6 +90,46 @@ class TestHoldWindow : public SampleWindowTest {
     QTRY_VERIFY(field.hasFocus());
     QTest::keyClick(&field, Qt::Key_Return);
     QVERIFY(makeReal()->isEnabled());
+  }
+
+  /// Two lumps of one sketch become two bodies by the menu, in one step; then there is nothing more to separate.
+  void whatIsApartIsSeparated() {
+    Body lumps;
+    lumps.id = lumps.name = "lumps";
+    lumps.material = document().project().materials[0].id;
+    lumps.parameters.values["temperature"] = 260.0;
+    lumps.parameters.values["held"] = true;
+    lumps.constraints.push_back({"bonds", {}, {}});
+    VoxelShape shape;
+    shape.spacing = m_window->tools().spacing();
+    shape.origin = {0, 0.6, 0};
+    shape.palette.push_back({lumps.material, 260, {}});
+    for (const int x : {0, 8}) {
+      for (int k = 0; k < 9; ++k) shape.runs.push_back({x, k % 3, k / 3, 3, 0});
+    }
+    std::sort(shape.runs.begin(), shape.runs.end(), [](const VoxelShape::Run& a, const VoxelShape::Run& b) {
+      return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+    });
+    lumps.shape = shape;
+    const std::string id = document().addBody(lumps);
+    const size_t before = document().project().bodies.size();
+    const auto steps = document().undoStack().position();
+    QAction* separate = m_window->action(QStringLiteral("sketch.separate"));
+    QVERIFY(separate);
+    m_window->tools().selection().selectBody(id);
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
+    QCOMPARE(document().undoStack().position(), steps + 1);
+    QVERIFY(document().undoStack().undoText().contains(QStringLiteral("separating")));
+    QCOMPARE(std::get<VoxelShape>(document().body(id)->shape).runs.size(), size_t{9});
+    document().undoStack().undo();
+    QCOMPARE(document().project().bodies.size(), before);
+    document().undoStack().redo();
+    QSignalSpy refused(&m_window->tools(), &Toolbox::refused);
+    m_window->tools().selection().selectBody(id);
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
+    QCOMPARE(document().project().bodies.size(), before + 1);
   }
 
  private:

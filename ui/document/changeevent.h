@@ -12,6 +12,7 @@
 
 namespace ps {
 
+struct Parting;
 struct StrokeRecord;
 
 /// Another project altogether.
@@ -64,6 +65,11 @@ struct StrokeChanged {
   std::shared_ptr<StrokeRecord> stroke;
   bool done = true, live = false;
 };
+/// Matter of a body became that of its pieces, or theirs its own again; the bodies have come, or gone, before.
+struct BodyParted {
+  std::shared_ptr<const Parting> parting;
+  bool done = true;
+};
 /// What colour means changed.
 struct ViewChanged {};
 /// Other rows are pinned.
@@ -92,7 +98,7 @@ struct FileChanged {};
 /// What happened to a document, as one value: receivers visit it.
 using ChangeEvent =
     std::variant<ProjectOpened, ParameterChanged, BodyChanged, PortChanged, WallsChanged, MaterialsChanged,
-                 StrokeChanged, ViewChanged, PinsChanged, TracksChanged, ProbesChanged, GraphsChanged, OrderChanged,
-                 MarkersChanged, StateChanged, AboutChanged, FileChanged>;
+                 StrokeChanged, BodyParted, ViewChanged, PinsChanged, TracksChanged, ProbesChanged, GraphsChanged,
+                 OrderChanged, MarkersChanged, StateChanged, AboutChanged, FileChanged>;
 
 }  // namespace ps

@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/document/about.h"
 #include "ui/document/history.h"
+#include "ui/document/parting.h"
 #include "ui/document/placement.h"
 #include "ui/document/port.h"
 #include "ui/document/strokerecord.h"
@@ -54,6 +55,19 @@ class BodiesCommand : public WeighedCommand {
   Document& m_document;
   std::vector<SceneEdit> m_edits;
   MatterRef m_matter;
+};
+
+/// A body that is parted into pieces.
+class PartingCommand : public WeighedCommand {
+ public:
+  PartingCommand(Document& document, std::shared_ptr<const Parting> parting, const QString& text);
+  void undo() override;
+  void redo() override;
+  void weigh(Weight& weight) const override;
+
+ private:
+  Document& m_document;
+  std::shared_ptr<const Parting> m_parting;
 };
 
 /// An emitter or a sink that comes, goes, moves or is renamed. Moves of one gesture merge; one that ends where it began

@@ -104,6 +104,10 @@ class Document : public QObject {
   void addStroke(std::shared_ptr<StrokeRecord> stroke, const std::string& group = {});
   /// What a sketched body is from now on, as its strokes draw it. Acts at the next reset.
   void setSketch(const std::string& id, const VoxelShape& sketch, const QString& title);
+  /// A sketched body has come apart: pieces of it, cells as piecesOf() has them, are bodies of their own from now on,
+  /// with their matter, the body's groups and its keys. What none of them has is the body's. One step. Returns their
+  /// ids; none: nothing is to be parted.
+  std::vector<std::string> partBody(const std::string& id, const std::vector<CellIndices>& pieces);
   /// Parts of one stroke, as one step; at least one.
   void addStrokes(const std::vector<std::shared_ptr<StrokeRecord>>& parts, const QString& text);
 
@@ -222,6 +226,7 @@ class Document : public QObject {
   // Used by commands
   void applyParameter(const Address& address, const std::optional<Value>& value);
   void applyBodies(const std::vector<SceneEdit>& edits, bool forward, const MatterRef& matter);
+  void applyParting(const std::shared_ptr<const Parting>& parting, bool done);
   void applyPort(const AnyPortEdit& edit, bool forward);
   void applyPlacement(const Placement& to);
   void applyWalls(const std::vector<SceneWall>& walls);
@@ -253,6 +258,7 @@ class Document : public QObject {
   std::vector<TrackEdit> tracksAfter(const Address& curve, const Value& after) const;
   std::vector<ParameterChanged> compositionOf(const SceneEdit& edit) const;
   std::optional<Value> asStored(const Address& address, const std::optional<Value>& value) const;
+  void takeAlong(const std::string& id, const std::vector<std::string>& pieces, const QString& title);
   void editBody(const std::string& id, const QString& text, const std::function<void(Body&)>& change);
   /// Those that `change` has changed, as one step.
   void setMarks(const std::vector<Address>& things, const QString& title,

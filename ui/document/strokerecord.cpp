@@ -85,6 +85,19 @@ void apply(Project& project, const BodyEdit& edit, bool forward) {
   }
 }
 
+/// What an edit has put at the ends of both lists, or takes from there again.
+void note(VoxelShape& voxels, const std::vector<VoxelShape::Paint>& paints,
+          const std::vector<VoxelShape::Stroke>& strokes, bool forward) {
+  const auto one = [forward](auto& list, const auto& more) {
+    if (forward)
+      list.insert(list.end(), more.begin(), more.end());
+    else
+      list.resize(list.size() - std::min(list.size(), more.size()));
+  };
+  one(voxels.palette, paints);
+  one(voxels.strokes, strokes);
+}
+
 void apply(Project& project, const CellsEdit& edit, bool forward) {
   Body* body = find(project, edit.id);
   auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
@@ -97,12 +110,7 @@ void apply(Project& project, const CellsEdit& edit, bool forward) {
     canvas.restore(changed);
   }
   voxels->runs = canvas.runs();
-  auto& strokes = voxels->strokes;
-  if (forward) {
-    strokes.insert(strokes.end(), edit.strokes.begin(), edit.strokes.end());
-  } else {
-    strokes.resize(strokes.size() - std::min(strokes.size(), edit.strokes.size()));
-  }
+  note(*voxels, edit.added, edit.strokes, forward);
 }
 
 void apply(Project& project, const RepaintEdit& edit, bool forward) {
@@ -110,16 +118,8 @@ void apply(Project& project, const RepaintEdit& edit, bool forward) {
   auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
   if (!voxels) return;
   const auto& [before, after, added] = edit.cells;
-  std::vector<VoxelShape::Paint>& palette = voxels->palette;
-  std::vector<VoxelShape::Stroke>& strokes = voxels->strokes;
   replaceRuns(*voxels, forward ? after : before);
-  if (forward) {
-    palette.insert(palette.end(), added.begin(), added.end());
-    strokes.insert(strokes.end(), edit.strokes.begin(), edit.strokes.end());
-  } else {
-    palette.resize(palette.size() - std::min(palette.size(), added.size()));
-    strokes.resize(strokes.size() - std::min(strokes.size(), edit.strokes.size()));
-  }
+  note(*voxels, added, edit.strokes, forward);
 }
 
 /// Where cells lie, with a rim of one cell.
@@ -237,15 +237,25 @@ SceneEdit paintEdit(const Project& project, const Body& painted, const std::vect
                     const VoxelShape::Stroke& stroke) {
   const auto found = std::find_if(project.bodies.begin(), project.bodies.end(),
                                   [&](const Body& body) { return body.id == painted.id; });
-  const Body& body = found == project.bodies.end() ? painted : *found;
-  VoxelCanvas canvas(std::get<VoxelShape>(body.shape).runs);
-  const CellSet filled = canvas.paint(cellSet(cells), palette);
-  if (found != project.bodies.end()) return CellsEdit{body.id, false, encodeRuns(filled, palette), {stroke}};
-  Body made = painted;
-  auto& voxels = std::get<VoxelShape>(made.shape);
-  voxels.runs = canvas.runs();
-  voxels.strokes.push_back(stroke);
-  return BodyEdit{painted.id, std::nullopt, std::move(made), project.bodies.size()};
+  if (found == project.bodies.end()) {
+    Body made = painted;
+    auto& voxels = std::get<VoxelShape>(made.shape);
+    VoxelCanvas canvas(voxels.runs);
+    canvas.paint(cellSet(cells), palette);
+    voxels.runs = canvas.runs();
+    voxels.strokes.push_back(stroke);
+    return BodyEdit{painted.id, std::nullopt, std::move(made), project.bodies.size()};
+  }
+  CellsEdit edit{painted.id, false, {}, {stroke}};
+  const auto& voxels = std::get<VoxelShape>(found->shape);
+  // Another hand may have given it other entries since.
+  const VoxelShape::Paint& paint = std::get<VoxelShape>(painted.shape).palette.at(static_cast<size_t>(palette));
+  const auto entry = std::find(voxels.palette.begin(), voxels.palette.end(), paint);
+  if (entry == voxels.palette.end()) edit.added.push_back(paint);
+  edit.strokes.front().palette = static_cast<int>(entry - voxels.palette.begin());
+  VoxelCanvas canvas(voxels.runs);
+  edit.cells = encodeRuns(canvas.paint(cellSet(cells), palette), edit.strokes.front().palette);
+  return edit;
 }
 
 std::optional<SceneEdit> eraseEdit(const Body& body, size_t index, const VoxelShape& lattice,

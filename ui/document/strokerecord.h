@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/math/rigidmove.h"
 #include "core/scene/project.h"
 #include "core/sketch/cellset.h"
 #include "ui/document/matterref.h"
@@ -27,6 +28,7 @@ struct CellsEdit {
   bool erase = false;
   std::vector<VoxelShape::Run> cells;       ///< added, or erased
   std::vector<VoxelShape::Stroke> strokes;  ///< that did it, noted with the body's earlier ones
+  std::vector<VoxelShape::Paint> added{};   ///< that its palette needs beyond its own
 };
 /// Cells of a sketched body that become of another material.
 struct RepaintEdit {
@@ -45,6 +47,7 @@ struct StrokeRecord {
   int palette = 0;
   std::vector<std::array<int, 3>> cells;  ///< that it touched, on the lattice of `lattice`
   VoxelShape lattice;                     ///< see latticeOf()
+  RigidMove way{};                        ///< from where the document has that lattice to where it stood
   std::vector<SceneEdit> edits;           ///< what it changes in the document
   MatterRef matter = newMatter();         ///< its particles
   bool onlyNow = false;                   ///< none of what it drew has room at the start
@@ -57,8 +60,9 @@ struct StrokeRecord {
 void applyEdits(Project& project, const std::vector<SceneEdit>& edits, bool forward);
 const std::string& bodyOf(const SceneEdit& edit);
 
-/// Paints `cells` of `palette` where they are free, and notes the stroke: into the project's body of the id of
-/// `painted`, or as that body where there is none yet. Throws InputError for a damaged body.
+/// Paints `cells` where they are free with what `painted` has at `palette`, and notes the stroke: into the project's
+/// body of the id of `painted`, whose palette grows where it has no such entry, or as that body where there is none
+/// yet. Throws InputError for a damaged body.
 SceneEdit paintEdit(const Project& project, const Body& painted, const std::vector<std::array<int, 3>>& cells,
                     int palette, const VoxelShape::Stroke& stroke);
 /// Takes the cells of `lattice` out of a body, the project's at `index`; boxes become cells first. Nothing when it

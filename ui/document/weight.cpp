@@ -75,7 +75,7 @@ void Weight::add(const SceneOrder& order) {
 
 void Weight::add(const BodyEdit& edit) { add(edit.id, edit.before, edit.after); }
 
-void Weight::add(const CellsEdit& edit) { add(edit.id, edit.cells, edit.strokes); }
+void Weight::add(const CellsEdit& edit) { add(edit.id, edit.cells, edit.strokes, edit.added); }
 
 void Weight::add(const RepaintEdit& edit) {
   add(edit.id, edit.cells.before, edit.cells.after, edit.cells.added, edit.strokes);

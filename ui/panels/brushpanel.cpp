@@ -147,8 +147,8 @@ void BrushPanel::refresh() {
   if (m_tools.scaleParameter())
     setDisabledReason(QStringLiteral("radius"), QStringLiteral("The scale says how large the copies are"));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
-    for (const char* key : {"temperature", "becomes", "held", "draw_on", "plane_at", "plane_x", "plane_y", "plane_z",
-                            "plane_tilt", "plane_heading", "grid", "snap_to", "snap_within", "steady"})
+    for (const char* key : {"temperature", "becomes", "joins", "held", "draw_on", "plane_at", "plane_x", "plane_y",
+                            "plane_z", "plane_tilt", "plane_heading", "grid", "snap_to", "snap_within", "steady"})
       setDisabledReason(QString::fromLatin1(key), QStringLiteral("This brush works on the matter that is there"));
   }
   showColour();

@@ -7,6 +7,7 @@
 #include "core/simulation/lattice.h"
 #include "core/simulation/namedmatter.h"
 #include "ui/document/document.h"
+#include "ui/document/parting.h"
 
 #include <algorithm>
 #include <functional>
@@ -117,6 +118,8 @@ void SceneLink::onChanged(const ChangeEvent& event) {
     }
   } else if (const auto* body = std::get_if<BodyChanged>(&event)) {
     onBody(*body);
+  } else if (const auto* parted = std::get_if<BodyParted>(&event)) {
+    onParting(*parted);
   } else if (const auto* port = std::get_if<PortChanged>(&event)) {
     onPort(*port);
   } else if (std::holds_alternative<MaterialsChanged>(event) || std::holds_alternative<WallsChanged>(event) ||
@@ -180,6 +183,16 @@ void SceneLink::onBody(const BodyChanged& event) {
   std::vector<NameMatter> named = namedMatter();
   std::erase_if(named, [&](const NameMatter& matter) { return matter.body != body->id; });
   m_engine.apply(ReturnBody{std::make_shared<const Body>(*body), keyOf(event.matter), std::move(named)});
+}
+
+/// At the start the scene is made anew as well, by resetSoon() of the body that has other cells.
+void SceneLink::onParting(const BodyParted& event) {
+  if (isBroken()) return;
+  const Parting& parting = *event.parting;
+  for (const Parting::Piece& piece : parting.pieces) {
+    m_engine.apply(event.done ? PassMatter{parting.body, piece.body, parting.lattice, piece.cells, false}
+                              : PassMatter{piece.body, parting.body, {}, {}, true});
+  }
 }
 
 void SceneLink::onPort(const PortChanged& event) {
@@ -383,7 +396,7 @@ MatterKey SceneLink::draws(const StrokeRecord& stroke) {
 
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,
                       std::vector<std::array<int, 3>> cells) {
-  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, draws(stroke)});
+  m_engine.apply(AddCells{std::move(body), std::move(cells), stroke.palette, draws(stroke), stroke.way});
   Q_EMIT matterEdited();
 }
 
@@ -476,7 +489,9 @@ void SceneLink::redoStroke(const std::shared_ptr<StrokeRecord>& stroke) {
   }
   const Body* body = m_document.body(stroke->body);
   const auto painted = std::make_shared<const Body>(body ? *body : Body{});
-  m_engine.apply(PutBack{key, {AddCells{painted, stroke->cells, stroke->palette, key}}});
+  // Of what came to a body that had moved, not all has its place where the body begins.
+  CellIndices cells = stroke->way.isNothing() ? stroke->cells : filledCells(*stroke);
+  m_engine.apply(PutBack{key, {AddCells{painted, std::move(cells), stroke->palette, key}}});
 }
 
 }  // namespace ps

@@ -74,6 +74,7 @@ class SceneLink : public QObject {
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void showFields();
   void onBody(const BodyChanged& event);
+  void onParting(const BodyParted& event);
   void pushProject();
   void resetSoon();
   void nothingWaits();

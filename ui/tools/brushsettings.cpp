@@ -42,6 +42,11 @@ constexpr api::ParameterDeclaration kBrush[] = {
          "What bodies that are begun become. As the material is: stiff solids that are far from melting stand as rigid "
          "bodies, other solids are bonded, and the rest flows. The body's row Held together by changes it later.",
          "rigid for a wooden cup, soft for a cushion, fixed for the ground", ""}),
+    toggle({"joins", "Goes on with other matter", "", ""}, false,
+           {"New matter",
+            "A stroke that begins on a sketched body goes on with it whatever the body is made of so far: it then is "
+            "of several materials, or temperatures. Without it such a stroke begins a body of its own.",
+            "a wooden handle on an iron head, one tool", ""}),
     toggle({"held", "Held until let go", "", ""}, false,
            {"New matter",
             "Bodies that are begun stand still as they are drawn, in the air too, until Sketch > Make it real (Enter) "
@@ -119,6 +124,7 @@ ParameterSet valuesOf(const BrushSettings& brush) {
   set.values = {{"radius", brush.radius},
                 {"temperature", brush.temperature},
                 {"becomes", brush.becomes},
+                {"joins", brush.joins},
                 {"held", brush.held},
                 {"draw_on", std::string(kDrawOnNames.at(static_cast<size_t>(brush.drawOn)))},
                 {"plane_at", brush.planeAt},
@@ -148,6 +154,8 @@ void setValueOf(BrushSettings& brush, const std::string& key, const Value& value
     brush.becomes = std::get<std::string>(value);
   } else if (key == "held") {
     brush.held = std::get<bool>(value);
+  } else if (key == "joins") {
+    brush.joins = std::get<bool>(value);
   } else if (key == "mirror") {
     brush.symmetry.mirror = std::get<std::string>(value);
   } else if (key == "turns") {

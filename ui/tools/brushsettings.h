@@ -49,6 +49,7 @@ struct BrushSettings {
   std::string material;                    ///< SceneMaterial::id; "" takes the scene's first
   double temperature = 293.15;             ///< K
   std::string becomes = kBecomesOfItself;  ///< what bodies that are begun become, of kBecomings
+  bool joins = false;                      ///< bodies go on with matter that they have none of yet
   bool held = false;                       ///< what is drawn stands still until it is let go
   DrawOn drawOn = DrawOn::Surface;
   double planeAt = 0;  ///< m, height of the level plane, or place of an upright one along its normal

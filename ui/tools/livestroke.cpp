@@ -13,6 +13,7 @@
 #include "ui/session/selection.h"
 #include "ui/theme/numbers.h"
 #include "ui/tools/brushcall.h"
+#include "ui/tools/goingon.h"
 #include "ui/tools/strokethread.h"
 #include "ui/tools/toolbox.h"
 
@@ -33,24 +34,6 @@ const SceneMaterial* sceneMaterial(const Project& project, const std::string& id
   return project.materials.empty() ? nullptr : &project.materials.front();
 }
 
-/// The palette entry of which a body takes more: it is sketched and free, held or not and become as the brush asks, and
-/// has matter of that material at that temperature. One that is turned takes none of what is mirrored along the scene.
-std::optional<int> takesMore(const Document& document, const Body& body, const std::string& material,
-                             const BrushSettings& brush, const StrokeSetup& setup) {
-  const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  if (!voxels || body.locked || !body.visible || voxels->origin != setup.grid.origin ||
-      voxels->spacing != setup.grid.spacing || (setup.symmetry && !poseOf(*voxels).isNothing()) ||
-      toggleOf(body.parameters, bodyParameters(), "held") != brush.held ||
-      !hasBecome(body, brush.becomes, document.project(), *document.plugins(), brush.temperature))
-    return std::nullopt;
-  for (size_t k = 0; k < voxels->palette.size(); ++k) {
-    if (voxels->palette[k].material == material && voxels->palette[k].temperature == brush.temperature &&
-        voxels->palette[k].colour.empty())
-      return static_cast<int>(k);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 LiveStroke::LiveStroke(Toolbox& box) : m_box(box) {
@@ -69,43 +52,21 @@ StrokeSetup strokeSetup(const BrushSettings& brush, const PluginRegistry& plugin
   return s;
 }
 
-/// The sketched body that takes more of the same matter and has some within the stamp at a place, where the document
-/// has it: what moved away goes on without what is drawn where it was.
-const Body* LiveStroke::bodyAt(const Snapshot& now, const Vector3& point, const std::string& material,
-                               int& palette) const {
-  if (!now.bodyIds) return nullptr;
-  const std::vector<Body>& bodies = m_box.document().project().bodies;
-  std::vector<const Body*> takers(now.bodyIds->size());
-  std::vector<int> entries(takers.size());
-  for (size_t b = 0; b < takers.size(); ++b) {
-    const auto found =
-        std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.id == (*now.bodyIds)[b]; });
-    if (found == bodies.end()) continue;
-    const std::optional<int> entry = takesMore(m_box.document(), *found, material, m_brush, m_setup);
-    if (entry) takers[b] = &*found, entries[b] = *entry;
-  }
-  std::map<const Body*, CellSet> cellsOf;  // of those that have some near
-  const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
-  for (size_t i = 0; i < now.position.size(); ++i) {
-    const Body* body = now.body[i] < takers.size() ? takers[now.body[i]] : nullptr;
-    const Vector3 place = vectorOf(now.position[i]);
-    if (!body || ((place - point).cwiseAbs().array() > reach.array()).any()) continue;
-    const auto [known, isNew] = cellsOf.try_emplace(body);
-    if (isNew) known->second = VoxelCanvas(std::get<VoxelShape>(body->shape).runs).cells();
-    if (!known->second.contains(gridOf(std::get<VoxelShape>(body->shape)).cellAt(place))) continue;
-    palette = entries[now.body[i]];
-    return body;
-  }
-  return nullptr;
-}
-
-Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, int& palette) const {
+/// One that there is, or a new one; the record says what of it is drawn, and how it stands.
+Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, const std::string& id) {
   const BrushSettings& brush = m_brush;
   const Document& document = m_box.document();
   const Project& project = document.project();
-  const SceneMaterial* material = sceneMaterial(project, brush.material);
-  palette = 0;
-  if (const Body* body = bodyAt(now, point, material->id, palette)) return *body;
+  const SceneMaterial* material = sceneMaterial(project, id);
+  const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
+  if (const auto found = goingOnAt(document, now, point, reach, material->id, brush, m_setup)) {
+    m_record->palette = found->palette;
+    m_record->way = found->way;
+    Body body = *found->body;
+    auto& palette = std::get<VoxelShape>(body.shape).palette;
+    if (static_cast<size_t>(found->palette) == palette.size()) palette.push_back({material->id, brush.temperature, {}});
+    return body;
+  }
   Body body;
   body.id = m_box.document().freeBodyId("sketch-" + material->id);
   const std::string& label = shownName(*material);
@@ -214,10 +175,10 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
       return problem;
     }
   } else if (!erase) {
-    m_body = std::make_shared<const Body>(paintedBody(now, point, m_record->palette));
+    m_body = std::make_shared<const Body>(paintedBody(now, point, m_brush.material));
     m_record->body = m_body->id;
     m_stroke.palette = m_record->palette;
-    drawOn(std::get<VoxelShape>(m_body->shape));
+    drawOn(std::get<VoxelShape>(m_body->shape), m_record->way);
   }
   start();
   move(point, 0, held);
@@ -248,9 +209,10 @@ void LiveStroke::start() {
   m_looks.start(kBrushLook);
 }
 
-/// What is drawn is drawn as if the sketch stood where it once was.
-void LiveStroke::drawOn(const VoxelShape& sketch) {
+/// What is drawn is drawn as if the sketch stood where it once was, however it stands now.
+void LiveStroke::drawOn(const VoxelShape& sketch, const RigidMove& way) {
   m_setup.grid = gridOf(sketch);
+  if (!way.isNothing()) m_setup.grid.pose = way.after(m_setup.grid.pose);
   m_record->lattice = latticeOf(sketch);
   m_setup.up = m_setup.grid.pose.inverse().turn * m_setup.up;
   m_stroke.up = m_setup.up;
@@ -390,6 +352,16 @@ void LiveStroke::forgetBeyond(size_t places) {
   cut(m_stroke);
 }
 
+/// What came to a body that has moved may lie outside of the scene, or in its walls, where the body begins.
+std::vector<std::array<int, 3>> LiveStroke::cellsAtStart(const StrokeRecord& record) const {
+  std::vector<std::array<int, 3>> cells = record.cells;
+  if (record.way.isNothing()) return cells;
+  const Environment& environment = m_box.document().project().environment;
+  const SketchGrid grid = gridOf(record.lattice);
+  std::erase_if(cells, [&](const auto& c) { return !isInScene(environment, grid, {c[0], c[1], c[2]}); });
+  return cells;
+}
+
 void LiveStroke::keep() {
   const std::shared_ptr<StrokeRecord> record = std::move(m_record);
   m_record.reset();
@@ -400,9 +372,11 @@ void LiveStroke::keep() {
   if (!record->material.empty()) {
     if (m_atStart) collectPaint(*record);
   } else if (!record->erase) {
-    const auto free = freeAtStart(project, m_body->id, record->lattice, record->cells);
+    const auto free = freeAtStart(project, m_body->id, record->lattice, cellsAtStart(*record));
     record->onlyNow = !m_atStart && free.empty();
     record->edits.push_back(paintEdit(project, *m_body, free, record->palette, m_stroke));
+    if (const auto* edit = std::get_if<CellsEdit>(&record->edits.back()))
+      record->palette = edit->strokes.front().palette;
   } else if (m_atStart) {
     // Before the first step matter stands where its body put it, so that the bodies themselves can be carved.
     collectErasure(*record);

@@ -36,8 +36,10 @@ class LiveStroke {
   explicit LiveStroke(Toolbox& box);
 
   /// "" or why no stroke can begin ("The brush “x” is not installed…"). `now`: the scene as it is drawn on; `up`: away
-  /// from what it is drawn on. What is drawn goes on with the sketched body of the same matter that it begins on, where
-  /// there is one, else it is a body of its own.
+  /// from what it is drawn on. What is drawn goes on with the sketched body of the same matter that it begins on, or of
+  /// any where the brush joins them, else it is a body of its own. A body that has moved, turned, bent or melted in
+  /// part is gone on with as it stands there: its cells come where the hand is, and the stroke is kept where they are
+  /// at the start.
   QString begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, const Held& held);
   /// `seconds` since it began.
   void move(const Vector3& point, double seconds, const Held& held);
@@ -61,7 +63,7 @@ class LiveStroke {
   size_t cellCount() const { return m_cells.size(); }
 
  private:
-  void drawOn(const VoxelShape& sketch);
+  void drawOn(const VoxelShape& sketch, const RigidMove& way = {});
   Vector3 ownTurn(const Vector3& turn) const;
   void keep();
   QString whyNoSmoothing(const Snapshot& now, const Vector3& point);
@@ -69,8 +71,8 @@ class LiveStroke {
   void smooth(const std::vector<api::Cell>& fresh);
   void keepSmoothing(const std::shared_ptr<StrokeRecord>& emptied);
   QString whyNot(bool erase, const Snapshot& now, const Vector3& up) const;
-  Body paintedBody(const Snapshot& now, const Vector3& point, int& palette) const;
-  const Body* bodyAt(const Snapshot& now, const Vector3& point, const std::string& material, int& palette) const;
+  Body paintedBody(const Snapshot& now, const Vector3& point, const std::string& material);
+  std::vector<std::array<int, 3>> cellsAtStart(const StrokeRecord& record) const;
   void start();
   void take();
   void watch();

@@ -4,6 +4,8 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/shownname.h"
 #include "core/scene/track.h"
+#include "core/simulation/bodypieces.h"
+#include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/materialspanel.h"
@@ -77,6 +79,11 @@ void SketchActions::addHolding(QMenu* menu) {
   m_makeReal = m_actions.add(menu, QStringLiteral("sketch.real"), QStringLiteral("Make it real"),
                              {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, [this] { letGo(); });
   m_makeReal->setToolTip(QStringLiteral("Lets go of all that is held"));
+  QAction* separate = m_actions.add(menu, QStringLiteral("sketch.separate"), QStringLiteral("Separate pieces"), {},
+                                    [this] { this->separate(); });
+  separate->setToolTip(
+      QStringLiteral("Makes what has come apart of sketched bodies bodies of their own: of those that "
+                     "are selected, or of all"));
   menu->addSeparator();
   connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
   connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
@@ -141,6 +148,43 @@ void SketchActions::letGo() {
   std::vector<std::pair<Address, Value>> values;
   for (const std::string& id : heldBodies()) values.push_back({{Owner::Body, id, "held"}, false});
   m_session.document().setParameters(values, QStringLiteral("make it real"));
+}
+
+/// What is held in place has no pieces that would go anywhere.
+void SketchActions::separate() {
+  const Document& document = m_session.document();
+  const std::vector<std::string> chosen = m_tools.selection().bodies();
+  std::vector<Pieces> bodies;
+  for (const Body& body : document.project().bodies) {
+    const bool wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), body.id) != chosen.end();
+    const bool stands = toggleOf(body.parameters, bodyParameters(), "fixed");
+    if (wanted && !stands && !body.locked && std::holds_alternative<VoxelShape>(body.shape))
+      bodies.push_back({body, {}});
+  }
+  if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({});
+  m_session.engine()->ask([this, bodies](const Engine& engine) mutable {
+    for (Pieces& one : bodies) one.cells = piecesOf(engine, one.body);
+    QMetaObject::invokeMethod(this, [this, bodies = std::move(bodies)] { part(bodies); });
+  });
+}
+
+/// One step. Those that have been drawn on meanwhile stay whole.
+void SketchActions::part(const std::vector<Pieces>& bodies) {
+  Document& document = m_session.document();
+  const auto isParted = [&](const Pieces& one) {
+    const Body* now = document.body(one.body.id);
+    return one.cells.size() > 1 && now && now->shape == one.body.shape;
+  };
+  const auto parted = std::count_if(bodies.begin(), bodies.end(), isParted);
+  bool any = false;
+  if (parted > 1) document.undoStack().beginMacro(QStringLiteral("separating pieces"));
+  for (const Pieces& one : bodies) {
+    if (isParted(one)) any = !document.partBody(one.body.id, {one.cells.begin() + 1, one.cells.end()}).empty() || any;
+  }
+  if (parted > 1) document.undoStack().endMacro();
+  if (!any)
+    m_tools.refuse(QStringLiteral("Nothing was separated."),
+                   QStringLiteral("No sketched body that is meant has come apart."));
 }
 
 void SketchActions::addGravity(QMenu* menu) {

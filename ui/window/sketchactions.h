@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/scene/project.h"
+
 #include <QtCore/QList>
 #include <QtCore/QObject>
 #include <QtCore/QString>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,12 @@ class SketchActions : public QObject {
   std::vector<std::string> heldBodies() const;  ///< until somebody lets go; keys do so themselves
   void letGo();
   void showHeld();
+  void separate();
+  struct Pieces {
+    Body body;  ///< as it was asked for
+    std::vector<std::vector<std::array<int, 3>>> cells;
+  };
+  void part(const std::vector<Pieces>& bodies);
   void turnGravity();
   QList<QKeySequence> keysOf(const std::string& brush) const;
 

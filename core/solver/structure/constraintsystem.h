@@ -127,6 +127,9 @@ class ConstraintSystem {
   /// 1 for bodies that use a plugin of sheets or lines, by their index.
   std::span<const uint8_t> thinBodies() const { return m_thin; }
 
+  /// Particles of one body are another one's by now, which is tied by the same plugins, with the same parameters.
+  void passed(const ParticleStore& store, uint32_t from, uint32_t to);
+
   size_t count() const;  ///< structural constraints and groups
   /// Everything but what plugins are: lists, colours, values, who was put aside, and parameters of single bodies.
   void save(StateWriter& writer) const;
@@ -258,6 +261,8 @@ class ConstraintSystem {
   void reshapeGroups(const ParticleStore& store, const Neighbours& neighbours, std::span<const Cuts::Pair> pairs,
                      CopiedConstraints* noted = nullptr);
   void heal(const ParticleStore& store, const Neighbours& neighbours, std::span<const Cuts::Pair> pairs);
+  // In passing.cpp.
+  void sortByBody(Set& set, const ParticleStore& store);
   // In constraintgaps.cpp.
   std::vector<Run> mergeColour(const Set& set, const ParticleStore& store, const Edits& edits,
                                std::span<const uint32_t> added, size_t colour, size_t first);

@@ -63,6 +63,11 @@ void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
   colour(body.size());
 }
 
+void GroupLists::bodiesChanged(std::span<const uint32_t> body) {
+  for (size_t g = 0; g < count(); ++g) m_body[g] = body[m_particles[m_begin[g]]];
+  colour(body.size());
+}
+
 void GroupLists::colour(size_t particles) {
   std::vector<std::vector<uint64_t>> used;  // [word of 64 colours][particle]
   std::vector<size_t> colourOf(count());

@@ -58,6 +58,8 @@ class GroupLists {
   }
   /// The body that the group belongs to: that of its first member when it was added.
   uint32_t body(size_t group) const { return m_body[group]; }
+  /// Particles are of other bodies by now, which `body` has by their indices: so is each group.
+  void bodiesChanged(std::span<const uint32_t> body);
   size_t valueCount() const { return m_values.size(); }
   size_t memberValueCount() const { return m_memberValues.size(); }
   /// Groups [first, last); valid until the lists change. `batch` is filled in place, because it points into itself.
