@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+template class nlohmann::basic_json<>;
+
 namespace ps {
 namespace {
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+// Compiled once, in jsontext.cpp: it is most of what a unit with JSON costs.
+extern template class nlohmann::basic_json<>;
+
 namespace ps {
 
 /// Deepest nesting and largest number of values that are read from a file.
