@@ -18,8 +18,7 @@ bool beforeEntry(const VoxelCanvas::Entry& a, const VoxelCanvas::Entry& b) { ret
 
 std::vector<api::Cell> sorted(std::span<const api::Cell> cells) {
   std::vector<api::Cell> result(cells.begin(), cells.end());
-  std::sort(result.begin(), result.end(), before);
-  result.erase(std::unique(result.begin(), result.end(), sameCell), result.end());
+  putInOrder(result);
   return result;
 }
 
@@ -48,21 +47,43 @@ void extend(std::vector<VoxelShape::Run>& runs, const api::Cell& cell, int palet
 
 SketchGrid gridOf(const VoxelShape& voxels) { return {voxels.origin, voxels.spacing, poseOf(voxels)}; }
 
-void CellSet::add(std::span<const api::Cell> cells) {
-  const std::vector<api::Cell> incoming = sorted(cells);
-  std::vector<api::Cell> merged;
-  merged.reserve(m_cells.size() + incoming.size());
-  std::set_union(m_cells.begin(), m_cells.end(), incoming.begin(), incoming.end(), std::back_inserter(merged), before);
-  m_cells = std::move(merged);
+void putInOrder(std::vector<api::Cell>& cells) {
+  std::sort(cells.begin(), cells.end(), before);
+  cells.erase(std::unique(cells.begin(), cells.end(), sameCell), cells.end());
 }
 
-void CellSet::remove(std::span<const api::Cell> cells) {
-  const std::vector<api::Cell> outgoing = sorted(cells);
-  std::vector<api::Cell> kept;
-  kept.reserve(m_cells.size());
-  std::set_difference(m_cells.begin(), m_cells.end(), outgoing.begin(), outgoing.end(), std::back_inserter(kept),
-                      before);
-  m_cells = std::move(kept);
+void CellSet::add(std::span<const api::Cell> cells) { addOrdered(sorted(cells)); }
+
+void CellSet::remove(std::span<const api::Cell> cells) { removeOrdered(sorted(cells)); }
+
+void CellSet::addOrdered(std::span<const api::Cell> cells) {
+  size_t old = m_cells.size(), common = 0;
+  for (size_t i = 0, k = 0; i < old && k < cells.size();) {
+    const std::strong_ordering order = compareCells(m_cells[i], cells[k]);
+    common += order == 0 ? 1 : 0;
+    i += order <= 0 ? 1 : 0;
+    k += order >= 0 ? 1 : 0;
+  }
+  size_t fresh = cells.size() - common;
+  m_cells.resize(old + fresh);
+  // From the end on, so that none is written over before it has moved; what is left in front stays where it is.
+  for (size_t k = cells.size(), to = m_cells.size(); fresh > 0;) {
+    if (old > 0 && before(cells[k - 1], m_cells[old - 1])) {
+      m_cells[--to] = m_cells[--old];
+    } else {
+      const bool isNew = old == 0 || !sameCell(cells[k - 1], m_cells[old - 1]);
+      --(isNew ? fresh : old);
+      m_cells[--to] = cells[--k];
+    }
+  }
+}
+
+void CellSet::removeOrdered(std::span<const api::Cell> cells) {
+  auto outgoing = cells.begin();
+  std::erase_if(m_cells, [&](const api::Cell& cell) {
+    while (outgoing != cells.end() && before(*outgoing, cell)) ++outgoing;
+    return outgoing != cells.end() && sameCell(*outgoing, cell);
+  });
 }
 
 bool CellSet::contains(const api::Cell& cell) const {

@@ -14,6 +14,9 @@ namespace ps {
 /// The lattice of a sketch, where it stands.
 SketchGrid gridOf(const VoxelShape& voxels);
 
+/// Puts cells in the order of compareCells(), each once.
+void putInOrder(std::vector<api::Cell>& cells);
+
 /// A set of cells in the order of compareCells().
 class CellSet {
  public:
@@ -23,6 +26,11 @@ class CellSet {
   /// Adds cells in any order, duplicates allowed. O(n + k log k) for k cells.
   void add(std::span<const api::Cell> cells);
   void remove(std::span<const api::Cell> cells);
+  /// The same for cells in order, none twice: these allocate nothing, but for add() where there is no more room.
+  void addOrdered(std::span<const api::Cell> cells);
+  void removeOrdered(std::span<const api::Cell> cells);
+  /// Keeps its room.
+  void clear() { m_cells.clear(); }
   bool contains(const api::Cell& cell) const;
   bool empty() const { return m_cells.empty(); }
   size_t size() const { return m_cells.size(); }

@@ -28,9 +28,11 @@ std::vector<api::Touch> touchesOf(const api::BrushPlugin& brush, const StrokeSet
   const auto* matter = static_cast<const api::MatterBrush*>(brush.extension(api::kTouchesMatter));
   if (!matter) throw BrushFault("it does not say how it touches matter");
   TouchList list;
-  askBrush(brush, setup, samples, [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
+  BrushRoom room;
+  const auto call = [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
     matter->touch(context, kind, copies, list);
-  });
+  };
+  askBrush(brush, setup, samples, call, room);
   return list.result();
 }
 

@@ -5,12 +5,13 @@
 #include "core/base/shorttext.h"
 #include "core/scene/coat.h"
 #include "core/scene/scenewall.h"
-#include "core/sketch/symmetry.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace ps {
 namespace {
@@ -71,46 +72,13 @@ api::Double3 velocityAt(const api::StrokeSample& before, const api::StrokeSample
   return double3Of(was + (1 - std::exp(-passed / kSmoothed)) * (now - was));
 }
 
-/// Gathers a brush's edits. Cells are merged in large pieces: a brush submits the same cells again for every sample.
-class Collector final : public api::EditSink {
- public:
-  void submit(api::EditKind kind, api::Span<const api::Cell> cells) override {
-    if (cells.size > kMaxStrokeCells) refuse();
-    if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
-    if (kind > api::EditKind::Colour) throw BrushFault("it submitted cells for an edit that there is not");
-    if (kind != m_kind) flush();
-    m_kind = kind;
-    m_pending.insert(m_pending.end(), cells.begin(), cells.end());
-    constexpr size_t kPiece = size_t{1} << 18;
-    if (m_pending.size() > kPiece) flush();
-  }
-  StrokeEdits result() {
-    flush();
-    return std::move(m_edits);
-  }
+[[noreturn]] void refuseCells() {
+  throw InputError("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
+                   " cells: use a smaller brush or a larger particle spacing");
+}
 
- private:
-  void flush() {
-    m_edits.of(m_kind).add(m_pending);
-    size_t all = 0;
-    for (const api::EditKind kind : {api::EditKind::Add, api::EditKind::Remove, api::EditKind::Paint,
-                                     api::EditKind::Smooth, api::EditKind::Fill, api::EditKind::Colour}) {
-      CellSet& cells = m_edits.of(kind);
-      if (kind != m_kind && !cells.empty()) cells.remove(m_pending);
-      all += cells.size();
-    }
-    m_pending.clear();
-    if (all > kMaxStrokeCells) refuse();
-  }
-  [[noreturn]] static void refuse() {
-    throw InputError("The stroke covers more than " + std::to_string(kMaxStrokeCells) +
-                     " cells: use a smaller brush or a larger particle spacing");
-  }
-
-  StrokeEdits m_edits;
-  api::EditKind m_kind = api::EditKind::Add;
-  std::vector<api::Cell> m_pending;
-};
+constexpr std::array kKinds{api::EditKind::Add,    api::EditKind::Remove, api::EditKind::Paint,
+                            api::EditKind::Smooth, api::EditKind::Fill,   api::EditKind::Colour};
 
 }  // namespace
 
@@ -129,13 +97,19 @@ StrokeResampler::StrokeResampler(double spacing) : m_spacing(spacing) {
 
 std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw) {
   std::vector<api::StrokeSample> dense;
-  if (!finite(raw)) return dense;
+  add(raw, dense);
+  return dense;
+}
+
+void StrokeResampler::add(const api::StrokeSample& raw, std::vector<api::StrokeSample>& dense) {
+  if (!finite(raw)) return;
   if (!m_last) {
     m_last = raw;
     m_last->direction = m_last->velocity = {0, 0, 0};
     m_last->way = 0;
     m_sinceLast = 0;
-    return {*m_last};
+    dense.push_back(*m_last);
+    return;
   }
   const double length = distance(m_last->position, raw.position);
   api::StrokeSample here = raw;
@@ -151,7 +125,6 @@ std::vector<api::StrokeSample> StrokeResampler::add(const api::StrokeSample& raw
   const api::Double3 direction = length > 0 ? directionOf(m_last->position, raw.position) : m_last->direction;
   m_last = here;
   m_last->direction = direction;
-  return dense;
 }
 
 std::vector<api::StrokeSample> StrokeResampler::finish() {
@@ -166,11 +139,9 @@ std::vector<api::StrokeSample> StrokeResampler::finish() {
 std::vector<api::StrokeSample> resampleStroke(std::span<const api::StrokeSample> raw, double spacing) {
   StrokeResampler resampler(spacing);
   std::vector<api::StrokeSample> dense;
-  const auto append = [&](const std::vector<api::StrokeSample>& more) {
-    dense.insert(dense.end(), more.begin(), more.end());
-  };
-  for (const api::StrokeSample& sample : raw) append(resampler.add(sample));
-  append(resampler.finish());
+  for (const api::StrokeSample& sample : raw) resampler.add(sample, dense);
+  const std::vector<api::StrokeSample> end = resampler.finish();
+  dense.insert(dense.end(), end.begin(), end.end());
   return dense;
 }
 
@@ -215,17 +186,18 @@ api::StrokeContext contextOf(const StrokeSetup& setup) {
 }
 
 void askBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, std::span<const api::StrokeSample> samples,
-              const BrushCall& call) {
+              const BrushCall& call, BrushRoom& room) {
   const api::StrokeContext own = contextOf(setup);
-  const std::vector<api::StrokeSample> all(samples.begin(), samples.end());
-  for (const SketchImage& image : imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}))) {
-    const std::vector<api::StrokeSample> copies = imageOf(all, image);
+  if (room.images.empty()) room.images = imagesOf(setup.symmetry.value_or(VoxelShape::Symmetry{}));
+  for (const SketchImage& image : room.images) {
+    room.copies.assign(samples.begin(), samples.end());
+    putInto(room.copies, image);
     api::StrokeContext context = imageOf(own, image);
-    const std::optional<SeenMatter> seen = seenBy(brush, setup, context, copies);
+    const std::optional<SeenMatter> seen = seenBy(brush, setup, context, room.copies);
     const api::NearMatter matter = seen ? seen->view() : api::NearMatter{};
     if (seen) context.matter = &matter;
     try {
-      call(context, api::listOf(copies.data(), copies.size()));
+      call(context, api::listOf(room.copies.data(), room.copies.size()));
     } catch (const Error&) {  // of what collects its answer
       throw;
     } catch (const std::exception& error) {
@@ -236,13 +208,48 @@ void askBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, std::span
   }
 }
 
+void BrushRun::submit(api::EditKind kind, api::Span<const api::Cell> cells) {
+  if (cells.size > kMaxStrokeCells) refuseCells();
+  if (!cells.data && cells.size > 0) throw BrushFault("it submitted cells by a null pointer");
+  if (kind > api::EditKind::Colour) throw BrushFault("it submitted cells for an edit that there is not");
+  if (kind != m_kind) flush();
+  m_kind = kind;
+  m_pending.insert(m_pending.end(), cells.begin(), cells.end());
+  constexpr size_t kPiece = size_t{1} << 18;
+  if (m_pending.size() > kPiece) flush();
+}
+
+/// Cells are merged in large pieces: a brush submits the same cells again for every sample.
+void BrushRun::flush() {
+  putInOrder(m_pending);
+  m_edits.of(m_kind).addOrdered(m_pending);
+  size_t all = 0;
+  for (const api::EditKind kind : kKinds) {
+    CellSet& cells = m_edits.of(kind);
+    if (kind != m_kind && !cells.empty()) cells.removeOrdered(m_pending);
+    all += cells.size();
+  }
+  m_pending.clear();
+  if (all > kMaxStrokeCells) refuseCells();
+}
+
+StrokeEdits& BrushRun::apply(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                             std::span<const api::StrokeSample> samples) {
+  for (const api::EditKind each : kKinds) m_edits.of(each).clear();
+  m_pending.clear();
+  m_kind = kind;
+  const auto call = [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
+    brush.stroke(context, kind, copies, *this);
+  };
+  askBrush(brush, setup, samples, std::cref(call), m_room);
+  flush();
+  return m_edits;
+}
+
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples) {
-  Collector collector;
-  askBrush(brush, setup, samples, [&](const api::StrokeContext& context, const api::List<api::StrokeSample>& copies) {
-    brush.stroke(context, kind, copies, collector);
-  });
-  return collector.result();
+  BrushRun run;
+  return std::move(run.apply(brush, setup, kind, samples));
 }
 
 void applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,

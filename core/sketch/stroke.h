@@ -4,6 +4,7 @@
 #include "core/sketch/cellset.h"
 #include "core/sketch/nearmatter.h"
 #include "core/sketch/stampcells.h"
+#include "core/sketch/symmetry.h"
 
 #include <phasesketch/brush.h>
 
@@ -33,6 +34,7 @@ class StrokeResampler {
   explicit StrokeResampler(double spacing);
   /// Dense samples that have become certain with this raw one. Samples that are not finite are skipped.
   std::vector<api::StrokeSample> add(const api::StrokeSample& raw);
+  void add(const api::StrokeSample& raw, std::vector<api::StrokeSample>& dense);  ///< puts them behind what is there
   /// The end point, where it was not sampled yet. Afterwards the resampler is as new.
   std::vector<api::StrokeSample> finish();
 
@@ -92,15 +94,40 @@ Matrix3 turnMatrix(const Vector3& turn);
 /// setup's numbers and its stamp.
 api::StrokeContext contextOf(const StrokeSetup& setup);
 
+/// What asking a brush takes from call to call of one stroke.
+struct BrushRoom {
+  std::vector<SketchImage> images;  ///< of the setup's symmetry, as soon as it has been asked
+  std::vector<api::StrokeSample> copies;
+};
+
 /// Asks a brush for one copy of a stroke: what it knows of it and sees there, and the samples as they lie there.
 using BrushCall = std::function<void(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples)>;
 /// Calls a brush for each copy by symmetry of dense samples. Throws BrushFault for what the call throws, and for a
 /// reach that no brush may have; an Error is the host's own, and goes on as it is.
 void askBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, std::span<const api::StrokeSample> samples,
-              const BrushCall& call);
+              const BrushCall& call, BrushRoom& room);
 
-/// Runs the brush over dense samples and all their copies by symmetry. Throws InputError when they cover more than
-/// kMaxStrokeCells, and BrushFault for what the brush itself throws.
+/// Runs a brush over one stroke, piece by piece. What it needs it keeps from piece to piece: by and by it allocates
+/// nothing, but for what a brush sees of matter.
+class BrushRun final : api::EditSink {
+ public:
+  /// Runs the brush over dense samples and all their copies by symmetry, for the same brush and setup each time. The
+  /// edits are lost with the next call. Throws InputError when they cover more than kMaxStrokeCells, and BrushFault for
+  /// what the brush itself throws.
+  StrokeEdits& apply(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
+                     std::span<const api::StrokeSample> samples);
+
+ private:
+  void submit(api::EditKind kind, api::Span<const api::Cell> cells) override;
+  void flush();
+
+  BrushRoom m_room;
+  StrokeEdits m_edits;
+  api::EditKind m_kind = api::EditKind::Add;
+  std::vector<api::Cell> m_pending;
+};
+
+/// The same, once.
 StrokeEdits applyBrush(const api::BrushPlugin& brush, const StrokeSetup& setup, api::EditKind kind,
                        std::span<const api::StrokeSample> samples);
 /// The same into a set of cells: Add puts cells in, Remove takes them out, others leave them.

@@ -22,40 +22,40 @@ StrokeMaker::StrokeMaker(std::string id, const api::BrushPlugin& brush, StrokeSe
   m_filling.begin("Filling", 1, kMostFlooded);
 }
 
-std::vector<api::Cell> StrokeMaker::add(std::span<const api::StrokeSample> raw) {
-  std::vector<api::StrokeSample> dense;
-  for (const api::StrokeSample& sample : raw) {
-    const std::vector<api::StrokeSample> more = m_resampler.add(sample);
-    dense.insert(dense.end(), more.begin(), more.end());
-  }
-  return feed(std::move(dense));
+std::span<const api::Cell> StrokeMaker::add(std::span<const api::StrokeSample> raw) {
+  m_dense.clear();
+  if (m_fed) m_dense.push_back(*m_fed);
+  for (const api::StrokeSample& sample : raw) m_resampler.add(sample, m_dense);
+  return feed();
 }
 
-std::vector<api::Cell> StrokeMaker::lift() {
-  std::vector<api::Cell> cells = feed(m_resampler.finish());
+std::span<const api::Cell> StrokeMaker::lift() {
+  m_dense.clear();
+  if (m_fed) m_dense.push_back(*m_fed);
+  for (const api::StrokeSample& sample : m_resampler.finish()) m_dense.push_back(sample);
+  feed();
   m_fed.reset();
-  return cells;
+  return m_fresh;
 }
 
-std::vector<api::Cell> StrokeMaker::feed(std::vector<api::StrokeSample> samples) {
-  if (samples.empty()) return {};
-  if (m_fed) samples.insert(samples.begin(), *m_fed);
-  m_fed = samples.back();
-  StrokeEdits edits = ask(samples);
+std::span<const api::Cell> StrokeMaker::feed() {
+  m_fresh.clear();
+  if (m_dense.size() == (m_fed ? 1 : 0)) return {};
+  m_fed = m_dense.back();
+  StrokeEdits& edits = ask();
   const bool fills = m_kind == api::EditKind::Fill, draws = fills || m_kind == api::EditKind::Add;
   if (fills) edits.filled = floodedFrom(edits.filled);
-  std::vector<api::Cell> fresh;
   for (const api::Cell& cell : edits.of(m_kind).cells()) {
     // What runs full has been kept within.
     const bool isOutside = draws && !fills && !isInScene(m_scene.environment, m_setup.grid, cell);
     if (isOutside) m_leavesScene = true;
-    if (!m_cells.contains(cell) && !isOutside) fresh.push_back(cell);
+    if (!m_cells.contains(cell) && !isOutside) m_fresh.push_back(cell);
   }
-  m_cells.add(fresh);
-  return fresh;
+  m_cells.addOrdered(m_fresh);
+  return m_fresh;
 }
 
-StrokeEdits StrokeMaker::ask(std::span<const api::StrokeSample> samples) {
+StrokeEdits& StrokeMaker::ask() {
   struct Asking {
     explicit Asking(std::atomic<bool>& flag) : asks(flag) { asks = true; }
     ~Asking() { asks = false; }
@@ -63,7 +63,7 @@ StrokeEdits StrokeMaker::ask(std::span<const api::StrokeSample> samples) {
   };
   const Asking asking(m_asks);
   const CalleeScope callee(m_id.c_str());
-  return applyBrush(m_brush, m_setup, m_kind, samples);
+  return m_run.apply(m_brush, m_setup, m_kind, m_dense);
 }
 
 CellSet StrokeMaker::floodedFrom(const CellSet& seeds) {

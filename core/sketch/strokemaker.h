@@ -28,10 +28,11 @@ class StrokeMaker {
   StrokeMaker(std::string id, const api::BrushPlugin& brush, StrokeSetup setup, bool erases, StrokeScene scene);
 
   /// Places in m, as the setup's grid stands. Throws BrushFault for what the brush throws, and InputError where it asks
-  /// for more than a stroke may hold; what has come so far stands, and no more may be asked for.
-  std::vector<api::Cell> add(std::span<const api::StrokeSample> raw);
+  /// for more than a stroke may hold; what has come so far stands, and no more may be asked for. The cells are lost
+  /// with the next call.
+  std::span<const api::Cell> add(std::span<const api::StrokeSample> raw);
   /// The next place is not joined to the last one: cells that the rest of the way brings.
-  std::vector<api::Cell> lift();
+  std::span<const api::Cell> lift();
   api::EditKind kind() const { return m_kind; }
   bool asksBrush() const noexcept { return m_asks; }  ///< now; from any thread
   /// What is being filled is given up: add() or lift() throws Cancelled; from any thread.
@@ -41,8 +42,8 @@ class StrokeMaker {
   bool leavesScene() const noexcept { return m_leavesScene; }
 
  private:
-  StrokeEdits ask(std::span<const api::StrokeSample> samples);
-  std::vector<api::Cell> feed(std::vector<api::StrokeSample> samples);
+  StrokeEdits& ask();
+  std::span<const api::Cell> feed();
   CellSet floodedFrom(const CellSet& seeds);
 
   std::string m_id;
@@ -51,8 +52,11 @@ class StrokeMaker {
   StrokeScene m_scene;
   api::EditKind m_kind;
   StrokeResampler m_resampler;
+  BrushRun m_run;
   std::optional<api::StrokeSample> m_fed;  ///< the last one of the piece
+  std::vector<api::StrokeSample> m_dense;  ///< to be fed, with that one in front
   CellSet m_cells;                         ///< that have come so far
+  std::vector<api::Cell> m_fresh;          ///< and those of the last call
   Progress m_filling;                      ///< of all that runs full, as one stage
   std::atomic<bool> m_asks = false, m_leavesScene = false;
 };

@@ -35,15 +35,18 @@ std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry) {
   return images;
 }
 
-std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image) {
-  std::vector<api::StrokeSample> out = samples;
-  for (api::StrokeSample& sample : out) {
+std::vector<api::StrokeSample> imageOf(std::vector<api::StrokeSample> samples, const SketchImage& image) {
+  putInto(samples, image);
+  return samples;
+}
+
+void putInto(std::span<api::StrokeSample> samples, const SketchImage& image) {
+  for (api::StrokeSample& sample : samples) {
     sample.position = double3Of(image.of(vectorOf(sample.position)));
     sample.direction = double3Of(image.turn * vectorOf(sample.direction));
     sample.velocity = double3Of(image.turn * vectorOf(sample.velocity));
     sample.turn = double3Of(turned(image, vectorOf(sample.turn)));
   }
-  return out;
 }
 
 std::vector<VoxelShape::Stroke> carried(const VoxelShape::Stroke& stroke, const RigidMove& move) {

@@ -5,6 +5,7 @@
 
 #include <phasesketch/brush.h>
 
+#include <span>
 #include <vector>
 
 namespace ps {
@@ -21,7 +22,8 @@ struct SketchImage {
 std::vector<SketchImage> imagesOf(const VoxelShape::Symmetry& symmetry);
 
 /// The samples as they lie in a copy.
-std::vector<api::StrokeSample> imageOf(const std::vector<api::StrokeSample>& samples, const SketchImage& image);
+std::vector<api::StrokeSample> imageOf(std::vector<api::StrokeSample> samples, const SketchImage& image);
+void putInto(std::span<api::StrokeSample> samples, const SketchImage& image);
 
 /// A stroke as it is after a move of what it is drawn on. Where that is turned each of its copies is a stroke of its
 /// own, since mirrors and axes stand along the scene's.

@@ -5,7 +5,7 @@ namespace ps::brushes {
 
 void submitBalls(const api::StrokeContext& context, api::EditKind kind, const api::List<api::StrokeSample>& samples,
                  api::EditSink& sink) {
-  std::vector<api::Cell> cells;
+  std::vector<api::Cell>& cells = roomForCells();
   for (size_t s = 0; s < samples.count; ++s) {
     const api::StrokeSample sample = samples.at(s);
     const double radius = pressedRadius(context, 0, kPressureSize, sample.pressure);

@@ -41,7 +41,7 @@ void CubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind 
   const double how = ps::brushes::parameter(context, 1, ps::brushes::kFollowsRotation);
   // Half open, so that an edge of n spacings holds n cells wherever it starts; the allowance is far above rounding.
   const double low = -context.radius - 1e-9 * context.spacing, high = context.radius - 1e-9 * context.spacing;
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = ps::brushes::roomForCells();
   for (size_t s = 0; s < samples.count; ++s) {
     const ps::api::StrokeSample sample = samples.at(s);
     const ps::brushes::Frame frame = ps::brushes::held(upright, sample.turn, how);

@@ -18,7 +18,7 @@ FillBrush::FillBrush()
 void FillBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   using namespace ps::brushes;
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = roomForCells();
   alongWay(context, samples, 0, [&](const Section& section) { cells.push_back(cellAt(context, section.centre)); });
   sink.submit(kind == ps::api::EditKind::Remove ? kind : ps::api::EditKind::Fill, {cells.data(), cells.size()});
 }

@@ -71,7 +71,7 @@ Double3 extentOf(const Frame& frame, const Double3& half) {
 }
 
 void alongWay(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, double reach,
-              const std::function<void(const Section&)>& each) {
+              const Borrowed<void(const Section&)>& each) {
   if (samples.count == 0) return;
   api::StrokeSample last = samples.at(0);
   if (samples.count == 1) return each({last.position, last.direction, last.pressure, last.turn});

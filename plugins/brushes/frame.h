@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "borrowed.h"
 #include "vectors.h"
 
 #include <phasesketch/brush.h>
-
-#include <functional>
 
 namespace ps::brushes {
 
@@ -37,6 +36,6 @@ struct Section {
 /// Goes along the way so finely that points at a distance of `reach` m from it come at most half a spacing apart, in
 /// bends too: between two samples it turns about them. A stroke that has only begun is one section without direction.
 void alongWay(const api::StrokeContext& context, const api::List<api::StrokeSample>& samples, double reach,
-              const std::function<void(const Section&)>& each);
+              const Borrowed<void(const Section&)>& each);
 
 }  // namespace ps::brushes

@@ -30,7 +30,7 @@ void LineBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind 
   const Frame frame = frameOf(context, parameter(context, 0, 0));
   const double dx = context.spacing, hair = kHair * dx;
   const Double3 extent = extentOf(frame, {dx, context.radius, dx});
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = roomForCells();
   alongWay(context, samples, 0, [&](const Section& section) {
     cells.clear();
     const auto inside = [&](const Double3& d) {

@@ -14,7 +14,7 @@ ParticleBrush::ParticleBrush()
 
 void ParticleBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                            const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = ps::brushes::roomForCells();
   ps::brushes::alongWay(context, samples, 0, [&](const ps::brushes::Section& section) {
     cells.push_back(ps::brushes::cellAt(context, section.centre));
   });

@@ -36,7 +36,7 @@ RibbonBrush::RibbonBrush()
 void RibbonBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                          const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   const Frame frame = frameOf(context, 0);
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = roomForCells();
   alongWay(context, samples, context.radius, [&](const Section& section) {
     if (dot(section.direction, section.direction) == 0) return;  // which way it goes is not known yet
     const double radius = pressedRadius(context, 0, kPressureSize, section.pressure);

@@ -11,9 +11,9 @@ namespace ps::brushes {
 
 void stampSheets(const api::StrokeContext& context, const Frame& upright, double how, double reach,
                  const api::List<api::StrokeSample>& samples, api::EditKind kind,
-                 const std::function<bool(double side, double front)>& inside, api::EditSink& sink) {
+                 const Borrowed<bool(double side, double front)>& inside, api::EditSink& sink) {
   const double dx = context.spacing;
-  std::vector<api::Cell> cells;
+  std::vector<api::Cell>& cells = roomForCells();
   alongWay(context, samples, 0, [&](const Section& section) {
     const Frame frame = held(upright, section.turn, how);
     // Cells lie as in cellAt(), from whichever side one draws: by the component of up along the axis it is nearest to.

@@ -2,8 +2,6 @@
 #pragma once
 #include "frame.h"
 
-#include <functional>
-
 namespace ps::brushes {
 
 /// Stamps sheets across the frame's up, one cell thick and without holes at any pose: the cells that a plane meets
@@ -11,6 +9,6 @@ namespace ps::brushes {
 /// the sheet reaches; no farther than `reach`. The frame follows pen and hand as `how` says, see following().
 void stampSheets(const api::StrokeContext& context, const Frame& upright, double how, double reach,
                  const api::List<api::StrokeSample>& samples, api::EditKind kind,
-                 const std::function<bool(double side, double front)>& inside, api::EditSink& sink);
+                 const Borrowed<bool(double side, double front)>& inside, api::EditSink& sink);
 
 }  // namespace ps::brushes

@@ -60,21 +60,20 @@ void SprayBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind
   const double flow = parameter(context, 0, kFlow), falloff = parameter(context, 1, kFalloff);
   const double squared = context.radius * context.radius;
   const auto inReach = [&](const Double3& d) { return dot(d, d) <= squared; };
-  std::vector<ps::api::Cell> cells, fallen;
+  std::vector<ps::api::Cell>& cells = roomForCells();
   for (size_t s = 0; s < samples.count; ++s) {
     const ps::api::StrokeSample sample = samples.at(s);
     const uint64_t seed = seedOf(sample);
     cells.clear();
-    fallen.clear();
     stamp(context, sample.position, {context.radius, context.radius, context.radius}, inReach, cells);
-    for (const ps::api::Cell& cell : cells) {
+    std::erase_if(cells, [&](const ps::api::Cell& cell) {
       const Double3 d{cell.x * context.spacing + context.origin.x - sample.position.x,
                       cell.y * context.spacing + context.origin.y - sample.position.y,
                       cell.z * context.spacing + context.origin.z - sample.position.z};
       const double share = 1 - falloff * std::min(1.0, dot(d, d) / squared);
-      if (chanceOf(cell, seed) < flow * share * std::clamp(sample.pressure, 0.0, 1.0)) fallen.push_back(cell);
-    }
-    sink.submit(kind, {fallen.data(), fallen.size()});
+      return chanceOf(cell, seed) >= flow * share * std::clamp(sample.pressure, 0.0, 1.0);
+    });
+    sink.submit(kind, {cells.data(), cells.size()});
   }
 }
 

@@ -70,8 +70,7 @@ bool holds(const ps::api::Span<const Cell>& shape, const Cell& cell) {
 
 /// The cells whose centres lie in those of the copy. Where its cells are smaller than those of the lattice those that
 /// hold the centre of one as well, so that thin walls stay closed.
-std::vector<Cell> cellsOf(const ps::api::StrokeContext& context, const Copy& copy, const Double3& place) {
-  std::vector<Cell> cells;
+void addCells(const ps::api::StrokeContext& context, const Copy& copy, const Double3& place, std::vector<Cell>& cells) {
   // A hair aside, so that centres on faces do not waver between two cells: a copy as it is has as many as the body.
   const auto at = [&](const Double3& d, const Double3& axis, double middle) {
     return static_cast<int32_t>(std::floor(dot(d, axis) / copy.cell + middle + 0.5 - kHair));
@@ -81,12 +80,11 @@ std::vector<Cell> cellsOf(const ps::api::StrokeContext& context, const Copy& cop
     return holds(context.shape, {at(d, copy.x, m.x), at(d, copy.y, m.y), at(d, copy.z, m.z)});
   };
   cellsAround(context, place, copy.half, inside, cells);
-  if (!(copy.cell < context.spacing * (1 - kHair))) return cells;
+  if (!(copy.cell < context.spacing * (1 - kHair))) return;
   for (const Cell& c : context.shape) {
     const Double3 own = sum(sum(scaled(copy.x, c.x - m.x), scaled(copy.y, c.y - m.y)), scaled(copy.z, c.z - m.z));
     cells.push_back(cellAt(context, sum(place, scaled(own, copy.cell))));
   }
-  return cells;
 }
 
 }  // namespace
@@ -102,8 +100,10 @@ StampBrush::StampBrush()
 void StampBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                         const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   if (context.shape.size == 0) return;
+  std::vector<Cell>& cells = roomForCells();
   const auto put = [&](const Double3& place, const Double3& turn) {
-    const std::vector<Cell> cells = cellsOf(context, copyOf(context, turn), place);
+    cells.clear();
+    addCells(context, copyOf(context, turn), place, cells);
     sink.submit(kind, {cells.data(), cells.size()});
   };
   const double edge = 2 * std::max({context.shapeHalf.x, context.shapeHalf.y, context.shapeHalf.z});

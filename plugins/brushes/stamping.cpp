@@ -44,6 +44,14 @@ api::Cell cellAt(const api::StrokeContext& context, const api::Double3& place) {
           cellAt(place.z, context.origin.z, context.spacing)};
 }
 
+std::vector<api::Cell>& roomForCells() {
+  constexpr size_t kMostKept = size_t{1} << 20;
+  thread_local std::vector<api::Cell> room;
+  room.clear();
+  if (room.capacity() > kMostKept) room.shrink_to_fit();
+  return room;
+}
+
 void cellsAround(const api::StrokeContext& context, const api::Double3& place, const api::Double3& extent,
                  const Inside& inside, std::vector<api::Cell>& cells) {
   const double dx = context.spacing;

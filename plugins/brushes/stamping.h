@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "borrowed.h"
+
 #include <phasesketch/brush.h>
 
-#include <functional>
 #include <vector>
 
 namespace ps::brushes {
@@ -14,7 +15,7 @@ inline constexpr double kMaxCells = 500;
 double parameter(const api::StrokeContext& context, size_t index, double fallback);
 
 /// Whether the cell of an offset in m from the middle of the stamp belongs to it.
-using Inside = std::function<bool(const api::Double3&)>;
+using Inside = Borrowed<bool(const api::Double3&)>;
 
 /// Appends the cells whose centres satisfy `inside` within a box of half extents `extent` (m) around a place. Throws
 /// std::length_error for a box beyond kMaxCells, std::range_error for a place out of the lattice's reach.
@@ -25,6 +26,9 @@ void stamp(const api::StrokeContext& context, const api::Double3& sample, const 
            const Inside& inside, std::vector<api::Cell>& cells);
 /// The cell whose cube holds a place; one on a face belongs to the higher one. Throws std::range_error like these.
 api::Cell cellAt(const api::StrokeContext& context, const api::Double3& place);
+/// Room for the cells of a call of stroke(), empty: each thread keeps its own from call to call, so that strokes
+/// allocate nothing from sample to sample.
+std::vector<api::Cell>& roomForCells();
 /// In spacings, far above rounding: of a place on a face it must not waver which of two cells is meant.
 inline constexpr double kHair = 1e-9;
 /// Whether the cell at an offset from a place lies within `half` of it, both in m: half open, as in cellAt().

@@ -34,7 +34,7 @@ TubeBrush::TubeBrush()
 void TubeBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,
                        const ps::api::List<ps::api::StrokeSample>& samples, ps::api::EditSink& sink) const {
   const double dx = context.spacing, wall = parameter(context, 1, kWall) * dx;
-  std::vector<ps::api::Cell> cells;
+  std::vector<ps::api::Cell>& cells = roomForCells();
   alongWay(context, samples, context.radius, [&](const Section& section) {
     if (dot(section.direction, section.direction) == 0) return;  // which way it goes is not known yet
     const double radius = std::max(pressedRadius(context, 0, kPressureSize, section.pressure), dx / 2);

@@ -1,33 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A steady frame allocates nothing: what stages need from frame to frame they keep. Counted is every call of malloc and
-// its kin (operator new among them) on the thread that steps. One thread runs every loop: which chunks one of several
-// gets, and so how much memory it has had for them before, is left to chance. What a plugin's call takes is the
-// plugin's, which has no memory of its own from call to call: it is told apart by the stack, and not judged. Steady is
-// a frame in which no list outgrows what it has been: so frames are counted after a warm-up.
+// A steady frame allocates nothing: what stages need from frame to frame they keep. Counted is the thread that steps.
+// One thread runs every loop: which chunks one of several gets, and so how much memory it has had for them before, is
+// left to chance. What a plugin's call takes is the plugin's, which has no memory of its own from call to call: it is
+// told apart by the stack, and not judged. Steady is a frame in which no list outgrows what it has been: so frames are
+// counted after a warm-up.
 #include "softscene.h"
+#include "tests/shared/allocations.h"
 
 #include <QTest>
 
-#include <cerrno>
 #include <cstdlib>
 #include <dlfcn.h>
-#include <execinfo.h>
 #include <functional>
 #include <memory>
 #include <string_view>
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define PS_COUNTS_ALLOCATIONS 1
-#endif
-
 namespace {
-
-constexpr int kDeepest = 48;
-
-thread_local bool t_counting = false;
-thread_local uint64_t t_count = 0, t_plugins = 0;
-thread_local void* t_first[kDeepest];  // who asked first, for the message
-thread_local int t_depth = 0;
 
 /// Whether a function of a plugin's model is among those that are being called; the program exports their names.
 bool isPlugins(void* const* stack, int depth) {
@@ -40,52 +28,7 @@ bool isPlugins(void* const* stack, int depth) {
   return false;
 }
 
-[[maybe_unused]] void count() {
-  if (!t_counting) return;
-  t_counting = false;  // backtrace() may allocate
-  void* stack[kDeepest];
-  const int depth = backtrace(stack, kDeepest);
-  if (isPlugins(stack, depth)) {
-    ++t_plugins;
-  } else if (t_count++ == 0) {
-    std::copy(stack, stack + depth, t_first);
-    t_depth = depth;
-  }
-  t_counting = true;
-}
-
 }  // namespace
-
-#if defined(PS_COUNTS_ALLOCATIONS)
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* old, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-
-void* malloc(size_t size) {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(size_t items, size_t size) {
-  count();
-  return __libc_calloc(items, size);
-}
-void* realloc(void* old, size_t size) {
-  count();
-  return __libc_realloc(old, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** out, size_t alignment, size_t size) {
-  count();
-  *out = __libc_memalign(alignment, size);
-  return *out ? 0 : ENOMEM;
-}
-}
-#endif
 
 using namespace soft;
 using ps::Solver;
@@ -160,32 +103,26 @@ std::unique_ptr<Scene> heated() {
   return s;
 }
 
-/// Names of the functions that asked first, as far as the program tells them.
-QString whoAsked() {
-  QString names;
-  char** lines = backtrace_symbols(t_first, t_depth);
-  for (int k = 2; lines && k < t_depth; ++k) names += QStringLiteral("\n  ") + QString::fromLocal8Bit(lines[k]);
-  std::free(lines);
-  return names;
-}
-
 }  // namespace
 
 class TestAllocation : public QObject {
   Q_OBJECT
  private Q_SLOTS:
-  void init() { ps::setThreadCount(1); }
+  void init() {
+    allocations::spares = isPlugins;
+    ps::setThreadCount(1);
+  }
   void cleanup() { ps::setThreadCount(0); }
 
   void theCounterCounts() {
 #if defined(PS_COUNTS_ALLOCATIONS)
-    t_count = 0;
-    t_counting = true;
-    auto some = std::make_unique<std::vector<int>>(100);
-    void* raw = std::malloc(10);
-    t_counting = false;
+    void* raw = nullptr;
+    const uint64_t count = allocations::during([&] {
+      auto some = std::make_unique<std::vector<int>>(100);
+      raw = std::malloc(10);
+    });
     std::free(raw);
-    QCOMPARE(t_count, uint64_t{3});
+    QCOMPARE(count, uint64_t{3});
 #endif
   }
 
@@ -204,22 +141,18 @@ class TestAllocation : public QObject {
     std::unique_ptr<Scene> (*const kScenes[])() = {pond, wetCloth, boxes, heated};
     const std::unique_ptr<Scene> s = kScenes[scene]();
     QVERIFY(run(s->solver, 150));
-    void* unused[2];
-    backtrace(unused, 2);  // loads what it needs
-    t_count = 0;
-    uint64_t frames = 0;
+    uint64_t all = 0, frames = 0;
     for (int frame = 0; frame < 40; ++frame) {
-      const uint64_t before = t_count;
-      t_counting = true;
-      const ps::StepReport report = s->solver.step();
-      t_counting = false;
+      ps::StepReport report;
+      const uint64_t count = allocations::during([&] { report = s->solver.step(); });
       QCOMPARE(report.flags, ps::StepFlags{0});
-      frames += t_count > before ? 1 : 0;
+      all += count;
+      frames += count > 0 ? 1 : 0;
     }
-    QVERIFY2(
-        t_count == 0,
-        qPrintable(
-            QStringLiteral("%1 allocations in %2 frames; the first by%3").arg(t_count).arg(frames).arg(whoAsked())));
+    QVERIFY2(all == 0, qPrintable(QStringLiteral("%1 allocations in %2 frames; the last by%3")
+                                      .arg(all)
+                                      .arg(frames)
+                                      .arg(allocations::whoAsked())));
   }
 };
 

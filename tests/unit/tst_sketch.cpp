@@ -187,7 +187,7 @@ class TestSketch : public QObject {
     const auto draw = [&](int pieces, bool lifts) {
       StrokeMaker maker("ball", brush, setup, false, {environment, {}});
       std::vector<Cell> all;
-      const auto take = [&](const std::vector<Cell>& fresh) { all.insert(all.end(), fresh.begin(), fresh.end()); };
+      const auto take = [&](std::span<const Cell> fresh) { all.insert(all.end(), fresh.begin(), fresh.end()); };
       for (int i = 0; i <= pieces; ++i) {
         const double t = static_cast<double>(i) / pieces;
         const StrokeSample place = at(-0.3 + 1.5 * t, 0.1, 0.05, 1, 0.15 * t);

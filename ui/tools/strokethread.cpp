@@ -3,11 +3,12 @@
 
 #include "ui/tools/brushcall.h"
 
+#include <algorithm>
 #include <condition_variable>
-#include <deque>
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -20,8 +21,9 @@ struct StrokeThread::Shared {
   std::mutex mutex;
   std::condition_variable asked, came;
   std::function<void()> ready;
-  std::deque<std::optional<api::StrokeSample>> waiting;  // nothing: the way is lifted there
-  std::vector<api::Cell> cells;
+  std::vector<std::optional<api::StrokeSample>> waiting;  // nothing: the way is lifted there
+  std::vector<api::StrokeSample> way;                     // of the thread alone
+  std::vector<api::Cell> cells, fresh;                    // the latter of the thread alone
   std::exception_ptr problem;
   size_t places = 0;  // that have been drawn
   bool busy = false, ends = false;
@@ -29,27 +31,25 @@ struct StrokeThread::Shared {
   bool idle() const { return waiting.empty() && !busy; }
   /// All that waits up to where the way is lifted, at once: a brush that is slower than the hand catches up so.
   void doNext(std::unique_lock<std::mutex>& lock) {
-    std::vector<api::StrokeSample> way;
-    bool lifts = false;
-    while (!waiting.empty() && !lifts) {
-      lifts = !waiting.front();
-      if (!lifts) way.push_back(*waiting.front());
-      waiting.pop_front();
-    }
+    const auto lifted = std::find(waiting.begin(), waiting.end(), std::nullopt);
+    const bool lifts = lifted != waiting.end();
+    way.clear();
+    fresh.clear();
+    std::for_each(waiting.begin(), lifted, [&](const auto& place) { way.push_back(*place); });
+    waiting.erase(waiting.begin(), lifts ? lifted + 1 : lifted);
     busy = true;
     lock.unlock();
-    std::vector<api::Cell> fresh, rest;
     std::exception_ptr failed;
+    const auto keep = [&](std::span<const api::Cell> more) { fresh.insert(fresh.end(), more.begin(), more.end()); };
     try {
-      fresh = maker->add(way);
-      if (lifts) rest = maker->lift();
+      keep(maker->add(way));
+      if (lifts) keep(maker->lift());
     } catch (...) {
       failed = std::current_exception();
     }
     lock.lock();
     busy = false;
     cells.insert(cells.end(), fresh.begin(), fresh.end());
-    cells.insert(cells.end(), rest.begin(), rest.end());
     if (failed) {
       problem = failed;
       ends = true;
@@ -58,7 +58,7 @@ struct StrokeThread::Shared {
       places += way.size();
     }
     came.notify_all();
-    if (ready && (failed || !fresh.empty() || !rest.empty())) ready();
+    if (ready && (failed || !fresh.empty())) ready();
   }
   void work() {
     std::unique_lock lock(mutex);
