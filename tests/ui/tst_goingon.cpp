@@ -302,6 +302,27 @@ class TestGoingOn : public ToolTest {
     QCOMPARE(highest(), before + 4 - static_cast<int>(std::lround(way.y() / kSpacing)));
   }
 
+  /// Made anew, a scene knows what of its pieces a stroke has made: undone step by step while it runs, nothing is left.
+  void whatAStrokeMadeOfPiecesIsUndoneInAnotherRun() {
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() && m_engine->snapshot()->bodyIds; }, 20000));
+    const size_t before = count();
+    const std::string bar = drawBar();
+    const size_t whole = count();
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar);
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    m_document->partBody(bar, {found[1]});
+    m_link->reset();
+    QCOMPARE(count(), whole);
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    m_document->undoStack().undo();  // the pieces
+    QCOMPARE(ofBody(bar), whole);
+    m_document->undoStack().undo();  // what was erased in the run before
+    m_document->undoStack().undo();  // the bar
+    QCOMPARE(count(), before);
+  }
+
   /// Strokes go with what they drew; the first body keeps all, and draws them again without what others hold.
   void strokesGoWithTheirPieces() {
     const std::string bar = drawBar();
