@@ -18,6 +18,8 @@
 #include "ui/window/shortcutswindow.h"
 #include "ui/window/workspacekeys.h"
 
+#include <QtCore/QCoreApplication>
+#include <QtCore/QPointer>
 #include <QtGui/QAction>
 #include <QtWidgets/QMenu>
 
@@ -162,9 +164,12 @@ void SketchActions::separate() {
       bodies.push_back({body, {}});
   }
   if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({});
-  m_session.engine()->ask([this, bodies](const Engine& engine) mutable {
+  // The engine's thread may come to it when the window has gone.
+  m_session.engine()->ask([self = QPointer(this), bodies](const Engine& engine) mutable {
     for (Pieces& one : bodies) one.cells = piecesOf(engine, one.body);
-    QMetaObject::invokeMethod(this, [this, bodies = std::move(bodies)] { part(bodies); });
+    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, bodies = std::move(bodies)] {
+      if (self) self->part(bodies);
+    });
   });
 }
 
