@@ -5,6 +5,7 @@
 #include "core/scene/shownname.h"
 #include "core/scene/track.h"
 #include "core/simulation/bodypieces.h"
+#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -30,6 +31,17 @@ namespace ps {
 namespace {
 const Address kGravity{Owner::Scene, "", "gravity"};
 constexpr double kEarth = 9.81;  // m/s^2
+
+/// Some of a body.
+bool isSolid(const Engine& engine, const std::string& id) {
+  const std::vector<std::string>& bodies = engine.bodyIds();
+  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), id) - bodies.begin());
+  const ParticleStore& store = engine.particles();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == index && api::holds(store.motion()[i])) return true;
+  }
+  return false;
+}
 }  // namespace
 
 QString materialAction(int number) { return QStringLiteral("sketch.material%1").arg(number + 1); }
@@ -85,7 +97,7 @@ void SketchActions::addHolding(QMenu* menu) {
                                     [this] { this->separate(); });
   separate->setToolTip(
       QStringLiteral("Makes what has come apart of sketched bodies bodies of their own: of those that "
-                     "are selected, or of all"));
+                     "are selected, or of all that are solid"));
   menu->addSeparator();
   connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
   connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
@@ -152,7 +164,8 @@ void SketchActions::letGo() {
   m_session.document().setParameters(values, QStringLiteral("make it real"));
 }
 
-/// What is held in place has no pieces that would go anywhere.
+/// What is held in place has no pieces that would go anywhere. Drops part and meet all the time: those of what flows
+/// are told apart where somebody has chosen it.
 void SketchActions::separate() {
   const Document& document = m_session.document();
   const std::vector<std::string> chosen = m_tools.selection().bodies();
@@ -165,8 +178,10 @@ void SketchActions::separate() {
   }
   if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({});
   // The engine's thread may come to it when the window has gone.
-  m_session.engine()->ask([self = QPointer(this), bodies](const Engine& engine) mutable {
-    for (Pieces& one : bodies) one.cells = piecesOf(engine, one.body);
+  m_session.engine()->ask([self = QPointer(this), bodies, all = chosen.empty()](const Engine& engine) mutable {
+    for (Pieces& one : bodies) {
+      if (!all || isSolid(engine, one.body.id)) one.cells = piecesOf(engine, one.body);
+    }
     QMetaObject::invokeMethod(QCoreApplication::instance(), [self, bodies = std::move(bodies)] {
       if (self) self->part(bodies);
     });
