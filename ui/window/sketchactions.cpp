@@ -188,12 +188,14 @@ void SketchActions::separate() {
   });
 }
 
-/// One step. Those that have been drawn on meanwhile stay whole.
+/// One step. Those that have been drawn on meanwhile stay whole, and those of a state that knows no cells of theirs.
 void SketchActions::part(const std::vector<Pieces>& bodies) {
   Document& document = m_session.document();
   const auto isParted = [&](const Pieces& one) {
     const Body* now = document.body(one.body.id);
-    return one.cells.size() > 1 && now && now->shape == one.body.shape;
+    const bool apart = !one.cells.empty() && std::any_of(one.cells.begin() + 1, one.cells.end(),
+                                                         [](const auto& piece) { return !piece.empty(); });
+    return apart && now && now->shape == one.body.shape;
   };
   const auto parted = std::count_if(bodies.begin(), bodies.end(), isParted);
   bool any = false;
