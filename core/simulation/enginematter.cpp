@@ -15,6 +15,36 @@
 #include <utility>
 
 namespace ps {
+namespace {
+
+/// By as much the cells of a sketch are others on its lattice: one that was never turned goes by whole ones.
+Vector3 wayOnLattice(const Body& before, const Body& after) {
+  const auto *from = std::get_if<VoxelShape>(&before.shape), *to = std::get_if<VoxelShape>(&after.shape);
+  if (!from || !to) return Vector3::Zero();
+  const auto drawn = [](const VoxelShape& voxels) {
+    VoxelShape alone;
+    alone.origin = voxels.origin, alone.spacing = voxels.spacing, alone.runs = voxels.runs;
+    Body body;
+    body.shape = std::move(alone);
+    return body;
+  };
+  const auto move = moveBetween(drawn(*from), drawn(*to));
+  return move ? move->shift : Vector3(Vector3::Zero());
+}
+
+/// Of a body, ascending.
+std::vector<uint32_t> particlesOf(const ParticleStore& store, const std::vector<std::string>& bodies,
+                                  const std::string& id) {
+  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), id) - bodies.begin());
+  std::vector<uint32_t> ids;
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == index) ids.push_back(store.id()[i]);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+}  // namespace
 
 void Engine::Impl::carry(const Body& from, const RigidMove& move, bool led) {
   const auto found = std::find(bodyIds->begin(), bodyIds->end(), from.id);
@@ -38,6 +68,11 @@ void Engine::moveBody(const Body& body, const RigidMove& move, bool led) {
   if (solid && was && !solid->mesh) solid->mesh = was->mesh;
   m->overlay.lift(m->project);
   const Body from = std::exchange(*known, std::move(placed));
+  if (const Vector3 way = wayOnLattice(from, *known); !way.isZero(0)) {
+    auto rest = std::make_shared<RestPlaces>(*m->rest);
+    rest->shift(particlesOf(m->solver->particles(), *m->bodyIds, body.id), way);
+    m->rest = std::move(rest);
+  }
   m->overlay.lay(m->project);
   if (!led || !m->isFixed(body.id)) {
     m->recompile({{Owner::Body}});

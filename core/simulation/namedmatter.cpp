@@ -248,6 +248,11 @@ void NamedMatter::obey(Engine& engine, const NameMatter& command) {
     entry.before.push_back({std::move(ids), command.paintedFrom});
     return;
   }
+  // Of a sketch that has come apart its pieces are named one after the other.
+  const ParticleStore& store = engine.particles();
+  for (const uint32_t i : store.indicesOf(entry.ids)) ids.push_back(store.id()[i]);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   entry = {};
   entry.ids = std::move(ids);
 }

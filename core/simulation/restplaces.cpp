@@ -37,6 +37,21 @@ void RestPlaces::add(std::span<const uint32_t> ids, std::span<const Place> place
   }
 }
 
+void RestPlaces::shift(std::span<const uint32_t> ids, const Vector3& way) {
+  auto from = ids.begin();
+  for (Run& run : m_runs) {
+    from = std::lower_bound(from, ids.end(), run.first);
+    const auto to = std::lower_bound(from, ids.end(), run.end());
+    if (from == to) continue;
+    auto shifted = std::make_shared<std::vector<Place>>(*run.places);
+    for (; from != to; ++from) {
+      Place& place = (*shifted)[*from - run.first];
+      for (size_t a = 0; a < 3; ++a) place[a] += static_cast<float>(way[static_cast<Eigen::Index>(a)]);
+    }
+    run.places = std::move(shifted);
+  }
+}
+
 std::optional<Vector3> RestPlaces::of(uint32_t id) const {
   const auto after = std::upper_bound(m_runs.begin(), m_runs.end(), id,
                                       [](uint32_t wanted, const Run& run) { return wanted < run.first; });

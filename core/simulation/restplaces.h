@@ -14,13 +14,16 @@ namespace ps {
 class StateReader;
 class StateWriter;
 
-/// Where the particles of sketches were made, by their ids: in m on the lattice as it was drawn, before its body was
-/// taken anywhere. What becomes of a particle later changes nothing of it. A value; copies share what they hold.
+/// Where the particles of sketches were made, by their ids: in m on the lattice, where their body is drawn on it,
+/// before it was turned. What becomes of a particle later changes nothing of it. A value; copies share what they hold.
 class RestPlaces {
  public:
   using Place = std::array<float, 3>;
   /// `ids` ascend, and none of them is known.
   void add(std::span<const uint32_t> ids, std::span<const Place> places);
+  /// Their body is drawn elsewhere on its lattice by now, this far off, in m. `ids` ascend; those that are not known
+  /// are left out.
+  void shift(std::span<const uint32_t> ids, const Vector3& way);
   /// Nothing: it is no particle of a sketch, or its state knew nothing of where it was made.
   std::optional<Vector3> of(uint32_t id) const;
   bool empty() const { return m_runs.empty(); }

@@ -2,16 +2,26 @@
 // Gestures around the brush in the window: its size, the matter that it takes, and the other end of a pen.
 #include "core/plugin_host/registry.h"
 #include "samplewindow.h"
+#include "tests/ui/hands.h"
 #include "ui/panels/brushpanel.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
+#include "ui/theme/resources.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/dock.h"
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/noticebar.h"
 
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+#include <QtCore/QTemporaryDir>
 #include <QtGui/QPointingDevice>
 #include <QtGui/QTabletEvent>
+#include <QtWidgets/QDialog>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QListWidget>
+#include <QtWidgets/QPushButton>
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +166,103 @@ class TestBrushWindow : public SampleWindowTest {
     QVERIFY(favourites.all().empty());
     brush.shape = "cube";
     m_window->tools().setBrush(brush);
+  }
+
+  /// All that they say is declared, and within its bounds. One that is taken leaves guides and matter as they are,
+  /// unless it says otherwise.
+  void readyBrushesComeWithTheProgram() {
+    const std::vector<ReadyBrush> ready = m_window->favourites().ready();
+    const QJsonArray said = QJsonDocument::fromJson(themeResource(QStringLiteral("brushes/brushes.json"))).array();
+    QVERIFY(ready.size() >= 12);
+    QCOMPARE(static_cast<qsizetype>(ready.size()), said.size());
+    for (size_t k = 0; k < ready.size(); ++k) {
+      const QJsonObject one = said[static_cast<qsizetype>(k)].toObject();
+      const auto count = [&](const char* key) { return one[QLatin1String(key)].toObject().size(); };
+      QVERIFY2(static_cast<qsizetype>(ready[k].brush.values.size()) == count("brush"), qPrintable(ready[k].name));
+      QVERIFY2(static_cast<qsizetype>(ready[k].parameters.values.size()) == count("parameters"),
+               qPrintable(ready[k].name));
+      QVERIFY(!ready[k].about.isEmpty());
+    }
+    BrushSettings brush = m_window->tools().brush();
+    const BrushSettings before = brush;
+    brush.material = "iron";
+    brush.symmetry.mirror = "x";
+    m_window->tools().setBrush(brush);
+    m_window->tools().activate(kSelectTool);
+    const auto run = [&](const char* title) {
+      const auto entries = m_window->paletteEntries();
+      const auto found = std::find_if(entries.begin(), entries.end(),
+                                      [&](const PaletteEntry& entry) { return entry.title == QLatin1String(title); });
+      QVERIFY(found != entries.end() && found->where == QStringLiteral("Ready brushes"));
+      found->run();
+    };
+    const BrushSettings& inHand = m_window->tools().brush();
+    run("Hot torch");
+    QVERIFY(m_window->tools().tool().usesBrush());
+    QVERIFY(inHand.shape == "heat" && inHand.radius == 0.02 && inHand.material == "iron");
+    QCOMPARE(std::get<double>(inHand.shapeParameters().values.at("power")), 2000.0);
+    QCOMPARE(inHand.symmetry.mirror, std::string("x"));
+    run("Snow");
+    QVERIFY(inHand.shape == "spray" && inHand.material == "water" && inHand.temperature == 263.15);
+    QCOMPARE(inHand.becomes, std::string("loose"));
+    QCOMPARE(m_window->selection().material(), std::string("water"));
+    m_window->tools().setBrush(before);
+  }
+
+  /// Kept and named in the form, forgotten and brought back there; a file takes them to others.
+  void favouritesAreNamedAndGoIntoFiles() {
+    preferences::setFavouriteBrushes({});
+    FavouriteBrushes& favourites = m_window->favourites();
+    m_window->action(QStringLiteral("sketch.brushes"))->trigger();
+    auto* form = m_window->findChild<QDialog*>(QStringLiteral("psBrushes"));
+    QVERIFY(form);
+    auto* list = form->findChild<QListWidget*>();
+    const auto click = [&](const char* text) {
+      const QList<QPushButton*> all = form->findChildren<QPushButton*>();
+      const auto found = std::find_if(all.begin(), all.end(), [&](const QPushButton* one) {
+        return one->text().startsWith(QString::fromUtf8(text));
+      });
+      QVERIFY2(found != all.end() && (*found)->isEnabled(), text);
+      (*found)->click();
+    };
+    click("Keep this brush");
+    QCOMPARE(list->count(), 1);
+    auto* field = list->findChild<QLineEdit*>();
+    QVERIFY(field);
+    field->setText(QStringLiteral(" my <b>chalk</b> "));
+    QTest::keyClick(field, Qt::Key_Return);
+    const QString name = QStringLiteral("my <b>chalk</b>");
+    QTRY_COMPARE(favourites.all().at(0).name, name);
+    list->item(0)->setText(QStringLiteral("  "));
+    QVERIFY(list->item(0)->text() == name && favourites.all()[0].name == name);
+    const FavouriteBrush kept = favourites.all()[0];
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("mine.json"));
+    hands::answerDialog(path);
+    click("Export");
+    QVERIFY(QFile::exists(path));
+    list->item(0)->setSelected(true);
+    click("Forget");
+    QVERIFY(favourites.all().empty() && list->count() == 0);
+    click("Bring back");
+    QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
+    favourites.forget(kept);
+    hands::answerDialog(path);
+    click("Import");
+    QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
+    QCOMPARE(favourites.importFrom(path), QString());  // the same one again
+    QCOMPARE(favourites.all().size(), size_t{1});
+    QVERIFY(favourites.importFrom(kSample).contains(QStringLiteral("holds no brushes")));
+    // Another brush of the same name comes under a name of its own, which nobody else may have.
+    BrushSettings brush = kept.brush;
+    brush.radius *= 2;
+    favourites.restore({name, brush});
+    QCOMPARE(favourites.all().at(1).name, name + QStringLiteral(" (2)"));
+    QVERIFY(!favourites.rename(favourites.all()[1], name).isEmpty());
+    QCOMPARE(favourites.rename(favourites.all()[1], QStringLiteral("wide")), QString());
+    QCOMPARE(favourites.all()[1].name, QStringLiteral("wide"));
+    form->close();
+    preferences::setFavouriteBrushes({});
   }
 
   /// Commands of rows that Ctrl+K has are for those of the brush, too; what these are not asked for is refused.

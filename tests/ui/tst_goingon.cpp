@@ -13,6 +13,7 @@
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
+#include "ui/document/placement.h"
 #include "ui/document/redrawing.h"
 #include "ui/tools/favouritebrush.h"
 #include "ui/tools/livestroke.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -260,6 +262,67 @@ class TestGoingOn : public ToolTest {
     QCOMPARE(ofBody(bar) + ofBody(ids[0]), all);
   }
 
+  /// Wherever a hand has put a sketch, its pieces are of the cells that it has there.
+  void piecesOfWhatWasPutElsewhereBecomeBodies() {
+    const std::string bar = drawBar();
+    const Vector3 way = put(bar, {-0.1, 0.1, 0.05});
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar, 0.03 + way.x());
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    const int whole = cellCount(bar);
+    const auto ids = m_document->partBody(bar, {found[1]});
+    QCOMPARE(ids.size(), size_t{1});
+    QCOMPARE(static_cast<size_t>(cellCount(ids[0])), found[1].size());
+    QCOMPARE(cellCount(bar) + cellCount(ids[0]), whole);
+    QCOMPARE(ofBody(ids[0]), found[1].size());
+  }
+
+  /// And a stroke that goes on with it is kept beside the cells that it has there, not where they once were.
+  void aStrokeOnWhatWasPutElsewhereIsKeptThere() {
+    const std::string bar = drawBar();
+    const Vector3 way = put(bar, {-0.1, 0.1, 0.05});
+    QVERIFY(way.y() > 0.05);
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    const auto highest = [&] {
+      int top = std::numeric_limits<int>::min();
+      for (const VoxelShape::Run& run : std::get<VoxelShape>(m_document->body(bar)->shape).runs)
+        top = std::max(top, run.y);
+      return top;
+    };
+    const int before = highest();
+    brush("particle", kIce);
+    draw(along(solidTop(*now()), {0, 0.12, 0}));
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+    QCOMPARE(highest(), before + 4);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();  // where it was drawn, as its matter knows again
+    draw(along(solidTop(*now()), {0, 0.12, 0}));
+    QCOMPARE(m_document->project().bodies.size(), size_t{1});
+    QCOMPARE(highest(), before + 4 - static_cast<int>(std::lround(way.y() / kSpacing)));
+  }
+
+  /// Made anew, a scene knows what of its pieces a stroke has made: undone step by step while it runs, nothing is left.
+  void whatAStrokeMadeOfPiecesIsUndoneInAnotherRun() {
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() && m_engine->snapshot()->bodyIds; }, 20000));
+    const size_t before = count();
+    const std::string bar = drawBar();
+    const size_t whole = count();
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    eraseMiddle(bar);
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    m_document->partBody(bar, {found[1]});
+    m_link->reset();
+    QCOMPARE(count(), whole);
+    playUntil([](const Snapshot& scene) { return scene.stats.time > 0.1; });
+    m_document->undoStack().undo();  // the pieces
+    QCOMPARE(ofBody(bar), whole);
+    m_document->undoStack().undo();  // what was erased in the run before
+    m_document->undoStack().undo();  // the bar
+    QCOMPARE(count(), before);
+  }
+
   /// Strokes go with what they drew; the first body keeps all, and draws them again without what others hold.
   void strokesGoWithTheirPieces() {
     const std::string bar = drawBar();
@@ -350,6 +413,14 @@ class TestGoingOn : public ToolTest {
     draw({{-0.18, 0.4, 0}, {0.3, 0.4, 0}});
     return m_document->project().bodies.empty() ? std::string() : m_document->project().bodies.front().id;
   }
+  /// Where it is drawn by now, from where it was: by whole cells.
+  Vector3 put(const std::string& id, const Vector3& way) {
+    const RigidMove move = possibleMove(*m_document->body(id), {Quaternion::Identity(), way});
+    Placement there;
+    there.bodies.push_back(moved(*m_document->body(id), move));
+    m_document->place(there, QStringLiteral("moving"));
+    return move.shift;
+  }
   void playUntil(const std::function<bool(const Snapshot&)>& done) {
     m_engine->play();
     QVERIFY(QTest::qWaitFor([&] { return done(*m_engine->snapshot()); }, 240000));
@@ -412,12 +483,12 @@ class TestGoingOn : public ToolTest {
     QVERIFY2(std::abs(ironDensity / 7870 - 1) < 0.02, qPrintable(QString::number(ironDensity)));
   }
   /// A slice through its matter, across its length as it was drawn.
-  void eraseMiddle(const std::string& id) {
+  void eraseMiddle(const std::string& id, double middleX = 0.03) {
     const SnapshotPtr scene = now();
     std::vector<Vector3> middle;
     for (size_t i = 0; i < scene->id.size(); ++i) {
       const Vector3 rest = *scene->rest->of(scene->id[i]);
-      if (std::abs(rest.x() - 0.03) < 0.05) middle.push_back(vectorOf(scene->position[i]));
+      if (std::abs(rest.x() - middleX) < 0.05) middle.push_back(vectorOf(scene->position[i]));
     }
     QVERIFY(!middle.empty());
     brush("particle", kIce);

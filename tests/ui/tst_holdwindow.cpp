@@ -94,23 +94,8 @@ class TestHoldWindow : public SampleWindowTest {
 
   /// Two lumps of one sketch become two bodies by the menu, in one step; then there is nothing more to separate.
   void whatIsApartIsSeparated() {
-    Body lumps;
-    lumps.id = lumps.name = "lumps";
-    lumps.material = document().project().materials[0].id;
-    lumps.parameters.values["temperature"] = 260.0;
-    lumps.parameters.values["held"] = true;
+    Body lumps = twoLumps(260);
     lumps.constraints.push_back({"bonds", {}, {}});
-    VoxelShape shape;
-    shape.spacing = m_window->tools().spacing();
-    shape.origin = {0, 0.6, 0};
-    shape.palette.push_back({lumps.material, 260, {}});
-    for (const int x : {0, 8}) {
-      for (int k = 0; k < 9; ++k) shape.runs.push_back({x, k % 3, k / 3, 3, 0});
-    }
-    std::sort(shape.runs.begin(), shape.runs.end(), [](const VoxelShape::Run& a, const VoxelShape::Run& b) {
-      return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
-    });
-    lumps.shape = shape;
     const std::string id = document().addBody(lumps);
     const size_t before = document().project().bodies.size();
     const auto steps = document().undoStack().position();
@@ -132,7 +117,44 @@ class TestHoldWindow : public SampleWindowTest {
     QCOMPARE(document().project().bodies.size(), before + 1);
   }
 
+  /// What flows is left alone where nobody has chosen it.
+  void dropsAreSeparatedWhereTheyAreChosen() {
+    Body drops = twoLumps(290);
+    drops.parameters.values["held"] = false;
+    const std::string id = document().addBody(drops);
+    const size_t before = document().project().bodies.size();
+    QAction* separate = m_window->action(QStringLiteral("sketch.separate"));
+    QSignalSpy refused(&m_window->tools(), &Toolbox::refused);
+    m_window->tools().selection().clear();
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
+    QCOMPARE(document().project().bodies.size(), before);
+    m_window->tools().selection().selectBody(id);
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
+  }
+
  private:
+  /// Three cells wide each, five apart.
+  Body twoLumps(double temperature) {
+    Body lumps;
+    lumps.id = lumps.name = "lumps";
+    lumps.material = document().project().materials[0].id;
+    lumps.parameters.values["temperature"] = temperature;
+    lumps.parameters.values["held"] = true;
+    VoxelShape shape;
+    shape.spacing = m_window->tools().spacing();
+    shape.origin = {0, 0.6, 0};
+    shape.palette.push_back({lumps.material, temperature, {}});
+    for (const int x : {0, 8}) {
+      for (int k = 0; k < 9; ++k) shape.runs.push_back({x, k % 3, k / 3, 3, 0});
+    }
+    std::sort(shape.runs.begin(), shape.runs.end(), [](const VoxelShape::Run& a, const VoxelShape::Run& b) {
+      return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+    });
+    lumps.shape = shape;
+    return lumps;
+  }
   QAction* makeReal() { return m_window->action(QStringLiteral("sketch.real")); }
   QPushButton* button() {
     for (QPushButton* one : view()->findChildren<QPushButton*>())

@@ -163,6 +163,11 @@ class TestStanding : public QObject {
     QVERIFY(rest.of(4) == Vector3(1, 2, 3) && rest.of(5) == Vector3(4, 5, 6) && rest.of(6) == Vector3(-1, 0, 1) &&
             rest.of(7) == Vector3(0, 0, 2) && rest.of(9) == Vector3(7, 8, 9));
     QVERIFY(!rest.of(3) && !rest.of(8) && !rest.of(10) && !before.of(6) && before.of(5));
+    RestPlaces shifted = rest;
+    shifted.shift(std::vector<uint32_t>{3, 5, 6, 9}, {1, 0, -2});
+    QVERIFY(shifted.of(4) == Vector3(1, 2, 3) && shifted.of(5) == Vector3(5, 5, 4) &&
+            shifted.of(6) == Vector3(0, 0, -1) && shifted.of(9) == Vector3(8, 8, 7));
+    QVERIFY(rest.of(5) == Vector3(4, 5, 6) && !shifted.of(3));
     StateBuffer buffer;
     saveTo(buffer, rest);
     const RestPlaces back = RestPlaces::read(StateReader(buffer.bytes()));

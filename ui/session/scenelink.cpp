@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <optional>
 
 // Why matter is named: particles have moved since a stroke made them, so only the engine, which knows their ids, tells
 // them apart, and a reset gives all particles new ids. Right after one, before anything has moved, the cells of a
@@ -47,6 +49,41 @@ std::vector<std::array<int, 3>> filledCells(const StrokeRecord& stroke) {
       cells.add(VoxelCanvas(std::get<VoxelShape>(body->after->shape).runs).cells().cells());
   }
   return cells.indices();
+}
+
+/// Nothing, where its step has noted it elsewhere.
+std::optional<VoxelShape::Stroke> notedStroke(const StrokeRecord& stroke) {
+  for (const SceneEdit& edit : stroke.edits) {
+    if (const auto* some = std::get_if<CellsEdit>(&edit); some && !some->strokes.empty()) return some->strokes.back();
+    const auto* body = std::get_if<BodyEdit>(&edit);
+    const auto* made = body && body->after ? std::get_if<VoxelShape>(&body->after->shape) : nullptr;
+    if (made && !made->strokes.empty()) return made->strokes.back();
+  }
+  return std::nullopt;
+}
+
+CellSet sketchCells(const Body* body) {
+  const auto* voxels = body ? std::get_if<VoxelShape>(&body->shape) : nullptr;
+  return voxels ? VoxelCanvas(voxels->runs).cells() : CellSet();
+}
+
+/// Cells of a stroke that its body has lost to others, which have it among their strokes: it came apart.
+std::vector<NameMatter> passedOn(const NameMatter& named, const StrokeRecord& stroke, const Document& document) {
+  std::vector<NameMatter> passed;
+  const std::optional<VoxelShape::Stroke> noted = notedStroke(stroke);
+  for (const Body& body : document.project().bodies) {
+    const auto* voxels = std::get_if<VoxelShape>(&body.shape);
+    if (!noted || !voxels || body.id == named.body) continue;
+    if (std::find(voxels->strokes.begin(), voxels->strokes.end(), *noted) == voxels->strokes.end()) continue;
+    const CellSet own = sketchCells(document.body(named.body)), theirs = sketchCells(&body);
+    CellIndices cells = named.cells;
+    std::erase_if(cells, [&](const CellIndex& c) {
+      const api::Cell cell{c[0], c[1], c[2]};
+      return own.contains(cell) || !theirs.contains(cell);
+    });
+    if (!cells.empty()) passed.push_back({named.key, body.id, latticeOf(*voxels), std::move(cells)});
+  }
+  return passed;
 }
 
 /// What a stroke has painted in the document, by what it was painted from.
@@ -282,6 +319,8 @@ std::vector<NameMatter> SceneLink::namedMatter() {
     VoxelShape& lattice = named.back().lattice;
     lattice.origin *= known.factor, lattice.spacing *= known.factor, lattice.shift *= known.factor;
     carryLattice(lattice, known.way);
+    std::vector<NameMatter> passed = passedOn(named.back(), *stroke, m_document);
+    std::move(passed.begin(), passed.end(), std::back_inserter(named));
   }
   return named;
 }

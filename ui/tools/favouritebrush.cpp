@@ -5,10 +5,11 @@
 #include "core/plugin_host/registry.h"
 #include "core/scene/shownname.h"
 #include "ui/document/declared.h"
+#include "ui/theme/resources.h"
 #include "ui/theme/units.h"
 
 #include <algorithm>
-#include <string_view>
+#include <iterator>
 
 namespace ps {
 namespace {
@@ -30,6 +31,32 @@ std::optional<Value> valueIn(const json& object, const api::ParameterDeclaration
     if (number >= declared.hardMinimum && number <= declared.hardMaximum) return number;
   }
   return std::nullopt;
+}
+
+/// What an object says of what is declared.
+ParameterSet valuesIn(const json& object, const api::ParameterList& declared) {
+  ParameterSet values;
+  for (size_t k = 0; k < declared.count; ++k) {
+    if (const auto value = valueIn(object, declared[k])) values.values[declared[k].key] = *value;
+  }
+  return values;
+}
+
+std::string wordIn(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+json partOf(const json& object, const char* key) { return object.value(key, json::object()); }
+
+/// Those of a list that have a name and a shape.
+std::vector<json> namedIn(const QByteArray& text) {
+  std::vector<json> named;
+  const json list = json::parse(text.begin(), text.end(), nullptr, false);
+  if (!list.is_array()) return named;
+  std::copy_if(list.begin(), list.end(), std::back_inserter(named), [](const json& one) {
+    return one.is_object() && !wordIn(one, "name").empty() && !wordIn(one, "shape").empty();
+  });
+  return named;
 }
 
 const SceneMaterial* materialOf(const Project& project, const std::string& id) {
@@ -62,6 +89,31 @@ BrushSettings taken(const FavouriteBrush& favourite, BrushSettings inHand, const
   return brush;
 }
 
+BrushSettings taken(const ReadyBrush& ready, BrushSettings inHand, const Project& project) {
+  inHand.shape = ready.shape;
+  if (materialOf(project, ready.material)) inHand.material = ready.material;
+  for (const auto& [key, value] : ready.brush.values) setValueOf(inHand, key, value);
+  inHand.parameters[ready.shape] = ready.parameters;
+  return inHand;
+}
+
+FavouriteBrush renamed(FavouriteBrush favourite, const QString& name) {
+  favourite.name = name;
+  if (favourite.asKept.isEmpty()) return favourite;
+  json kept = json::parse(favourite.asKept.toStdString());
+  kept["name"] = name.toStdString();
+  favourite.asKept = QByteArray::fromStdString(kept.dump());
+  return favourite;
+}
+
+QString freeName(const std::vector<FavouriteBrush>& favourites, const QString& name) {
+  QString free = name;
+  const auto has = [&](const FavouriteBrush& one) { return one.name == free; };
+  for (int n = 2; std::any_of(favourites.begin(), favourites.end(), has); ++n)
+    free = QStringLiteral("%1 (%2)").arg(name).arg(n);
+  return free;
+}
+
 QByteArray textOf(const std::vector<FavouriteBrush>& favourites) {
   json list = json::array();
   for (const FavouriteBrush& favourite : favourites) {
@@ -83,32 +135,35 @@ QByteArray textOf(const std::vector<FavouriteBrush>& favourites) {
 
 std::vector<FavouriteBrush> favouritesOf(const QByteArray& text, const PluginRegistry& plugins) {
   std::vector<FavouriteBrush> favourites;
-  const json list = json::parse(text.begin(), text.end(), nullptr, false);
-  if (!list.is_array()) return favourites;
-  const auto word = [](const json& one, const char* key) {
-    const auto found = one.find(key);
-    return found != one.end() && found->is_string() ? found->get<std::string>() : std::string();
-  };
-  for (const json& one : list) {
-    if (!one.is_object()) continue;
-    FavouriteBrush favourite{QString::fromStdString(word(one, "name")), {}};
+  for (const json& one : namedIn(text)) {
+    FavouriteBrush favourite{QString::fromStdString(wordIn(one, "name")), {}};
     BrushSettings& brush = favourite.brush;
-    brush.shape = word(one, "shape");
-    brush.material = word(one, "material");
-    if (favourite.name.isEmpty() || brush.shape.empty()) continue;
-    const auto part = [&](const char* key) { return one.value(key, json::object()); };
-    const json common = part("brush"), own = part("parameters");
-    const api::ParameterList shared = brushParameters(), shapes = plugins.parameters(brush.shape);
-    for (size_t k = 0; k < shared.count; ++k) {
-      if (const auto value = valueIn(common, shared[k])) setValueOf(brush, shared[k].key, *value);
-    }
-    for (size_t k = 0; k < shapes.count; ++k) {
-      if (const auto value = valueIn(own, shapes[k])) brush.parameters[brush.shape].values[shapes[k].key] = *value;
-    }
+    brush.shape = wordIn(one, "shape");
+    brush.material = wordIn(one, "material");
+    for (const auto& [key, value] : valuesIn(partOf(one, "brush"), brushParameters()).values)
+      setValueOf(brush, key, value);
+    const ParameterSet own = valuesIn(partOf(one, "parameters"), plugins.parameters(brush.shape));
+    if (!own.values.empty()) brush.parameters[brush.shape] = own;
     if (!plugins.brush(brush.shape)) favourite.asKept = QByteArray::fromStdString(one.dump());
     favourites.push_back(std::move(favourite));
   }
   return favourites;
+}
+
+std::vector<ReadyBrush> readyBrushesOf(const QByteArray& text, const PluginRegistry& plugins) {
+  std::vector<ReadyBrush> brushes;
+  for (const json& one : namedIn(text)) {
+    const std::string shape = wordIn(one, "shape");
+    if (!plugins.brush(shape)) continue;
+    brushes.push_back({QString::fromStdString(wordIn(one, "name")), QString::fromStdString(wordIn(one, "about")), shape,
+                       wordIn(one, "material"), valuesIn(partOf(one, "brush"), brushParameters()),
+                       valuesIn(partOf(one, "parameters"), plugins.parameters(shape))});
+  }
+  return brushes;
+}
+
+std::vector<ReadyBrush> readyBrushes(const PluginRegistry& plugins) {
+  return readyBrushesOf(themeResource(QStringLiteral("brushes/brushes.json")), plugins);
 }
 
 std::string textOf(const BrushSettings& brush) {

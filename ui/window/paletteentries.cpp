@@ -187,6 +187,12 @@ void addFavourites(Entries& entries, MainWindow& window) {
            window.welcome().leave();
            window.favourites().take(favourite);
          }});
+  for (const ReadyBrush& ready : window.favourites().ready())
+    entries.push_back(
+        {ready.name, QStringLiteral("Ready brushes"), {}, QStringLiteral("brush ") + ready.about, [&window, ready] {
+           window.welcome().leave();
+           window.favourites().take(ready);
+         }});
 }
 
 void revealBrush(MainWindow& window, BrushPanel& panel, const QString& key) {

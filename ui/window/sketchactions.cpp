@@ -5,6 +5,7 @@
 #include "core/scene/shownname.h"
 #include "core/scene/track.h"
 #include "core/simulation/bodypieces.h"
+#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -18,6 +19,8 @@
 #include "ui/window/shortcutswindow.h"
 #include "ui/window/workspacekeys.h"
 
+#include <QtCore/QCoreApplication>
+#include <QtCore/QPointer>
 #include <QtGui/QAction>
 #include <QtWidgets/QMenu>
 
@@ -28,6 +31,17 @@ namespace ps {
 namespace {
 const Address kGravity{Owner::Scene, "", "gravity"};
 constexpr double kEarth = 9.81;  // m/s^2
+
+/// Some of a body.
+bool isSolid(const Engine& engine, const std::string& id) {
+  const std::vector<std::string>& bodies = engine.bodyIds();
+  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), id) - bodies.begin());
+  const ParticleStore& store = engine.particles();
+  for (size_t i = 0; i < store.size(); ++i) {
+    if (store.body()[i] == index && api::holds(store.motion()[i])) return true;
+  }
+  return false;
+}
 }  // namespace
 
 QString materialAction(int number) { return QStringLiteral("sketch.material%1").arg(number + 1); }
@@ -83,7 +97,7 @@ void SketchActions::addHolding(QMenu* menu) {
                                     [this] { this->separate(); });
   separate->setToolTip(
       QStringLiteral("Makes what has come apart of sketched bodies bodies of their own: of those that "
-                     "are selected, or of all"));
+                     "are selected, or of all that are solid"));
   menu->addSeparator();
   connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
   connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
@@ -150,7 +164,8 @@ void SketchActions::letGo() {
   m_session.document().setParameters(values, QStringLiteral("make it real"));
 }
 
-/// What is held in place has no pieces that would go anywhere.
+/// What is held in place has no pieces that would go anywhere. Drops part and meet all the time: those of what flows
+/// are told apart where somebody has chosen it.
 void SketchActions::separate() {
   const Document& document = m_session.document();
   const std::vector<std::string> chosen = m_tools.selection().bodies();
@@ -162,18 +177,25 @@ void SketchActions::separate() {
       bodies.push_back({body, {}});
   }
   if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({});
-  m_session.engine()->ask([this, bodies](const Engine& engine) mutable {
-    for (Pieces& one : bodies) one.cells = piecesOf(engine, one.body);
-    QMetaObject::invokeMethod(this, [this, bodies = std::move(bodies)] { part(bodies); });
+  // The engine's thread may come to it when the window has gone.
+  m_session.engine()->ask([self = QPointer(this), bodies, all = chosen.empty()](const Engine& engine) mutable {
+    for (Pieces& one : bodies) {
+      if (!all || isSolid(engine, one.body.id)) one.cells = piecesOf(engine, one.body);
+    }
+    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, bodies = std::move(bodies)] {
+      if (self) self->part(bodies);
+    });
   });
 }
 
-/// One step. Those that have been drawn on meanwhile stay whole.
+/// One step. Those that have been drawn on meanwhile stay whole, and those of a state that knows no cells of theirs.
 void SketchActions::part(const std::vector<Pieces>& bodies) {
   Document& document = m_session.document();
   const auto isParted = [&](const Pieces& one) {
     const Body* now = document.body(one.body.id);
-    return one.cells.size() > 1 && now && now->shape == one.body.shape;
+    const bool apart = !one.cells.empty() && std::any_of(one.cells.begin() + 1, one.cells.end(),
+                                                         [](const auto& piece) { return !piece.empty(); });
+    return apart && now && now->shape == one.body.shape;
   };
   const auto parted = std::count_if(bodies.begin(), bodies.end(), isParted);
   bool any = false;
