@@ -129,6 +129,7 @@ MainWindow::MainWindow(const Options& options)
   const auto* left = std::find(std::begin(kWorkspaceOf), std::end(kWorkspaceOf), m_layout->workspace());
   showWorkspace(static_cast<WorkspaceTab>(left - std::begin(kWorkspaceOf)));
   m_layout->restorePages();
+  if (options.restore) takeToolAgain(*m_tools);
   qApp->installEventFilter(this);
   updateTitle();
 }
@@ -480,6 +481,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 /// Closing asks nothing: unsaved work is kept as a copy. Only when there can be no copy does the window stay, once.
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_layout->save();
+  if (m_options.restore) keepTool(*m_tools);
   m_welcome->keepPicture();
   m_vr->leave();  // what is in a hand there ends, and is part of the copy
   const QString problem = m_session->close();
