@@ -69,6 +69,7 @@ class Outliner : public QWidget {
   void addGroups(QStandardItem* scene);
   void addBodies(QStandardItem* scene);
   void addPins(QStandardItem* row, const Body& body);
+  void showKind(QStandardItem* row, const Body& body) const;
   void addPorts(QStandardItem* scene);
   void addProbes(QStandardItem* scene);
   static void mark(QStandardItem* item, bool visible, bool locked);
