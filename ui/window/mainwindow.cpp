@@ -40,6 +40,7 @@
 #include "ui/window/makerealbutton.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
+#include "ui/window/openingnote.h"
 #include "ui/window/pagechooser.h"
 #include "ui/window/paletteentries.h"
 #include "ui/window/paneltable.h"
@@ -344,6 +345,7 @@ void MainWindow::connectFiles() {
     updateTitle();
     if (std::holds_alternative<AboutChanged>(event)) outliner()->rebuild();
   });
+  new OpeningNote(m_session->files(), *m_status, this);
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
   // Its selection has turned to pages.
   connect(&m_session->files(), &DocumentFiles::opened, m_layout, &WindowLayout::restorePages, Qt::SingleShotConnection);
@@ -499,6 +501,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 bool MainWindow::cancelLongWork() {
+  if (findChild<OpeningNote*>()->cancel()) return true;
   if (m_session->cancelMaking() || m_bodies->cancelReading()) return true;
   if (m_session->work().cancel() || m_session->recordings().cancelTold()) return true;
   auto* fitting = findChild<FitPanel*>();
