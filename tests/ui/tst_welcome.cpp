@@ -22,11 +22,13 @@
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtGui/QFontMetricsF>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
@@ -358,6 +360,39 @@ class TestWelcome : public QObject {
     QCOMPARE(recent().size(), 1);
     QCOMPARE(recent().front()->accessibleDescription(), own);
     QVERIFY(!QFile::exists(thumbnailPath(sample)));
+  }
+
+  /// It stays in the list, and where it is now takes its place.
+  void whatIsNotFoundCanBeLocated() {
+    const QString was = m_directory->filePath(QStringLiteral("away.json"));
+    const QString now = m_directory->filePath(QStringLiteral("moved.json"));
+    QVERIFY(QFile::copy(kProjects + QStringLiteral("/box-tower.json"), now));
+    QSettings().setValue(QStringLiteral("files/recent"), QStringList{was, now});
+    startLater();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 2, kLong);
+    RecentRow* row = recent().front();
+    QVERIFY(row->project().gone && row->project().title == QStringLiteral("away") && !recent()[1]->project().gone);
+    QStringList words;
+    for (const PaintedText& text : paintedBy(*row)) words << text.text;
+    QCOMPARE(words, (QStringList{QStringLiteral("away"), QStringLiteral("Not found · Locate…")}));
+    QVERIFY(row->toolTip().contains(was));
+    const auto answer = [](const QString& file) {
+      QTimer::singleShot(0, qApp, [file] {
+        auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+        QVERIFY(dialog);
+        if (file.isEmpty()) return dialog->reject();
+        dialog->findChild<QLineEdit*>()->setText(file);
+        static_cast<QDialog*>(dialog)->accept();
+      });
+    };
+    answer({});
+    recent().front()->click();
+    QVERIFY(m_window->welcome().shown() && DocumentFiles::everRecent().contains(was));
+    answer(now);
+    opens([this] { recent().front()->click(); });
+    QCOMPARE(document().path(), now);
+    QVERIFY(!m_window->welcome().shown());
+    QVERIFY(!DocumentFiles::everRecent().contains(was) && DocumentFiles::everRecent().front() == now);
   }
 
   void unsavedWorkIsRestoredFromThePage() {

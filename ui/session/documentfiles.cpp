@@ -350,17 +350,25 @@ void DocumentFiles::keepOurs() {
 
 QStringList DocumentFiles::recent() {
   QStringList existing;
-  for (const QString& path : QSettings().value(QLatin1String(kRecentKey)).toStringList()) {
+  for (const QString& path : everRecent()) {
     if (QFileInfo(path).isFile()) existing << path;
   }
   return existing;
 }
 
+QStringList DocumentFiles::everRecent() { return QSettings().value(QLatin1String(kRecentKey)).toStringList(); }
+
 void DocumentFiles::addRecent(const QString& path) {
-  QStringList paths = recent();
+  QStringList paths = everRecent();
   paths.removeAll(path);
   paths.prepend(path);
   QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths.mid(0, kRecentFiles)));
+}
+
+void DocumentFiles::forgetRecent(const QString& path) {
+  QStringList paths = everRecent();
+  paths.removeAll(path);
+  QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths));
 }
 
 }  // namespace ps

@@ -69,8 +69,10 @@ class DocumentFiles : public QObject {
   /// Another window has the file open that this one shows: its saves are refused from now on, ours are not.
   void takeOver();
 
-  static QStringList recent();  ///< newest first, existing files only
+  static QStringList recent();      ///< newest first, existing files only
+  static QStringList everRecent();  ///< likewise, and those that are not where they were
   static void addRecent(const QString& path);
+  static void forgetRecent(const QString& path);
 
  Q_SIGNALS:
   void opening(const QString& path);  ///< it is read from now on, until opened() or openFailed()

@@ -173,8 +173,15 @@ RecentRow::RecentRow(RecentProject project, QWidget* parent) : PageButton(parent
   setAccessibleName(m_project.title);
   setAccessibleDescription(m_project.path);
   const QString toTry = m_project.toTry.isEmpty() ? QString() : QLatin1Char('\n') + tryText(m_project.toTry);
+  const QString place = QDir::toNativeSeparators(m_project.path);
+  if (m_project.gone) {
+    m_where = QStringLiteral("Not found · Locate…");
+    setToolTip(QStringLiteral("It is not at %1 any more.\nA click asks where it is now.").arg(place));
+    setAccessibleDescription(m_project.path + QStringLiteral(", not found"));
+    return;
+  }
   m_where = placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
-  setToolTip(m_where + QLatin1Char('\n') + QDir::toNativeSeparators(m_project.path) + toTry);
+  setToolTip(m_where + QLatin1Char('\n') + place + toTry);
 }
 
 void RecentRow::paintEvent(QPaintEvent*) {
@@ -198,7 +205,7 @@ void RecentRow::paintEvent(QPaintEvent*) {
   }
   const QRectF words(picture.right() + 10, 7, width() - picture.right() - 16, 18);
   paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_project.title, Theme::font(TextRole::Medium),
-            theme[Token::Text]);
+            theme[m_project.gone ? Token::Text2 : Token::Text]);
   paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, m_where, Theme::font(TextRole::Small),
             theme[underMouse() ? Token::Text2 : Token::Muted]);
   if (!m_project.toTry.isEmpty())

@@ -52,7 +52,8 @@ class Card : public PageButton {
   QPixmap m_scaled;  ///< the picture at the size and scale at which it was painted last
 };
 
-/// A project that was open lately: a small picture, its name, where it lies and of when it is, and what it says to try.
+/// A project that was open lately: a small picture, its name, where it lies and of when it is, and what it says to try;
+/// or that it is not found.
 class RecentRow : public PageButton {
   Q_OBJECT
  public:
