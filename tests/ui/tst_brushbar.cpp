@@ -240,6 +240,32 @@ class TestBrushBar : public SampleWindowTest {
     QCOMPARE(cellCount(shapeOf(cup)), cellCount(before));
   }
 
+  /// Ctrl+K chooses one, and does with it what its menu offers.
+  void strokesAreFoundByThePalette() {
+    const std::string cup = document().addBody(threeStrokes());
+    m_window->selection().selectBody(cup);
+    const auto run = [this](const QString& title) {
+      for (const PaletteEntry& entry : m_window->paletteEntries()) {
+        if (entry.title != title || !entry.whyNot.isEmpty()) continue;
+        entry.run();
+        return true;
+      }
+      return false;
+    };
+    QVERIFY(run(QStringLiteral("Stroke 2: ") + list()->lines()[1].name));
+    QCOMPARE(list()->current(), 1);
+    QTRY_VERIFY(list()->isVisible());
+    QVERIFY(!run(QStringLiteral("Stroke 3: Hide")));  // another one is chosen
+    QVERIFY(run(QStringLiteral("Stroke 2: Hide")));
+    QTRY_VERIFY(list()->lines()[1].hidden);
+    const auto entries = m_window->paletteEntries();
+    const auto earlier = std::find_if(entries.begin(), entries.end(), [](const PaletteEntry& entry) {
+      return entry.title == QStringLiteral("Stroke 2: Draw earlier");
+    });
+    QVERIFY(earlier != entries.end());
+    QCOMPARE(earlier->keys, QStringLiteral("Alt+Up"));
+  }
+
   /// By its eye and by the menu: the sketch is as without it, and it stays in the list, in the file too.
   void aStrokeIsHiddenAndShown() {
     const std::string cup = document().addBody(threeStrokes());

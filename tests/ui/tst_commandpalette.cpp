@@ -16,8 +16,12 @@
 #include "ui/window/paneltable.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QDir>
+#include <QtCore/QFile>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QSet>
+#include <QtCore/QSettings>
+#include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
@@ -324,6 +328,31 @@ class TestCommandPalette : public SampleWindowTest {
     palette->hide();
   }
 
+  void thePaletteFindsPinsAndMarkers() {
+    m_window->selection().selectBody("ice");
+    m_window->action(QStringLiteral("edit.pin"))->trigger();
+    document().addMarker(0);
+    m_window->selection().clear();
+    const auto entries = m_window->paletteEntries();
+    const auto run = [&](const QString& title) {
+      const auto entry =
+          std::find_if(entries.begin(), entries.end(), [&](const PaletteEntry& one) { return one.title == title; });
+      if (entry == entries.end() || !entry->whyNot.isEmpty()) return false;
+      entry->run();
+      return true;
+    };
+    QVERIFY(run(QStringLiteral("Pin 1 of Ice block")));
+    QCOMPARE(m_window->selection().items().size(), size_t{1});
+    QCOMPARE(m_window->selection().kind(), OutlineKind::Pin);
+    QCOMPARE(document().project().markers.size(), size_t{1});
+    QVERIFY(run(QStringLiteral("Marker 1: Delete marker")));
+    QVERIFY(document().project().markers.empty());
+    m_window->selection().clear();
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
+    QVERIFY(document().body("ice")->pins.empty());
+    m_window->viewport()->show(StandardView::Scene);
+  }
+
   void thePaletteJumpsToARow() {
     QVERIFY(m_window->revealParameter({Owner::Solver, "", "substeps"}));
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Solver"));
@@ -331,7 +360,28 @@ class TestCommandPalette : public SampleWindowTest {
     QCOMPARE(m_window->inspectorDock()->currentPage(), QStringLiteral("Material"));
   }
 
+  /// With their folders, and those alone that are still there. It is the last: another project is open then.
+  void thePaletteOpensWhatWasOpenLately() {
+    const QString path = m_directory.filePath(QStringLiteral("Ice of yesterday.json"));
+    QVERIFY(QFile::copy(kSample, path));
+    const QVariant before = QSettings().value(QStringLiteral("files/recent"));
+    QSettings().setValue(QStringLiteral("files/recent"),
+                         QStringList{path, m_directory.filePath(QStringLiteral("gone.json"))});
+    const auto entries = m_window->paletteEntries();
+    QSettings().setValue(QStringLiteral("files/recent"), before);
+    const std::vector<size_t> found = paletteMatches(entries, QStringLiteral("ice of yesterday"));
+    QVERIFY(!found.empty());
+    const PaletteEntry& entry = entries[found.front()];
+    QCOMPARE(entry.title, QStringLiteral("Open recent: Ice of yesterday"));
+    QCOMPARE(entry.where, QDir::toNativeSeparators(m_directory.path()));
+    QVERIFY(entry.replaces && entry.whyNot.isEmpty());
+    QVERIFY(paletteMatches(entries, QStringLiteral("open recent: gone")).empty());
+    entry.run();
+    QTRY_COMPARE_WITH_TIMEOUT(document().path(), path, kLong);
+  }
+
  private:
+  QTemporaryDir m_directory;
   /// Without what menus are filled with when they are opened.
   std::set<QString> titlesInMenus() {
     const QStringList filledWhenOpened{QStringLiteral("Open recent"), QStringLiteral("Earlier versions"),

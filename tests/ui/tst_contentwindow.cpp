@@ -5,6 +5,7 @@
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/graphs/energypanel.h"
+#include "ui/panels/bodykind.h"
 #include "ui/panels/brushpanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
@@ -14,6 +15,7 @@
 #include "ui/session/carriedmaterial.h"
 #include "ui/session/selection.h"
 #include "ui/session/wording.h"
+#include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/transport.h"
@@ -580,6 +582,65 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(text(42).size(), text(41.9).size());
   }
 
+  void bodiesShowOfWhichKindTheyAre_data() {
+    QTest::addColumn<QString>("structure");
+    QTest::addColumn<QString>("phase");
+    QTest::addColumn<double>("temperature");  // K
+    QTest::addColumn<QString>("icon");
+    const auto row = [](const char* name, const char* structure, const char* phase, double temperature,
+                        const char* icon) {
+      QTest::newRow(name) << QString::fromLatin1(structure) << QString::fromLatin1(phase) << temperature
+                          << QString::fromLatin1(icon);
+    };
+    row("rigid", "rigid", "automatic", 260, "body");
+    row("bonded", "bonds", "automatic", 260, "bonded");
+    row("soft", "clusters", "automatic", 260, "soft");
+    row("cloth", "cloth", "automatic", 260, "cloth");
+    row("rope", "rope", "automatic", 260, "rope");
+    row("held by what is not installed", "nobodys-plugin", "automatic", 260, "body");
+    row("snow", "", "automatic", 260, "grains");
+    row("water", "", "automatic", 300, "liquid");
+    row("steam", "", "automatic", 400, "gas");
+    row("slush", "", "liquid", 260, "liquid");
+    row("steam by its row", "", "gas", 300, "gas");
+  }
+  void bodiesShowOfWhichKindTheyAre() {
+    QFETCH(QString, structure);
+    QFETCH(QString, phase);
+    QFETCH(double, temperature);
+    QFETCH(QString, icon);
+    Body body = *document().body("ice");
+    body.constraints.clear();
+    if (!structure.isEmpty()) body.constraints.push_back({structure.toStdString(), {}, {}});
+    body.parameters.values["phase"] = phase.toStdString();
+    body.parameters.values["temperature"] = temperature;
+    const auto kind = [&] { return kindOf(body, document().project(), session().plugins()); };
+    QCOMPARE(kind().icon, icon);
+    QVERIFY(iconNames().contains(icon));
+    body.parameters.values["fixed"] = true;
+    QCOMPARE(kind().icon, QStringLiteral("plate"));
+  }
+
+  /// At once, by whatever row it is changed; in words in its tip.
+  void theOutlinerFollowsTheKindOfABody() {
+    const auto icon = [this] { return rowOf(QStringLiteral("Ice block")).data(outline::kIcon).toString(); };
+    const auto tip = [this] { return rowOf(QStringLiteral("Ice block")).data(Qt::ToolTipRole).toString(); };
+    const QString before = icon();
+    QVERIFY(before == QStringLiteral("bonded") || before == QStringLiteral("body"));
+    QCOMPARE(tip().section(QLatin1Char('\n'), 0, 0), QStringLiteral("Ice block"));
+    document().setParameter({Owner::Body, "ice", "fixed"}, true);
+    QCOMPARE(icon(), QStringLiteral("plate"));
+    QCOMPARE(tip(), QStringLiteral("Ice block\nHeld in place"));
+    document().undoStack().undo();
+    QCOMPARE(icon(), before);
+    document().setStructure("ice", kNoStructure);
+    QCOMPARE(icon(), QStringLiteral("grains"));
+    document().setParameter({Owner::Body, "ice", "temperature"}, 300.0);
+    QCOMPARE(icon(), QStringLiteral("liquid"));
+    for (int k = 0; k < 2; ++k) document().undoStack().undo();
+    QCOMPARE(icon(), before);
+  }
+
   /// While values run, whatever has as many digits as before stands where it stood: clocks, outliner, ledger, status
   /// line, and over the scene the tag and the ends of the legend.
   void runningDigitsStandStill() {
@@ -775,13 +836,14 @@ class TestContentWindow : public SampleWindowTest {
   }
   std::map<QString, QList<PaintedText>> m_texts;
   std::map<const QWidget*, int> m_changedInPlace;
-  /// What stands beside a name in the outliner.
-  QString probeDetail(const QString& name) const {
+  QModelIndex rowOf(const QString& name) const {
     const QAbstractItemModel* model = m_window->outliner()->view()->model();
     const QModelIndexList found =
         model->match(model->index(0, 0), Qt::DisplayRole, name, 1, Qt::MatchExactly | Qt::MatchRecursive);
-    return found.isEmpty() ? QString() : found.front().data(outline::kDetail).toString();
+    return found.isEmpty() ? QModelIndex() : found.front();
   }
+  /// What stands beside a name in the outliner.
+  QString probeDetail(const QString& name) const { return rowOf(name).data(outline::kDetail).toString(); }
 };
 
 int main(int argc, char** argv) {

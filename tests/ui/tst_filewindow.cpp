@@ -8,8 +8,10 @@
 #include "ui/session/savejob.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QProcess>
+#include <QtCore/QSemaphore>
 #include <QtGui/QAction>
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QApplication>
@@ -18,6 +20,7 @@
 
 #include <clocale>
 #include <csignal>
+#include <memory>
 
 using namespace ps;
 
@@ -74,6 +77,36 @@ class TestFileWindow : public QObject {
     noticeButton(*m_window, QStringLiteral("Save it again"))->click();
     QTRY_VERIFY_WITH_TIMEOUT(!document().isDirty(), kLong);
     QVERIFY(QFile::exists(m_path) && !m_window->notice()->isVisible());
+  }
+
+  /// What is read at once is not told; the rest is, and Esc gives it up with the scene as it was.
+  void aLongOpeningIsToldAndCanBeGivenUp() {
+    open();
+    const QString other = m_directory->filePath(QStringLiteral("other.json"));
+    saveProject(scenes::iceOnPlate(4, 320), other.toStdString());
+    const auto told = [this] { return m_window->statusLine()->state().note.contains(QStringLiteral("“other.json”")); };
+    {
+      const Held held(m_window->session().worker());
+      m_window->openFile(other);
+      QVERIFY(!told() && !QGuiApplication::overrideCursor());
+      QTRY_VERIFY(told());
+      QVERIFY(QGuiApplication::overrideCursor());
+      QCOMPARE(QGuiApplication::overrideCursor()->shape(), Qt::BusyCursor);
+      QTest::keyClick(m_window.get(), Qt::Key_Escape);
+      QVERIFY(!told() && !QGuiApplication::overrideCursor());
+      QCOMPARE(m_window->notice()->topic(), QStringLiteral("open"));
+    }
+    m_window->session().worker().wait();
+    QCoreApplication::processEvents();
+    QCOMPARE(document().path(), m_path);
+    QCOMPARE(floor(), 300.0);
+    {
+      const Held held(m_window->session().worker());
+      m_window->openFile(other);
+      QTRY_VERIFY(told());
+    }
+    QTRY_COMPARE_WITH_TIMEOUT(floor(), 320.0, kLong);
+    QVERIFY(!told() && !QGuiApplication::overrideCursor());
   }
 
   void aProjectThatIsOpenElsewhereSaysSo() {
@@ -154,6 +187,17 @@ class TestFileWindow : public QObject {
   }
 
  private:
+  /// What is asked of a worker waits for as long as this lives.
+  class Held {
+   public:
+    explicit Held(Worker& worker) {
+      worker.run([gate = m_gate] { gate->acquire(); });
+    }
+    ~Held() { m_gate->release(); }
+
+   private:
+    std::shared_ptr<QSemaphore> m_gate = std::make_shared<QSemaphore>();
+  };
   Document& document() { return m_window->session().document(); }
   double floor() { return std::get<double>(document().value(kFloor)); }
   void edit(double kelvin) { QCOMPARE(document().setParameter(kFloor, kelvin), QString()); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/rowtesting.h"
 #include "ui/graphs/graphview.h"
 #include "ui/graphs/sampleseries.h"
@@ -35,6 +36,8 @@ class TestGraphs : public QObject {
   void ticksTellApart();
   void labelsKeepClearOfTheTitle_data();
   void labelsKeepClearOfTheTitle();
+  void everyLineIsNamed_data();
+  void everyLineIsNamed();
   void stackAddsUp();
   void labelsOfAStackCanBeReadOverIt();
   void whatMeltsIsHatched();
@@ -298,6 +301,46 @@ void TestGraphs::labelsKeepClearOfTheTitle() {
     }
   }
   QVERIFY(changed > 100);
+}
+
+void TestGraphs::everyLineIsNamed_data() {
+  QTest::addColumn<int>("height");
+  QTest::addColumn<int>("lines");
+  QTest::addColumn<QString>("name");
+  QTest::addColumn<bool>("fits");
+  QTest::newRow("one below the other") << 260 << 8 << "Line %1" << true;
+  QTest::newRow("in columns") << 112 << 8 << "Line %1" << true;
+  QTest::newRow("of long names") << 112 << 16 << "Mean temperature of the iron ball, line %1" << false;
+  QTest::newRow("more than there is room for") << 80 << 40 << "Line %1" << false;
+  QTest::newRow("no room at all") << 44 << 2 << "Line %1" << false;
+}
+
+/// In the plot, each apart from the others; where there is no room for a whole name, by the tip.
+void TestGraphs::everyLineIsNamed() {
+  QFETCH(int, height);
+  QFETCH(int, lines);
+  QFETCH(QString, name);
+  QFETCH(bool, fits);
+  GraphView graph;
+  graph.setTitle(QStringLiteral("Temperature, °C"));
+  QStringList names;
+  for (int s = 0; s < lines; ++s) {
+    names << name.arg(s, 2, 10, QLatin1Char('0'));
+    const int series = graph.addSeries(names.last());
+    for (int i = 0; i <= 10; ++i) graph.append(series, 0.3 * i, 100 - s + 0.1 * i);
+  }
+  graph.resize(440, height);
+  std::vector<QRectF> places;
+  for (const PaintedText& text : paintedBy(graph)) {
+    const bool whole = names.contains(text.text), cut = text.text.endsWith(QChar(0x2026));
+    if (!whole && !cut) continue;
+    const QRectF place = text.place.adjusted(0, 2, 0, -2);  // lines of letters may touch
+    QVERIFY(graph.plotRect().adjusted(0, 0, 4, 4).contains(place));
+    for (const QRectF& other : places) QVERIFY2(!place.intersects(other), qPrintable(text.text));
+    places.push_back(place);
+  }
+  if (fits) QCOMPARE(places.size(), static_cast<size_t>(lines));
+  QCOMPARE(graph.toolTip(), fits ? QString() : names.join(QLatin1Char('\n')));
 }
 
 /// Looked back at, labels stand where the run goes on: on a ground of their own.

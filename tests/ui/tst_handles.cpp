@@ -5,6 +5,7 @@
 #include "core/scene/solidform.h"
 #include "tests/ui/gizmohands.h"
 #include "tests/ui/hands.h"
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -15,10 +16,12 @@
 #include "ui/tools/gizmo.h"
 #include "ui/tools/picking.h"
 #include "ui/tools/toolbox.h"
+#include "ui/viewport/gizmopainter.h"
 #include "ui/viewport/viewport.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
 #include <QtWidgets/QTreeView>
 
 #include <algorithm>
@@ -59,6 +62,34 @@ class TestHandles : public SampleWindowTest {
       QTest::keyClick(view(), Qt::Key_Escape);
       QCOMPARE(m_window->tools().active(), std::string("select"));
     }
+  }
+
+  /// A notice of the window lies over the top of the view.
+  void whatIsSaidStandsBelowANotice_data() {
+    QTest::addColumn<double>("covered");
+    QTest::newRow("nothing lies there") << 0.0;
+    QTest::newRow("a notice lies there") << 44.0;
+  }
+  void whatIsSaidStandsBelowANotice() {
+    QFETCH(double, covered);
+    GizmoPicture picture;
+    picture.note = QStringLiteral("It is locked");
+    TextDevice device(view()->size());
+    {
+      QPainter painter(&device);
+      paintGizmo(painter, picture, view()->navigator().camera(), view()->size(), covered);
+      paintNote(painter, picture.note, view()->size(), covered);
+    }
+    QCOMPARE(device.texts.size(), qsizetype{2});
+    for (const PaintedText& text : device.texts)
+      QVERIFY(text.place.top() > covered && text.place.bottom() < covered + 40);
+    selectIce("move");
+    picture.gizmo = handles();
+    picture.active = GizmoPart{GizmoPart::Kind::Arm, 0};
+    const double field = gizmoField(picture, view()->navigator().camera(), view()->size(), covered).top();
+    QVERIFY(field > covered);
+    const double low = field + 20;  // where it would stand is covered
+    QVERIFY(gizmoField(picture, view()->navigator().camera(), view()->size(), low).top() > low);
   }
 
   void anArmMovesABodyWithItsMatter() {

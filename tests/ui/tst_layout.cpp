@@ -9,6 +9,7 @@
 #include "ui/session/preferences.h"
 #include "ui/tools/tooltable.h"
 #include "ui/window/dock.h"
+#include "ui/window/topbar.h"
 
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
@@ -104,6 +105,25 @@ class TestLayout : public QObject {
       m_window->showWorkspace(tab);
     QVERIFY(is(dock("dock.responses")->width(), left));
     QVERIFY(is(m_window->viewport()->width(), 480));  // the least that any view has
+  }
+
+  /// In words where there is room for them beside all menus.
+  void theTopBarSaysWhatVrIs() {
+    open({1600, 1000});
+    auto* bar = m_window->findChild<TopBar*>();
+    const auto textWidth = [bar] { return bar->headset()->fontMetrics().horizontalAdvance(bar->headset()->text()); };
+    for (const int width : {1600, 1280}) {
+      resize({width, 800});
+      QTRY_COMPARE(bar->headset()->toolButtonStyle(), Qt::ToolButtonTextBesideIcon);
+      QCOMPARE(bar->headset()->text(), QStringLiteral("Enter VR"));
+      QTRY_VERIFY(bar->headset()->width() >= textWidth() + 16);
+      const QMenuBar* menus = bar->menus();
+      QVERIFY(menus->rect().contains(menus->actionGeometry(menus->actions().last())));
+      QVERIFY(bar->headset()->geometry().right() < bar->width());
+    }
+    resize({966, 600});
+    QTRY_COMPARE(bar->headset()->toolButtonStyle(), Qt::ToolButtonIconOnly);
+    QTRY_VERIFY(bar->headset()->width() < textWidth());
   }
 
   /// No frames, arrows and panes of Qt's own, one style sheet, no letters but our own.

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window that is closed and opened again shows what it showed: selection, run, moment, and whether it goes on; the
-// workspace with its docks and their pages, graphs, legend and brush.
+// workspace with its docks and their pages, graphs, legend, tool and brush, and what is folded.
 #include "core/io/projectio.h"
 #include "core/io/recording.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/group.h"
 #include "samplewindow.h"
 #include "tests/shared/scenes.h"
 #include "ui/graphs/graphspanel.h"
 #include "ui/graphs/plot.h"
 #include "ui/panels/inspector.h"
+#include "ui/panels/outliner.h"
+#include "ui/rows/parameterpanel.h"
 #include "ui/session/documentfiles.h"
 #include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
@@ -20,6 +23,8 @@
 #include <QtCore/QDir>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
+#include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QTreeView>
 
 using namespace ps;
 
@@ -202,6 +207,45 @@ class TestResuming : public QObject {
     m_window->tools().setBrush(brush);
     reopen();
     QCOMPARE(QString::fromStdString(textOf(m_window->tools().brush())), QString::fromStdString(textOf(brush)));
+  }
+
+  void theToolComesBack_data() {
+    QTest::addColumn<QString>("tool");
+    for (const char* tool : {"select", "rotate", "hand", "brush", "erase", "tap", "ruler"})
+      QTest::newRow(tool) << QString::fromLatin1(tool);
+  }
+  void theToolComesBack() {
+    QFETCH(QString, tool);
+    m_window->tools().activate(tool.toStdString());
+    const MainWindow::WorkspaceTab tab = m_window->workspaceTab();
+    reopen();
+    QCOMPARE(QString::fromStdString(m_window->tools().active()), tool);
+    QCOMPARE(m_window->workspaceTab(), tab);
+  }
+
+  /// Rows of the outliner are folded in the project in which they were, and no search is begun.
+  void whatIsFoldedAndLeftOutComesBack() {
+    document().addGroup({memberOf(Owner::Body, "ice"), memberOf(Owner::Wall, "floor")});  // of unsaved work, too
+    const auto rowOfGroup = [this] {
+      const auto* view = m_window->outliner()->view();
+      return view->model()->index(0, 0, view->model()->index(0, 0));
+    };
+    QTreeView* view = m_window->outliner()->view();
+    QVERIFY(view->model()->rowCount(rowOfGroup()) == 2 && view->isExpanded(rowOfGroup()));
+    view->collapse(rowOfGroup());
+    m_window->inspector().solverPanel()->setChangedOnly(true);
+    reopen();
+    view = m_window->outliner()->view();
+    QVERIFY(view->model()->rowCount(rowOfGroup()) == 2 && !view->isExpanded(rowOfGroup()));
+    QVERIFY(view->isExpanded(view->model()->index(0, 0)));
+    const auto changed = [](const ParameterPanel* panel) {
+      return panel->findChild<QAbstractButton*>(QStringLiteral("psChanged"))->isChecked();
+    };
+    QVERIFY(changed(m_window->inspector().solverPanel()) && !changed(m_window->inspector().bodyPanel()));
+    // In another project nothing is folded.
+    m_window->session().files().newProject();
+    QTRY_VERIFY_WITH_TIMEOUT(document().path().isEmpty(), kLong);
+    QVERIFY(m_window->outliner()->folded() == QStringList{QString()});
   }
 
   void theSelectionComesBack() {

@@ -2,6 +2,7 @@
 // The welcome page: when it shows, its cards, templates and recent projects, what can be restored, and pictures.
 #include "core/io/projectio.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/windowtesting.h"
 #include "ui/document/document.h"
 #include "ui/film/thumbnail.h"
@@ -21,11 +22,13 @@
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtGui/QFontMetricsF>
 #include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
@@ -116,6 +119,40 @@ class TestWelcome : public QObject {
     QCOMPARE(cards.back()->geometry().bottom() + 1, grid.height());
     QCOMPARE(cards[1]->linesIn(1000), 1);
     QVERIFY(cards[1]->linesIn(200) > 1);
+  }
+
+  /// What to try stands on the card, in as many lines as it takes; what is longer than four ends in "…", and the tip
+  /// has it whole.
+  void aCardSaysWhatToTry_data() {
+    QTest::addColumn<int>("width");
+    for (const int width : {1140, 860, 640, 420, 214, 200}) QTest::newRow(qPrintable(QString::number(width))) << width;
+  }
+  void aCardSaysWhatToTry() {
+    QFETCH(int, width);
+    Theme::apply(*qApp, true);
+    Sample brief, wordy, none;
+    brief.title = wordy.title = none.title = QStringLiteral("A floor");
+    brief.summary = wordy.summary = none.summary = QStringLiteral("Ice");
+    brief.toTry = QStringLiteral("Warm the floor.");
+    wordy.toTry = QStringLiteral("Warm the floor and look. ").repeated(20).trimmed();
+    CardGrid grid;
+    grid.setSamples({brief, wordy, none});
+    grid.resize(width, grid.heightForWidth(width));
+    grid.show();
+    const std::vector<Card*> cards = grid.cards();
+    const QFontMetricsF metrics(Theme::font(TextRole::Small));
+    for (const Card* card : cards) {
+      const QStringList lines = tryLinesOf(*card);
+      QCOMPARE(lines.join(QLatin1Char(' ')).isEmpty(), card->sample().toTry.isEmpty());
+      for (const QString& line : lines) QVERIFY(metrics.horizontalAdvance(line) <= card->width() - 24);
+    }
+    QCOMPARE(tryLinesOf(*cards[0]).join(QLatin1Char(' ')), QStringLiteral("Try it: Warm the floor."));
+    const QStringList lines = tryLinesOf(*cards[1]);
+    QCOMPARE(lines.size(), 4);
+    QVERIFY2(lines.last().endsWith(QStringLiteral("…")), qPrintable(lines.last()));
+    QVERIFY(cards[1]->toolTip().endsWith(wordy.toTry));
+    QCOMPARE(cards[2]->wanted(cards[2]->width()).toTry, 0);
+    QCOMPARE(cards.back()->geometry().bottom() + 1, grid.height());
   }
 
   void theFirstStartShowsTheSample() {
@@ -325,6 +362,39 @@ class TestWelcome : public QObject {
     QVERIFY(!QFile::exists(thumbnailPath(sample)));
   }
 
+  /// It stays in the list, and where it is now takes its place.
+  void whatIsNotFoundCanBeLocated() {
+    const QString was = m_directory->filePath(QStringLiteral("away.json"));
+    const QString now = m_directory->filePath(QStringLiteral("moved.json"));
+    QVERIFY(QFile::copy(kProjects + QStringLiteral("/box-tower.json"), now));
+    QSettings().setValue(QStringLiteral("files/recent"), QStringList{was, now});
+    startLater();
+    QTRY_COMPARE_WITH_TIMEOUT(recent().size(), 2, kLong);
+    RecentRow* row = recent().front();
+    QVERIFY(row->project().gone && row->project().title == QStringLiteral("away") && !recent()[1]->project().gone);
+    QStringList words;
+    for (const PaintedText& text : paintedBy(*row)) words << text.text;
+    QCOMPARE(words, (QStringList{QStringLiteral("away"), QStringLiteral("Not found · Locate…")}));
+    QVERIFY(row->toolTip().contains(was));
+    const auto answer = [](const QString& file) {
+      QTimer::singleShot(0, qApp, [file] {
+        auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+        QVERIFY(dialog);
+        if (file.isEmpty()) return dialog->reject();
+        dialog->findChild<QLineEdit*>()->setText(file);
+        static_cast<QDialog*>(dialog)->accept();
+      });
+    };
+    answer({});
+    recent().front()->click();
+    QVERIFY(m_window->welcome().shown() && DocumentFiles::everRecent().contains(was));
+    answer(now);
+    opens([this] { recent().front()->click(); });
+    QCOMPARE(document().path(), now);
+    QVERIFY(!m_window->welcome().shown());
+    QVERIFY(!DocumentFiles::everRecent().contains(was) && DocumentFiles::everRecent().front() == now);
+  }
+
   void unsavedWorkIsRestoredFromThePage() {
     startLater();
     QCOMPARE(document().setParameter(kFloor, 351.0), QString());
@@ -373,6 +443,15 @@ class TestWelcome : public QObject {
   bool restorable() {
     m_window->paletteEntries();  // looks what waits
     return m_window->action(QStringLiteral("file.restore"))->isEnabled();
+  }
+  /// The lines of small type in a card, of which all lie inside it.
+  static QStringList tryLinesOf(const Card& card) {
+    QStringList lines;
+    for (const PaintedText& text : paintedBy(const_cast<Card&>(card))) {
+      if (!lines.isEmpty() || text.text.startsWith(QStringLiteral("Try it:"))) lines << text.text;
+      if (!QRectF(card.rect()).contains(text.place)) return {QStringLiteral("outside: ") + text.text};
+    }
+    return lines;
   }
   Card* cardOf(const CardGrid* grid, const QString& title) {
     for (Card* card : grid->cards()) {

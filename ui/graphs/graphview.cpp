@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/graphview.h"
 
+#include "ui/graphs/endlabels.h"
 #include "ui/graphs/sampleseries.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
+#include <QtCore/QStringList>
 #include <QtGui/QPainter>
 #include <QtGui/QPolygonF>
 
@@ -335,21 +337,11 @@ void GraphView::paintSeries(QPainter& painter, const SampleSeries& samples, size
   flush();
 }
 
+/// A tip has them all where the plot has no room for their names.
 void GraphView::paintLabels(QPainter& painter) {
-  const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
-  const QFont font = Theme::font(TextRole::Small);
-  QColor ground = theme[Token::Field];
-  ground.setAlphaF(0.75f);
   paintHeading(painter);
-  struct Label {
-    double top;
-    QPointF end;
-    size_t series;
-    QString name, value;
-    double valueWidth;
-  };
-  std::vector<Label> labels;
+  std::vector<EndLabel> labels;
   const auto [first, last] = range();
   const auto add = [&](size_t i, const QString& name, const SampleSeries& samples, size_t axis, double value,
                        double time) {
@@ -358,8 +350,9 @@ void GraphView::paintLabels(QPainter& painter) {
     if (!plot.adjusted(-1, -1, 1, 1).contains(end)) return;
     const ValueAxis& of = axes()[axis];
     const QString unit = axis > 0 ? QLatin1Char(' ') + of.shownUnit() : QString();
-    labels.push_back({end.y() - 8, end, i, name, curveText(of.ticks(), of.onAxis(value)) + unit,
-                      curveTextWidth(of.ticks(), of.onAxis(of.low()), of.onAxis(of.high())) + textWidth(unit, font)});
+    const double width = curveTextWidth(of.ticks(), of.onAxis(of.low()), of.onAxis(of.high()));
+    labels.push_back({end, static_cast<int>(i), name, curveText(of.ticks(), of.onAxis(value)) + unit,
+                      width + textWidth(unit, Theme::font(TextRole::Small))});
   };
   for (size_t i = 0; i < d->series.size(); ++i) {
     const Series& s = d->series[i];
@@ -370,28 +363,13 @@ void GraphView::paintLabels(QPainter& painter) {
     const double end = std::min(now, s.other.lastTime());
     add(i, QStringLiteral("Δ ") + s.name, s.difference, d->units + s.axis, s.difference.valueAt(end), end);
   }
-  // From the top down, each label at its line's end or as little below it as keeps the texts apart.
-  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.top < b.top; });
-  for (size_t i = 0; i < labels.size(); ++i) {
-    labels[i].top = std::max(labels[i].top, i == 0 ? plot.top() + titleStrip() - 3 : labels[i - 1].top + 15);
-  }
-  for (size_t i = labels.size(); i-- > 0;) {
-    labels[i].top = std::min(labels[i].top, i + 1 == labels.size() ? plot.bottom() - 16 : labels[i + 1].top - 15);
-  }
-  painter.setRenderHint(QPainter::Antialiasing);
-  for (const Label& label : labels) {
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(theme.series(static_cast<int>(label.series)));
-    painter.drawEllipse(label.end, 3, 3);
-    if (label.top < plot.top() + titleStrip() - 4) continue;  // too low a plot for all of them
-    // The value ends where the longest one would.
-    const QString& name = label.name;
-    const double width = textWidth(name, font) + 5 + label.valueWidth;
-    const QRectF rect(labelLeft(label.end.x(), width), label.top, width + 1, 16);
-    painter.fillRect(rect.adjusted(-2, 1, 2, -1), ground);
-    paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, name, font, theme[Token::Text]);
-    paintText(painter, rect, Qt::AlignRight | Qt::AlignVCenter, label.value, font, theme[Token::Text]);
-  }
+  QStringList names;
+  for (const EndLabel& label : labels) names << label.name;
+  const QRectF room(plot.left() + 2, plot.top() + titleStrip() - 3, plot.width() - 4, plot.height() - titleStrip() + 3);
+  const bool whole = paintEndLabels(painter, std::move(labels), room,
+                                    [this](double place, double width) { return labelLeft(place, width); });
+  const QString tip = whole ? QString() : names.join(QLatin1Char('\n'));
+  if (toolTip() != tip) setToolTip(tip);
 }
 
 std::vector<PlotLine> GraphView::readOut(double time) const {

@@ -9,6 +9,7 @@
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/pinaddress.h"
+#include "ui/panels/bodykind.h"
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/panels/outlinermodel.h"
 #include "ui/rows/filterfield.h"
@@ -176,20 +177,29 @@ void Outliner::addBodies(QStandardItem* scene) {
   const Project& project = m_document.project();
   const PluginRegistry* plugins = m_document.plugins();
   for (const Body& body : project.bodies) {
-    const bool sketched = std::holds_alternative<VoxelShape>(body.shape);
-    const bool fixed = toggleOf(body.parameters, bodyParameters(), "fixed");
-    const bool placeholder = plugins && isPlaceholder(project, body, *plugins);
-    const QString icon = placeholder ? QStringLiteral("plugin")
-                         : fixed     ? QStringLiteral("plate")
-                         : sketched  ? QStringLiteral("brush")
-                                     : QStringLiteral("body");
-    QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), icon);
+    QStandardItem* item = add(parentOf(scene, Owner::Body, body.id), OutlineKind::Body, body.id, nameOf(body), {});
     item->setData(colourOf(project, plugins, body.material), outline::kSwatch);
     item->setData(QString::fromStdString(body.material), outline::kMaterial);
-    mark(item, body.visible, body.locked);
-    item->setData(placeholder, outline::kPlaceholder);
+    showKind(item, body);
     addPins(item, body);
   }
+}
+
+/// By its icon, and in words in the tip.
+void Outliner::showKind(QStandardItem* row, const Body& body) const {
+  const PluginRegistry* plugins = m_document.plugins();
+  const bool placeholder = plugins && isPlaceholder(m_document.project(), body, *plugins);
+  const BodyKind kind = placeholder
+                            ? BodyKind{QStringLiteral("plugin"), QStringLiteral("Stands still: a plugin is missing")}
+                            : kindOf(body, m_document.project(), plugins);
+  row->setData(kind.icon, outline::kIcon);
+  row->setData(placeholder, outline::kPlaceholder);
+  mark(row, body.visible, body.locked);
+  QStringList tip = row->toolTip().split(QLatin1Char('\n'));
+  if (!kind.name.isEmpty()) tip.insert(1, kind.name);
+  if (std::holds_alternative<VoxelShape>(body.shape)) tip.insert(1, QStringLiteral("Sketched"));
+  row->setToolTip(tip.join(QLatin1Char('\n')));
+  row->setAccessibleDescription(kind.name);
 }
 
 void Outliner::addPins(QStandardItem* row, const Body& body) {
@@ -281,7 +291,12 @@ void Outliner::onChanged(const ChangeEvent& event) {
       (port && !port->moved) || std::holds_alternative<ProbesChanged>(event) ||
       std::holds_alternative<TracksChanged>(event) || std::holds_alternative<OrderChanged>(event) ||
       (parameter && (parameter->address.owner == Owner::Wall || parameter->address.owner == Owner::Environment));
-  if (shows) rebuild();
+  if (shows) return rebuild();
+  // What a row of values says of a body, too.
+  const Body* changed =
+      parameter && parameter->address.owner == Owner::Body ? m_document.body(parameter->address.id) : nullptr;
+  QStandardItem* row = changed ? find(OutlineKind::Body, changed->id) : nullptr;
+  if (row) showKind(row, *changed);
 }
 
 void Outliner::readValues() {

@@ -7,6 +7,7 @@
 #include "ui/document/port.h"
 #include "ui/session/selection.h"
 
+#include <QtCore/QStringList>
 #include <QtWidgets/QWidget>
 
 #include <map>
@@ -49,6 +50,9 @@ class Outliner : public QWidget {
   void renameSelected();
   void toggleVisible();  ///< of all that is selected, to what the last one is not
   void toggleLocked();
+  /// Which rows somebody has folded, after the file of the project that they are of.
+  QStringList folded() const;
+  void fold(const QStringList& left);  ///< what folded() was; nothing where another project is open
   QTreeView* view() const { return m_view; }
   QSize sizeHint() const override { return {204, 300}; }
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -65,6 +69,7 @@ class Outliner : public QWidget {
   void addGroups(QStandardItem* scene);
   void addBodies(QStandardItem* scene);
   void addPins(QStandardItem* row, const Body& body);
+  void showKind(QStandardItem* row, const Body& body) const;
   void addPorts(QStandardItem* scene);
   void addProbes(QStandardItem* scene);
   static void mark(QStandardItem* item, bool visible, bool locked);
@@ -100,7 +105,7 @@ class Outliner : public QWidget {
   NothingFound* m_nothing;
   std::vector<SceneGroup> m_groups;
   SnapshotPtr m_snapshot;
-  std::map<std::string, size_t> m_counts;  ///< particles of it, by body and tap
+  std::map<std::string, size_t> m_counts;          ///< particles of it, by body and tap
   std::set<std::pair<int, std::string>> m_folded;  ///< OutlineKind and id of rows
   bool m_building = false;
 };

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -61,6 +62,21 @@ void moveBefore(std::vector<std::string>& ids, const std::string& id, const std:
 }
 
 }  // namespace
+
+QStringList Outliner::folded() const {
+  QStringList rows{m_document.path()};
+  for (const auto& [kind, id] : m_folded) rows << QStringLiteral("%1/%2").arg(kind).arg(QString::fromStdString(id));
+  return rows;
+}
+
+void Outliner::fold(const QStringList& left) {
+  if (left.isEmpty() || left.front() != m_document.path()) return;
+  for (const QString& row : left.mid(1))
+    m_folded.emplace(row.section(QLatin1Char('/'), 0, 0).toInt(), row.section(QLatin1Char('/'), 1).toStdString());
+  const bool before = std::exchange(m_building, true);
+  foldAgain();
+  m_building = before;
+}
 
 void Outliner::showSelection() {
   m_building = true;

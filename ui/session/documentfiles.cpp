@@ -141,6 +141,8 @@ void DocumentFiles::load(const Source& source) {
     Q_EMIT openFailed(source.path, QStringLiteral("Plugins are still being loaded. Open it again in a moment."));
     return;
   }
+  m_opening = source.path;
+  Q_EMIT opening(source.path);
   m_worker.run([this, request, plugins, source, mine = m_lock, own = m_own, locks = locks(source.documentPath)] {
     QElapsedTimer clock;
     clock.start();
@@ -170,6 +172,7 @@ void DocumentFiles::load(const Source& source) {
 
 /// The document becomes what was read.
 void DocumentFiles::adopt(const Source& source, Read& read) {
+  m_opening.clear();
   if (!read.problem.isEmpty()) {
     m_failed = source;
     Q_EMIT openFailed(source.path, read.problem);
@@ -203,8 +206,22 @@ void DocumentFiles::adopt(const Source& source, Read& read) {
   if (m_lock && m_lock->busy()) Q_EMIT openElsewhere(source.documentPath, holderText(*m_lock));
 }
 
-void DocumentFiles::bringBack(const ReplacedWork& work) {
+/// Another project takes the place of the one that is being read.
+void DocumentFiles::supersede() {
   ++m_request;
+  m_opening.clear();
+}
+
+/// The worker reads it to its end all the same.
+bool DocumentFiles::giveUpOpening() {
+  if (m_opening.isEmpty()) return false;
+  ++m_request;
+  Q_EMIT openFailed(std::exchange(m_opening, QString()), QStringLiteral("It was given up"));
+  return true;
+}
+
+void DocumentFiles::bringBack(const ReplacedWork& work) {
+  supersede();
   m_document.open(work.project, work.session.path, true, work.session.look.playing, work.session.file);
   lockLater();
   Q_EMIT reopened(work.session);
@@ -212,14 +229,14 @@ void DocumentFiles::bringBack(const ReplacedWork& work) {
 }
 
 void DocumentFiles::openRecorded(Project project) {
-  ++m_request;
+  supersede();
   m_lock.reset();
   m_document.open(std::move(project), {}, false, false);  // nothing is lost with it: the recording has it
   Q_EMIT opened({}, {}, 0);
 }
 
 void DocumentFiles::newProject() {
-  ++m_request;
+  supersede();
   m_lock.reset();
   m_document.open(emptyProject(m_document.plugins()), {}, false, false);
   Q_EMIT opened({}, {}, 0);
@@ -333,17 +350,25 @@ void DocumentFiles::keepOurs() {
 
 QStringList DocumentFiles::recent() {
   QStringList existing;
-  for (const QString& path : QSettings().value(QLatin1String(kRecentKey)).toStringList()) {
+  for (const QString& path : everRecent()) {
     if (QFileInfo(path).isFile()) existing << path;
   }
   return existing;
 }
 
+QStringList DocumentFiles::everRecent() { return QSettings().value(QLatin1String(kRecentKey)).toStringList(); }
+
 void DocumentFiles::addRecent(const QString& path) {
-  QStringList paths = recent();
+  QStringList paths = everRecent();
   paths.removeAll(path);
   paths.prepend(path);
   QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths.mid(0, kRecentFiles)));
+}
+
+void DocumentFiles::forgetRecent(const QString& path) {
+  QStringList paths = everRecent();
+  paths.removeAll(path);
+  QSettings().setValue(QLatin1String(kRecentKey), QVariant(paths));
 }
 
 }  // namespace ps

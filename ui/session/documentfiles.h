@@ -47,6 +47,8 @@ class DocumentFiles : public QObject {
   /// What openFailed() came for last, a copy of unsaved work and an earlier version too, though plugins are missing
   /// that the project cannot do without, by its own word: what they made stands still.
   void openAnyway();
+  /// What is being read is not opened, which openFailed() says. False where nothing is.
+  bool giveUpOpening();
   /// Whether it was for them that openFailed() came.
   static bool lacksRequired(const QString& problem);
   /// What an earlier session had open: its copy when it has one (the document is then dirty), else its file, seen as
@@ -67,10 +69,13 @@ class DocumentFiles : public QObject {
   /// Another window has the file open that this one shows: its saves are refused from now on, ours are not.
   void takeOver();
 
-  static QStringList recent();  ///< newest first, existing files only
+  static QStringList recent();      ///< newest first, existing files only
+  static QStringList everRecent();  ///< likewise, and those that are not where they were
   static void addRecent(const QString& path);
+  static void forgetRecent(const QString& path);
 
  Q_SIGNALS:
+  void opening(const QString& path);  ///< it is read from now on, until opened() or openFailed()
   void opened(const QString& path, const QStringList& warnings, double seconds);
   void reopened(const ps::AutosavedSession& session);  ///< before opened()
   /// After opened(): another window has it open, of `who` where that is somebody else.
@@ -116,6 +121,7 @@ class DocumentFiles : public QObject {
   };
   void load(const Source& source);
   void adopt(const Source& source, Read& read);
+  void supersede();
   bool locks(const QString& path) const { return m_autosave && !path.isEmpty() && !isSample(path); }
   void lockLater();
   void hear(bool same, const FileStamp& now);
@@ -125,6 +131,7 @@ class DocumentFiles : public QObject {
   const Autosave* m_autosave = nullptr;
   QString m_samples;
   std::optional<Source> m_failed;    ///< what could not be opened last
+  QString m_opening;                 ///< what is being read; "": nothing
   std::shared_ptr<FileLock> m_lock;  ///< of the document's file
   std::shared_ptr<OwnFiles> m_own;   ///< for the worker's jobs
   Outside m_outside;                 ///< since it was read or written here

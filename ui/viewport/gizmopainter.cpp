@@ -127,7 +127,7 @@ void paintField(QPainter& painter, const GizmoPicture& picture, const QRectF& re
 
 }  // namespace
 
-QRectF gizmoField(const GizmoPicture& picture, const Camera& camera, const QSizeF& size) {
+QRectF gizmoField(const GizmoPicture& picture, const Camera& camera, const QSizeF& size, double top) {
   if (!picture.gizmo || !picture.active) return {};
   const auto pixel =
       project(camera, static_cast<int>(size.width()), static_cast<int>(size.height()), picture.gizmo->centre);
@@ -135,21 +135,23 @@ QRectF gizmoField(const GizmoPicture& picture, const Camera& camera, const QSize
   const double width = std::max(96.0, textWidth(fieldText(picture), Theme::font(TextRole::Normal)) + 2 * kPadding);
   QRectF rect((*pixel)[0] - width / 2, (*pixel)[1] + kGizmoArm + kPadding, width, kField);  // below all handles
   rect.moveLeft(std::clamp(rect.left(), kMargin, std::max(kMargin, size.width() - width - kMargin)));
-  rect.moveTop(std::clamp(rect.top(), kMargin, std::max(kMargin, size.height() - kField - kMargin)));
+  const double highest = top + kMargin;
+  rect.moveTop(std::clamp(rect.top(), highest, std::max(highest, size.height() - kField - kMargin)));
   return rect;
 }
 
-void paintGizmo(QPainter& painter, const GizmoPicture& picture, const Camera& camera, const QSizeF& size) {
+void paintGizmo(QPainter& painter, const GizmoPicture& picture, const Camera& camera, const QSizeF& size, double top) {
   painter.setRenderHint(QPainter::Antialiasing);
   if (picture.gizmo) GizmoPainter(painter, picture, camera, size).paint();
-  if (const QRectF field = gizmoField(picture, camera, size); !field.isEmpty()) paintField(painter, picture, field);
-  if (!picture.note.isEmpty()) paintNote(painter, picture.note, size);
+  if (const QRectF field = gizmoField(picture, camera, size, top); !field.isEmpty())
+    paintField(painter, picture, field);
+  if (!picture.note.isEmpty()) paintNote(painter, picture.note, size, top);
 }
 
-void paintNote(QPainter& painter, const QString& note, const QSizeF& size) {
+void paintNote(QPainter& painter, const QString& note, const QSizeF& size, double top) {
   const QFont font = Theme::font(TextRole::Normal);
   const double width = std::min(textWidth(note, font) + 2 * kPadding, size.width() - 2 * kMargin);
-  const QRectF rect((size.width() - width) / 2, kMargin, width, kField);
+  const QRectF rect((size.width() - width) / 2, top + kMargin, width, kField);
   const Theme& theme = Theme::current();
   paintBox(painter, rect, theme[Token::Overlay], theme[Token::Line], 4);
   paintText(painter, rect.adjusted(kPadding, 0, -kPadding, 0), Qt::AlignCenter, note, font, theme[Token::Text]);

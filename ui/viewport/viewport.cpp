@@ -222,9 +222,9 @@ void Viewport::paintGL() {
       if (m_now && m_overlays.outlines)
         paintPins(painter, heldPlaces(m_session.document().project(), m_selection, *m_now), m_navigator.camera(),
                   size());
-      if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size());
+      if (picture.gizmo) paintGizmo(painter, *picture.gizmo, m_navigator.camera(), size(), m_covered);
       if (picture.frame) paintFrame(painter, *picture.frame, m_navigator.camera(), size());
-      if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size());
+      if (!m_dropNote.isEmpty()) paintNote(painter, m_dropNote, size(), m_covered);
       m_hits = paintOverlays(painter, overlayState());
     } else {
       painter.fillRect(rect(), Theme::current()[Token::Panel]);

@@ -11,6 +11,7 @@
 #include <QtGui/QAction>
 #include <QtGui/QPainter>
 #include <QtGui/QPainterPath>
+#include <QtGui/QTextLayout>
 
 #include <cmath>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 constexpr int kInset = 12;                   // px left and right of words
 constexpr double kRadius = 7, kShape = 0.8;  // of a picture: height over width
 constexpr int kWords = 38, kLine = 16;       // px below it: the title with what is around it, a line of its summary
+constexpr int kTryGap = 4, kTryLine = 14, kTryLines = 4;  // px above what to try and of a line of it; how many at most
 
 /// Fills the rectangle with the middle of the picture; `scaled` keeps it for the next time.
 void paintPicture(QPainter& painter, const QRectF& rect, const QImage& picture, QPixmap& scaled) {
@@ -33,6 +35,27 @@ void paintPicture(QPainter& painter, const QRectF& rect, const QImage& picture, 
     scaled = QPixmap::fromImage(filled.copy(QRect(corner, size)));
   }
   painter.drawPixmap(rect, scaled, QRectF(scaled.rect()));
+}
+
+QString tryText(const QString& toTry) { return toTry.isEmpty() ? QString() : QStringLiteral("Try it: ") + toTry; }
+
+/// The text in lines of this width, no more than `most`: the last one is elided where there is more.
+QStringList wrapped(const QString& text, const QFont& font, double width, int most) {
+  QStringList lines;
+  if (text.isEmpty()) return lines;
+  QTextLayout layout(text, font);
+  QTextOption wraps;
+  wraps.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+  layout.setTextOption(wraps);
+  layout.beginLayout();
+  for (QTextLine line = layout.createLine(); line.isValid() && lines.size() < most; line = layout.createLine()) {
+    line.setLineWidth(width);
+    const bool last = lines.size() + 1 == most;
+    lines << (last ? QFontMetricsF(font).elidedText(text.mid(line.textStart()), Qt::ElideRight, width)
+                   : text.mid(line.textStart(), line.textLength()).trimmed());
+  }
+  layout.endLayout();
+  return lines;
 }
 
 /// Its file, from the user's own folder on where it is in there.
@@ -63,7 +86,7 @@ QColor PageButton::ground() const {
 Card::Card(Sample sample, QWidget* parent) : PageButton(parent), m_sample(std::move(sample)) {
   setAccessibleName(m_sample.title);
   setAccessibleDescription(m_sample.summary);
-  setToolTip(m_sample.toTry.isEmpty() ? m_sample.summary : QStringLiteral("Try it: ") + m_sample.toTry);
+  setToolTip(m_sample.toTry.isEmpty() ? m_sample.summary : tryText(m_sample.toTry));
 }
 
 void Card::setBadge(const QString& text) {
@@ -73,8 +96,9 @@ void Card::setBadge(const QString& text) {
 
 QSize Card::sizeHint() const { return {232, heightForWidth(232)}; }
 int Card::heightForWidth(int width) const { return heightFor(width, m_lines); }
-int Card::heightFor(int width, int lines) {
-  return static_cast<int>(std::lround(width * kShape)) + kWords + lines * kLine;
+int Card::heightFor(int width, const Lines& lines) {
+  const int toTry = lines.toTry > 0 ? kTryGap + lines.toTry * kTryLine : 0;
+  return static_cast<int>(std::lround(width * kShape)) + kWords + lines.summary * kLine + toTry;
 }
 
 int Card::linesIn(int width) const {
@@ -84,7 +108,13 @@ int Card::linesIn(int width) const {
   return std::max(1, static_cast<int>(std::lround(taken.height() / metrics.lineSpacing())));
 }
 
-void Card::setLines(int lines) {
+Card::Lines Card::wanted(int width) const {
+  const QString text = tryText(m_sample.toTry);
+  const QFont font = Theme::font(TextRole::Small);
+  return {linesIn(width), static_cast<int>(wrapped(text, font, width - 2 * kInset, kTryLines).size())};
+}
+
+void Card::setLines(const Lines& lines) {
   m_lines = lines;
   update();
 }
@@ -96,7 +126,7 @@ void Card::paintEvent(QPaintEvent*) {
   const QRectF card(rect());
   const QColor under = ground();
   paintBox(painter, card, under.isValid() ? under : theme[Token::Header], {}, kRadius);
-  const QRectF picture(0, 0, card.width(), card.height() - kWords - m_lines * kLine);
+  const QRectF picture(0, 0, card.width(), card.height() - heightFor(0, m_lines));
   QPainterPath round;
   round.addRoundedRect(card, kRadius, kRadius);
   painter.save();
@@ -115,24 +145,43 @@ void Card::paintEvent(QPaintEvent*) {
     paintBox(painter, badge, theme[Token::Accent], {}, 10);
     paintText(painter, badge, Qt::AlignCenter, m_badge, font, theme[Token::OnAccent]);
   }
+  paintWords(painter, picture.bottom() + 8);
+  if (hasFocus()) paintFocusRing(painter, card, kRadius);
+}
+
+/// Title, summary and what to try, in a smaller type.
+void Card::paintWords(QPainter& painter, double top) const {
+  const Theme& theme = Theme::current();
   QFont bold = Theme::font(TextRole::Normal);
   bold.setWeight(QFont::DemiBold);
-  const QRectF words(kInset, picture.bottom() + 8, card.width() - 2 * kInset, 18);
+  const QRectF words(kInset, top, width() - 2 * kInset, 18);
   paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_sample.title, bold, theme[Token::Text]);
   painter.setFont(Theme::font(TextRole::Normal));
   painter.setPen(theme[Token::Text2]);
-  painter.drawText(QRectF(words.left(), words.bottom() + 1, words.width(), m_lines * kLine + 2),
+  painter.drawText(QRectF(words.left(), words.bottom() + 1, words.width(), m_lines.summary * kLine + 2),
                    Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, m_sample.summary);
-  if (hasFocus()) paintFocusRing(painter, card, kRadius);
+  const QFont small = Theme::font(TextRole::Small);
+  QRectF line(words.left(), words.bottom() + 1 + m_lines.summary * kLine + kTryGap, words.width(), kTryLine);
+  for (const QString& text : wrapped(tryText(m_sample.toTry), small, words.width(), m_lines.toTry)) {
+    paintText(painter, line, Qt::AlignLeft | Qt::AlignVCenter, text, small, theme[Token::Text2]);
+    line.translate(0, kTryLine);
+  }
 }
 
 RecentRow::RecentRow(RecentProject project, QWidget* parent) : PageButton(parent), m_project(std::move(project)) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(m_project.title);
   setAccessibleDescription(m_project.path);
-  const QString toTry = m_project.toTry.isEmpty() ? QString() : QStringLiteral("\nTry it: ") + m_project.toTry;
+  const QString toTry = m_project.toTry.isEmpty() ? QString() : QLatin1Char('\n') + tryText(m_project.toTry);
+  const QString place = QDir::toNativeSeparators(m_project.path);
+  if (m_project.gone) {
+    m_where = QStringLiteral("Not found · Locate…");
+    setToolTip(QStringLiteral("It is not at %1 any more.\nA click asks where it is now.").arg(place));
+    setAccessibleDescription(m_project.path + QStringLiteral(", not found"));
+    return;
+  }
   m_where = placeText(m_project.path) + QStringLiteral(" · ") + dayText(m_project.time, QDateTime::currentDateTime());
-  setToolTip(m_where + QLatin1Char('\n') + QDir::toNativeSeparators(m_project.path) + toTry);
+  setToolTip(m_where + QLatin1Char('\n') + place + toTry);
 }
 
 void RecentRow::paintEvent(QPaintEvent*) {
@@ -156,12 +205,12 @@ void RecentRow::paintEvent(QPaintEvent*) {
   }
   const QRectF words(picture.right() + 10, 7, width() - picture.right() - 16, 18);
   paintText(painter, words, Qt::AlignLeft | Qt::AlignVCenter, m_project.title, Theme::font(TextRole::Medium),
-            theme[Token::Text]);
+            theme[m_project.gone ? Token::Text2 : Token::Text]);
   paintText(painter, words.translated(0, 18), Qt::AlignLeft | Qt::AlignVCenter, m_where, Theme::font(TextRole::Small),
             theme[underMouse() ? Token::Text2 : Token::Muted]);
   if (!m_project.toTry.isEmpty())
-    paintText(painter, words.translated(0, 36), Qt::AlignLeft | Qt::AlignVCenter,
-              QStringLiteral("Try it: ") + m_project.toTry, Theme::font(TextRole::Small), theme[Token::Text2]);
+    paintText(painter, words.translated(0, 36), Qt::AlignLeft | Qt::AlignVCenter, tryText(m_project.toTry),
+              Theme::font(TextRole::Small), theme[Token::Text2]);
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()), 5);
 }
 

@@ -21,7 +21,7 @@ class PageButton : public QAbstractButton {
   QColor ground() const;
 };
 
-/// A sample: picture, title and one line. Its tooltip says what to try.
+/// A sample: picture, title, one line and what to try, which its tooltip says whole where the card has no room for it.
 class Card : public PageButton {
   Q_OBJECT
  public:
@@ -31,22 +31,29 @@ class Card : public PageButton {
   QSize sizeHint() const override;
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override;
-  static int heightFor(int width, int lines);
-  int linesIn(int width) const;  ///< that its summary takes in a card of this width
-  void setLines(int lines);      ///< that there are for it
-  int lines() const { return m_lines; }
+  /// Lines of the words below the title.
+  struct Lines {
+    int summary = 1, toTry = 0;
+  };
+  static int heightFor(int width, const Lines& lines);
+  int linesIn(int width) const;       ///< that its summary takes in a card of this width
+  Lines wanted(int width) const;      ///< of both, at most four of what to try
+  void setLines(const Lines& lines);  ///< that there are for them
+  int lines() const { return m_lines.summary; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void paintWords(QPainter& painter, double top) const;
   Sample m_sample;
-  int m_lines = 1;
+  Lines m_lines;
   QString m_badge;
   QPixmap m_scaled;  ///< the picture at the size and scale at which it was painted last
 };
 
-/// A project that was open lately: a small picture, its name, where it lies and of when it is, and what it says to try.
+/// A project that was open lately: a small picture, its name, where it lies and of when it is, and what it says to try;
+/// or that it is not found.
 class RecentRow : public PageButton {
   Q_OBJECT
  public:

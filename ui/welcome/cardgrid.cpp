@@ -43,7 +43,7 @@ std::vector<Card*> CardGrid::cards() const {
 int CardGrid::columnsIn(int width) const { return std::max(1, (width + kGap) / (kLeast + kGap)); }
 int CardGrid::cardWidth(int width) const { return (width + kGap) / columnsIn(width) - kGap; }
 
-/// Row by row, as high as the longest summary of each needs.
+/// Row by row, as high as the longest words of each need.
 int CardGrid::arrange(int width, bool moves) const {
   const std::vector<Card*> shown = cards();
   const auto columns = static_cast<size_t>(columnsIn(width));
@@ -51,8 +51,11 @@ int CardGrid::arrange(int width, bool moves) const {
   int top = 0;
   for (size_t first = 0; first < shown.size(); first += columns) {
     const size_t end = std::min(first + columns, shown.size());
-    int lines = 1;
-    for (size_t i = first; i < end; ++i) lines = std::max(lines, shown[i]->linesIn(wide));
+    Card::Lines lines;
+    for (size_t i = first; i < end; ++i) {
+      const Card::Lines wanted = shown[i]->wanted(wide);
+      lines = {std::max(lines.summary, wanted.summary), std::max(lines.toTry, wanted.toTry)};
+    }
     const int high = Card::heightFor(wide, lines);
     for (size_t i = first; moves && i < end; ++i) {
       shown[i]->setLines(lines);

@@ -93,9 +93,13 @@ QStringList Gallery::tags() const {
 void Gallery::readRecent(std::function<void(std::vector<RecentProject>)> then) {
   m_worker.run([this, folder = m_folder, then = std::move(then)] {
     std::vector<RecentProject> recent;
-    for (const QString& path : DocumentFiles::recent()) {
+    for (const QString& path : DocumentFiles::everRecent()) {
       if (!folder.isEmpty() && path.startsWith(folder + QLatin1Char('/'))) continue;
       const QFileInfo info(path);
+      if (!info.isFile()) {
+        recent.push_back({path, info.completeBaseName(), {}, {}, {}, true});
+        continue;
+      }
       const Words words = wordsIn(path);
       const QImage own = pictureOf(words.thumbnail);
       recent.push_back({path, words.title.isEmpty() ? info.completeBaseName() : words.title, words.toTry,

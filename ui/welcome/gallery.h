@@ -25,9 +25,10 @@ struct Sample {
 /// A project that was opened or saved lately.
 struct RecentProject {
   QString path, title;
-  QString toTry;   ///< what the project says; "": nothing
-  QDateTime time;  ///< of its file
-  QImage picture;  ///< null: none was made yet
+  QString toTry;      ///< what the project says; "": nothing
+  QDateTime time;     ///< of its file
+  QImage picture;     ///< null: none was made yet
+  bool gone = false;  ///< it is not there any more; its title is what it was called
 };
 
 /// "Today, 18:41", "Yesterday, 18:41", "12 November".

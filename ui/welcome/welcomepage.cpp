@@ -263,7 +263,9 @@ void WelcomePage::showRecent(const std::vector<RecentProject>& recent) {
   m_noRecent->setVisible(recent.empty());
   for (size_t i = 0; i < std::min(recent.size(), size_t{kRecentShown}); ++i) {
     auto* row = new RecentRow(recent[i]);
-    connect(row, &QAbstractButton::clicked, this, [this, path = recent[i].path] { Q_EMIT projectChosen(path); });
+    connect(row, &QAbstractButton::clicked, this, [this, path = recent[i].path, gone = recent[i].gone] {
+      Q_EMIT gone ? projectSought(path) : projectChosen(path);
+    });
     m_recent->addWidget(row);
   }
 }

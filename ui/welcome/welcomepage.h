@@ -47,6 +47,7 @@ class WelcomePage : public QWidget {
 
  Q_SIGNALS:
   void projectChosen(const QString& path);
+  void projectSought(const QString& path);  ///< it is not there any more
   void templateChosen(const QString& path);
   void closeRequested();
   void atStartChanged(bool on);

@@ -40,6 +40,7 @@
 #include "ui/window/makerealbutton.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
+#include "ui/window/openingnote.h"
 #include "ui/window/pagechooser.h"
 #include "ui/window/paletteentries.h"
 #include "ui/window/paneltable.h"
@@ -129,6 +130,7 @@ MainWindow::MainWindow(const Options& options)
   const auto* left = std::find(std::begin(kWorkspaceOf), std::end(kWorkspaceOf), m_layout->workspace());
   showWorkspace(static_cast<WorkspaceTab>(left - std::begin(kWorkspaceOf)));
   m_layout->restorePages();
+  if (options.restore) takeToolAgain(*m_tools);
   qApp->installEventFilter(this);
   updateTitle();
 }
@@ -343,6 +345,7 @@ void MainWindow::connectFiles() {
     updateTitle();
     if (std::holds_alternative<AboutChanged>(event)) outliner()->rebuild();
   });
+  new OpeningNote(m_session->files(), *m_status, this);
   connect(&m_session->files(), &DocumentFiles::opened, this, &MainWindow::updateTitle);
   // Its selection has turned to pages.
   connect(&m_session->files(), &DocumentFiles::opened, m_layout, &WindowLayout::restorePages, Qt::SingleShotConnection);
@@ -480,6 +483,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 /// Closing asks nothing: unsaved work is kept as a copy. Only when there can be no copy does the window stay, once.
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_layout->save();
+  if (m_options.restore) keepTool(*m_tools);
   m_welcome->keepPicture();
   m_vr->leave();  // what is in a hand there ends, and is part of the copy
   const QString problem = m_session->close();
@@ -497,6 +501,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 bool MainWindow::cancelLongWork() {
+  if (findChild<OpeningNote*>()->cancel()) return true;
   if (m_session->cancelMaking() || m_bodies->cancelReading()) return true;
   if (m_session->work().cancel() || m_session->recordings().cancelTold()) return true;
   auto* fitting = findChild<FitPanel*>();

@@ -7,11 +7,12 @@
 #include "core/scene/shownname.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/pinaddress.h"
 #include "ui/document/presets.h"
-#include "ui/graphs/graphspanel.h"
 #include "ui/panels/brushpanel.h"
 #include "ui/panels/pluginpage.h"
 #include "ui/rows/rowvalue.h"
+#include "ui/session/documentfiles.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/theme/numbers.h"
@@ -25,12 +26,15 @@
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/mainwindow.h"
+#include "ui/window/palettemenus.h"
 #include "ui/window/paneltable.h"
 #include "ui/window/preferenceswindow.h"
 #include "ui/window/projectwindow.h"
 #include "ui/window/welcome.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QDir>
+#include <QtCore/QFileInfo>
 #include <QtCore/QPointer>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QTimer>
@@ -43,7 +47,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -51,6 +54,7 @@ namespace ps {
 namespace {
 
 using Entries = std::vector<PaletteEntry>;
+constexpr const char* kLoading = "Plugins are still being loaded";
 
 /// What stands beside a title: the first of these that the title does not say itself.
 QString beside(const QString& title, const QStringList& places) {
@@ -106,7 +110,7 @@ QString whyNot(const QAction& action, bool ready) {
       {"file.removeState", "The project holds no saved state"},
       {"simulation.state", "The project holds no saved state"},
       {"file.checkEnd", "This is no copy that was made for sharing"}};
-  if (!ready) return QStringLiteral("Plugins are still being loaded");
+  if (!ready) return QString::fromLatin1(kLoading);
   if (const QString why = action.property(kWhyNot).toString(); !why.isEmpty()) return why;
   for (const auto& [name, reason] : kReasons) {
     if (action.objectName().startsWith(QLatin1String(name))) return QString::fromLatin1(reason);
@@ -178,6 +182,33 @@ void addThings(Entries& entries, MainWindow& window) {
   add(project.sinks, OutlineKind::Sink);
   add(project.environment.walls, OutlineKind::Wall);
   add(project.probes, OutlineKind::Probe);
+  for (const Body& body : project.bodies) {
+    for (size_t k = 0; k < body.pins.size(); ++k) {
+      const SelectedItem pin{OutlineKind::Pin, PinAddress{body.id, k}.text()};
+      entries.push_back({QStringLiteral("Pin %1 of %2").arg(k + 1).arg(nameOf(body)),
+                         QStringLiteral("In the scene"),
+                         {},
+                         QStringLiteral("holds"),
+                         [&window, pin] { showThing(window, pin); }});
+    }
+  }
+}
+
+/// What the menu of files lists, without what is gone.
+void addRecent(Entries& entries, MainWindow& window) {
+  const bool ready = window.session().isReady();
+  for (const QString& path : DocumentFiles::recent()) {
+    const QFileInfo file(path);
+    const QString title = QStringLiteral("Open recent: ") + file.completeBaseName();
+    const QString folder = QDir::toNativeSeparators(file.path());
+    entries.push_back({title,
+                       beside(title, {folder}),
+                       {},
+                       {},
+                       [&window, path] { window.openFile(path); },
+                       true,
+                       ready ? QString() : QString::fromLatin1(kLoading)});
+  }
 }
 
 void addFavourites(Entries& entries, MainWindow& window) {
@@ -292,29 +323,6 @@ void addButtons(Entries& entries, Known& known, QWidget& page, const QString& wh
   }
 }
 
-/// What a menu that comes by a right-click offers, and its submenus that are filled.
-void addMenu(Entries& entries, const std::shared_ptr<QMenu>& menu, const QString& where,
-             const std::function<void()>& show) {
-  const auto add = [&](QAction* action, const QString& before) {
-    if (action->isSeparator() || action->menu()) return;
-    entries.push_back({before + cleanText(*action),
-                       where,
-                       {},
-                       {},
-                       [show, menu, action] {
-                         show();
-                         action->trigger();
-                       },
-                       false,
-                       action->isEnabled() ? QString() : QStringLiteral("Not possible at present")});
-  };
-  for (QAction* action : menu->actions()) {
-    add(action, {});
-    if (!action->menu()) continue;
-    for (QAction* inner : action->menu()->actions()) add(inner, fromButtonText(action->text()) + QStringLiteral(": "));
-  }
-}
-
 void addPages(Entries& entries, Known& known, MainWindow& window, const Actions& actions) {
   const auto showTitled = [&window](const QString& title) { showPage(window, title); };
   for (const DockRow& row : dockTable()) {
@@ -330,19 +338,7 @@ void addPages(Entries& entries, Known& known, MainWindow& window, const Actions&
              [open = actions.find(QStringLiteral("add.library"))](const QString&) { open->trigger(); });
   addButtons(entries, known, *window.pluginPage(), QStringLiteral("Plugins"),
              [open = actions.find(QStringLiteral("help.plugins"))](const QString&) { open->trigger(); });
-  GraphsPanel* graphs = window.graphs();
-  std::vector<std::string> ids{{}};  // of the place where none is, too
-  for (const Graph& graph : window.session().document().graphs()) ids.push_back(graph.id);
-  for (const std::string& id : ids) {
-    const std::shared_ptr<QMenu> menu(graphs->makeMenu(id));
-    menu->setParent(nullptr);  // it lasts as long as what is found
-    const Plot* plot = graphs->plot(id);
-    addMenu(entries, menu, plot ? QStringLiteral("Graph “%1”").arg(plot->title()) : QStringLiteral("Graphs"),
-            [&window] { showPage(window, QStringLiteral("Graphs")); });
-  }
-  const auto runs = std::make_shared<QMenu>();
-  window.transport()->fillMenu(*runs);
-  addMenu(entries, runs, QStringLiteral("Timeline"), [] {});
+  addContextMenus(entries, window, showTitled);
 }
 
 QString wordsOf(const std::string& id, const std::vector<std::string>& tags) {
@@ -402,6 +398,7 @@ std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& acti
   addParameters(entries, window);
   addMaterials(entries, window);
   addThings(entries, window);
+  addRecent(entries, window);
   addBrush(entries, window);
   addFavourites(entries, window);
   addDialogs(entries, window);

@@ -8,8 +8,8 @@ class Actions;
 class MainWindow;
 
 /// Everything that Ctrl+K finds now: actions, parameters with their values, things of the scene, materials and presets
-/// that could be added, rows of the brush, of the preferences and of what the project says of itself, what buttons of
-/// pages do, and menus of graphs and runs.
+/// that could be added, projects of late, rows of the brush, of the preferences and of what the project says of itself,
+/// what buttons of pages do, and menus of graphs, runs, strokes and markers.
 std::vector<PaletteEntry> paletteEntries(MainWindow& window, const Actions& actions);
 
 }  // namespace ps

@@ -20,6 +20,8 @@ namespace ps {
 namespace {
 
 constexpr int kHeight = 36, kGap = 3;  // px; the gap to the docks below is part of it
+constexpr int kWide = 1280;            // px, from which on there is room for words beside the menus
+constexpr int kIconButton = 26;        // px
 
 /// The mark of the program: a hexagon, cold on the left and hot on the right, with a peak inside.
 class Logo : public QWidget {
@@ -87,6 +89,23 @@ QToolButton* buttonFor(QAction* action, const QString& iconName) {
   return button;
 }
 
+/// It never asks for more room than its picture takes: a window with words can be made as small as one without.
+class HeadsetButton : public QToolButton {
+ public:
+  explicit HeadsetButton(QAction* action) {
+    setDefaultAction(action);
+    setFocusPolicy(Qt::TabFocus);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+    const auto follow = [this, action] {
+      setIcon(ps::icon(QStringLiteral("headset")));
+      setText(action->isChecked() ? QStringLiteral("Leave VR") : QStringLiteral("Enter VR"));
+    };
+    connect(action, &QAction::changed, this, follow);
+    follow();
+  }
+  QSize minimumSizeHint() const override { return {kIconButton, QToolButton::sizeHint().height()}; }
+};
+
 }  // namespace
 
 TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, QWidget* parent)
@@ -109,12 +128,16 @@ TopBar::TopBar(QAction* undo, QAction* redo, QAction* search, QAction* headset, 
   right->addWidget(buttonFor(redo, QStringLiteral("redo")));
   right->addSpacing(6);
   right->addWidget(m_search = new SearchField(search));
-  right->addWidget(buttonFor(headset, QStringLiteral("headset")));
+  right->addWidget(m_headset = new HeadsetButton(headset));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(4, 0, 8, kGap);
   row->addLayout(left, 1);
   row->addWidget(m_workspaces, 0, Qt::AlignVCenter);
   row->addLayout(right, 1);
+}
+
+void TopBar::resizeEvent(QResizeEvent*) {
+  m_headset->setToolButtonStyle(width() >= kWide ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
 }
 
 void TopBar::paintEvent(QPaintEvent*) {

@@ -5,10 +5,12 @@
 class QAction;
 class QMenuBar;
 class QTabBar;
+class QToolButton;
 
 namespace ps {
 
-/// Logo and menus, workspaces in the middle, undo, redo, the search field and VR on the right; 36 pixels.
+/// Logo and menus, workspaces in the middle, undo, redo, the search field and VR on the right, which says so in words
+/// where the bar is wide; 36 pixels.
 class TopBar : public QWidget {
   Q_OBJECT
  public:
@@ -16,14 +18,17 @@ class TopBar : public QWidget {
   QMenuBar* menus() const { return m_menus; }
   QTabBar* workspaces() const { return m_workspaces; }
   QWidget* searchField() const { return m_search; }
+  QToolButton* headset() const { return m_headset; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   QMenuBar* m_menus;
   QTabBar* m_workspaces;
   QWidget* m_search;
+  QToolButton* m_headset;
 };
 
 }  // namespace ps

@@ -13,10 +13,12 @@
 #include "ui/welcome/welcomepage.h"
 #include "ui/window/actions.h"
 #include "ui/window/fileactions.h"
+#include "ui/window/filenames.h"
 #include "ui/window/restoreoffer.h"
 #include "ui/window/topbar.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtGui/QAction>
 #include <QtWidgets/QMenu>
@@ -25,6 +27,8 @@
 
 namespace ps {
 namespace {
+
+const QString kProjectFilter = QStringLiteral("Projects (*.json);;All files (*)");
 
 std::optional<SceneShot> shotOf(Session& session, const Viewport* view) {
   const SnapshotPtr snapshot = session.snapshot();
@@ -73,6 +77,7 @@ void Welcome::connectPage() {
     leave();
     m_parts.files.open(path);
   });
+  connect(m_page, &WelcomePage::projectSought, this, &Welcome::locate);
   connect(m_page, &WelcomePage::templateChosen, this, [this](const QString& path) {
     leave();
     m_parts.session.files().openTemplate(path);
@@ -96,6 +101,18 @@ void Welcome::connectPage() {
   });
   connect(&m_parts.restore, &RestoreOffer::offerChanged, this, &Welcome::showOffer);
   connect(&m_parts.centre, &QStackedWidget::currentChanged, this, &Welcome::onPage);
+}
+
+/// Where it is now takes the place of where it was.
+void Welcome::locate(const QString& path) {
+  const QFileInfo was(path);
+  const QString folder = was.dir().exists() ? was.path() : preferences::projectFolder();
+  const QString now = fileToRead(m_page->window(), QStringLiteral("Where is “%1” now?").arg(was.completeBaseName()),
+                                 folder, kProjectFilter);
+  if (now.isEmpty()) return;
+  DocumentFiles::forgetRecent(path);
+  leave();
+  m_parts.files.open(now);
 }
 
 /// One action for each sample and template: the menu and Ctrl+K have them.

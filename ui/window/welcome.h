@@ -53,6 +53,7 @@ class Welcome : public QObject {
   void makePage();
   void connectPage();
   void fillMenu();
+  void locate(const QString& path);
   void focusFirst();
   void onPage();
   void showOffer();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/windowlayout.h"
 
+#include "ui/panels/outliner.h"
 #include "ui/rows/parameterpanel.h"
 #include "ui/theme/theme.h"
 #include "ui/timeline/timeline.h"
@@ -14,6 +15,7 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTimer>
 #include <QtGui/QScreen>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QLayout>
 #include <QtWidgets/QMainWindow>
@@ -31,6 +33,7 @@ constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kStudio = "view/studio";
 constexpr const char *kSize = "window/size", *kOwn = "window/own", *kJoined = "window/joined";
 constexpr const char *kWorkspace = "window/workspace", *kPages = "window/pages/", *kFolded = "window/folded/";
+constexpr const char *kChanged = "window/changed/", *kRows = "window/rows";
 const QString kOutliner = QStringLiteral("Outliner"), kMaterials = QStringLiteral("Materials");
 constexpr std::pair<Workspace, const char*> kStates[] = {{Workspace::Scene, "window/state"},
                                                          {Workspace::Tune, "window/tune"},
@@ -57,6 +60,11 @@ void saveView(const Viewport& view, QSettings& settings) {
   for (const StudioRow& row : kStudioRows) {
     if (view.studio() == row.studio) settings.setValue(QLatin1String(kStudio), QLatin1String(row.key));
   }
+}
+
+/// The button by which a panel shows only what differs from its default.
+QAbstractButton* changedOf(const ParameterPanel& panel) {
+  return panel.findChild<QAbstractButton*>(QStringLiteral("psChanged"));
 }
 
 }  // namespace
@@ -324,7 +332,10 @@ void WindowLayout::restorePages() {
   for (const auto& [title, panel] : rowPanels()) {
     for (const QString& group : settings.value(QLatin1String(kFolded) + title).toStringList())
       panel->setGroupFolded(group, true);
+    panel->setChangedOnly(settings.value(QLatin1String(kChanged) + title, false).toBool());
   }
+  if (auto* outliner = m_window.findChild<Outliner*>())
+    outliner->fold(settings.value(QLatin1String(kRows)).toStringList());
 }
 
 std::map<QString, ParameterPanel*> WindowLayout::rowPanels() const {
@@ -355,8 +366,12 @@ void WindowLayout::save() const {
     if (workspace == m_workspace) settings.setValue(QLatin1String(kWorkspace), QLatin1String(key));
   }
   for (const Dock* dock : m_docks) settings.setValue(QLatin1String(kPages) + dock->objectName(), dock->currentPage());
-  for (const auto& [title, panel] : rowPanels())
+  for (const auto& [title, panel] : rowPanels()) {
     settings.setValue(QLatin1String(kFolded) + title, panel->foldedGroups());
+    settings.setValue(QLatin1String(kChanged) + title, changedOf(*panel)->isChecked());
+  }
+  if (const auto* outliner = m_window.findChild<Outliner*>())
+    settings.setValue(QLatin1String(kRows), outliner->folded());
   if (m_view) saveView(*m_view, settings);
 }
 

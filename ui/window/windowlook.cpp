@@ -7,11 +7,16 @@
 #include "ui/session/session.h"
 #include "ui/tools/favouritebrush.h"
 #include "ui/tools/toolbox.h"
+#include "ui/tools/tooltable.h"
 #include "ui/viewport/viewport.h"
 
 #include <QtCore/QPointer>
+#include <QtCore/QSettings>
 
 namespace ps {
+namespace {
+constexpr const char* kTool = "window/tool";
+}  // namespace
 
 void keepLook(Resuming& resuming, Session& session, GraphsPanel& graphs, Toolbox& tools, Viewport* view) {
   const auto add = [panel = QPointer(&graphs), seen = QPointer(view), &tools](LastLook& look) {
@@ -26,6 +31,16 @@ void keepLook(Resuming& resuming, Session& session, GraphsPanel& graphs, Toolbox
     tools.setBrush(brushOf(look.brush, tools.brush(), *session.plugins(), session.document().project()));
   };
   resuming.setLook(add, show);
+}
+
+void keepTool(const Toolbox& tools) {
+  QSettings().setValue(QLatin1String(kTool), QString::fromStdString(tools.active()));
+}
+
+/// What draws belongs to Sketch, and all else elsewhere.
+void takeToolAgain(Toolbox& tools) {
+  const std::string left = QSettings().value(QLatin1String(kTool)).toString().toStdString();
+  if (toolRow(left) && tools.tool(left).usesBrush() == tools.tool().usesBrush()) tools.activate(left);
 }
 
 }  // namespace ps
