@@ -37,6 +37,19 @@ Box boxOfCells(const Body& body) {
   return box;
 }
 
+/// Of the upper ones of an eye's picture, where no hand is: what their pixels have, on the average.
+double lightOfCorners(const QImage& picture) {
+  constexpr int kCorner = 16;
+  double all = picture.isNull() ? 1e9 : 0;
+  for (int y = 0; y < kCorner; ++y)
+    for (int x = 0; x < kCorner; ++x)
+      for (const int column : {x, picture.width() - 1 - x}) {
+        const QColor colour = picture.pixelColor(column, y);
+        all += colour.red() + colour.green() + colour.blue();
+      }
+  return all / (2 * kCorner * kCorner);
+}
+
 constexpr const char* kVive = "/interaction_profiles/htc/vive_controller";
 constexpr int kShortly = 5, kForLong = 40;  // frames of 20 ms, that a button is pressed
 
@@ -569,7 +582,7 @@ void VrHandsTest::sticksAndPadsTurnTheWearerAndTakeThemThere() {
   const QByteArray turning = turns.toLatin1();
   const vr::HandPose& hand = turns == QStringLiteral("left") ? left : right;
   const ScriptedRun run(withProfile(
-      vrScript(QStringLiteral(R"(, "pictures": [60, 130])"),
+      vrScript(QStringLiteral(R"(, "pictures": [20, 22, 24, 26, 60, 130])"),
                key(5, "left", left, rests) + key(5, "right", right, rests) + key(20, turning.constData(), hand, aside) +
                    key(26, turning.constData(), hand, rests) + awayFrom(30) + key(65, "left", left, rests) +
                    key(80, "left", left, forward) + key(95, "left", left, rests) + awayFrom(100)),
@@ -581,6 +594,13 @@ void VrHandsTest::sticksAndPadsTurnTheWearerAndTakeThemThere() {
   QVERIFY(run.lines("violation").empty());
   QCOMPARE(m_window->tools().brush().radius, radius);
   QCOMPARE(m_window->tools().brush().shape, std::string("sphere"));
+  // While it turned, the picture's corners were darker, by half or so, than they are from there afterwards.
+  for (const bool eye : {false, true}) {
+    double darkest = 1e9;
+    for (const int frame : {20, 22, 24, 26}) darkest = std::min(darkest, lightOfCorners(run.picture(frame, eye)));
+    const double still = lightOfCorners(run.picture(60, eye));
+    QVERIFY2(darkest < 0.85 * still, qPrintable(QStringLiteral("%1 of %2").arg(darkest).arg(still)));
+  }
   sawFrom(run, 60, turned, QStringLiteral("vr-turned"));
   sawFrom(run, 130, there, QStringLiteral("vr-gone"));
 }

@@ -89,6 +89,14 @@ class VrModeTest : public VrWindowTest {
   void anotherProjectComesBeforeTheWearer();
   void staysLeaveNothing();
   void windowClosesInVr();
+
+ private:
+  bool isDrawnByCard() {
+    view()->makeCurrent();
+    const QByteArray name(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    view()->doneCurrent();
+    return !name.contains("llvmpipe") && !name.contains("softpipe") && !name.contains("swrast");
+  }
 };
 
 void VrModeTest::commandIsWhereOneLooksForIt() {
@@ -115,9 +123,13 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
   QTRY_VERIFY_WITH_TIMEOUT(session().now() > before, kLong);
   clock.restart();
   leave();
-  // Two seconds are asked on a machine with a graphics card; here the figures are only told.
+  const qint64 left = clock.elapsed();
   qInfo("the command returned after %lld ms; in the headset after %lld ms, out of it in %lld ms", returned, entered,
-        clock.elapsed());
+        left);
+  // Two seconds are asked on a machine with a graphics card; where a processor draws, and computes, it gets four times
+  // as long.
+  const qint64 most = isDrawnByCard() ? 2000 : 8000;  // ms
+  QVERIFY(returned < most / 4 && entered < most && left < most);
   QVERIFY(!status().contains(QStringLiteral("VR")));
   QVERIFY(session().playing());
   QVERIFY(run.lines("violation").empty());

@@ -53,6 +53,7 @@ class VrPanelsTest : public PanelsTest {
   void aBeamAtAnEdgeKeepsWhatItLeft();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
+  void aBeamIsSeenToWhatItPointsAt();
   void aTriggerPulledElsewhereDraws();
   void theNearerPanelIsMeant();
   void letteringAndTargetsAreLargeEnough();
@@ -302,6 +303,50 @@ void VrPanelsTest::tipsPressWhatTheyGoThrough() {
   QVERIFY(tipAt(-0.005)->pressed);
   QVERIFY(tipAt(0.005)->pressed);
   QVERIFY(!tipAt(0.015)->pressed);
+}
+
+/// From before the wand to a dot on the panel, in the accent's colour, by both eyes.
+void VrPanelsTest::aBeamIsSeenToWhatItPointsAt() {
+  constexpr int kWide = 512;
+  const QString size = QStringLiteral(R"("width": %1, "height": %1)");
+  QString text = QString::fromStdString(vrScript({}, kHandsAway));
+  QVERIFY(text.contains(size.arg(kSide)));
+  ScriptedRun run(text.replace(size.arg(kSide), size.arg(kWide)).toStdString());
+  enter();
+  panels().showLabels(false);
+  panels().showPage(QStringLiteral("Scene"));
+  const Vector3 hit = boardPlace().at(0.4, 0.5);
+  const vr::HandPose hand = pointing({0.3, 1.2, -0.1}, hit);
+  run.goOn(vrScript(QStringLiteral(R"(, "pictures": [20, 50])"), kHandsAway + key(30, "right", hand)));
+  QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{4}, 2 * kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  const Vector3 way = (hit - hand.position).normalized();
+  const int accent = Theme::current()[Token::Accent].hsvHue();
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  for (const bool right : {false, true}) {
+    std::vector<QImage> seen;
+    for (const std::string& name : run.texts("picture"))
+      if (name.ends_with(right ? "-right.png" : "-left.png")) seen.emplace_back(QString::fromStdString(name));
+    QCOMPARE(seen.size(), size_t{2});
+    if (!folder.isEmpty()) seen[1].save(folder + (right ? "/vr-beam-right.png" : "/vr-beam-left.png"));
+    // A pixel near there is of its colour, and was another one before.
+    const auto shines = [&](const Vector3& room) {
+      const auto colourAt = [&](const QImage& picture, int k) {
+        const Vector3 at = project(scriptEye(right), picture.width(), picture.height(), room).value_or(Vector3::Zero());
+        return picture.pixelColor(int(at.x()) + k % 5 - 2, int(at.y()) + k / 5 - 2);
+      };
+      for (int k = 0; k < 25; ++k) {
+        const QColor a = colourAt(seen[0], k), b = colourAt(seen[1], k);
+        const int apart = std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) + std::abs(a.blue() - b.blue());
+        if (apart > 30 && std::abs(b.hsvHue() - accent) < 25 && b.hsvSaturation() > 60) return true;
+      }
+      return false;
+    };
+    for (const double before : {0.05, 0.1}) QVERIFY(shines(hand.position + (vr::kTip + before) * way));
+    QVERIFY(shines(hit));
+    QVERIFY(!shines(hand.position + (vr::kTip + 0.05) * way + Vector3(0, 0.05, 0)));
+  }
 }
 
 void VrPanelsTest::aTriggerPulledElsewhereDraws() {
