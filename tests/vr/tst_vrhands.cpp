@@ -77,6 +77,8 @@ class VrHandsTest : public VrWindowTest {
 
   void aTriggerDrawsAStrokeThatAButtonTakesBack();
   void aStrokeOutlivesEdits();
+  void strokesEndWhereBodiesPartAndGo_data();
+  void strokesEndWhereBodiesPartAndGo();
   void bothHandsDrawAtOnce();
   void oneHandErases_data();
   void oneHandErases();
@@ -245,6 +247,78 @@ void VrHandsTest::aStrokeOutlivesEdits() {
   QCOMPARE(steps(), 3);
   QVERIFY(run.lines("violation").empty());
   while (document().undoStack().canUndo()) document().undoStack().undo();
+}
+
+void VrHandsTest::strokesEndWhereBodiesPartAndGo_data() {
+  QTest::addColumn<bool>("onTheBar");
+  QTest::addColumn<QString>("edit");
+  QTest::addColumn<bool>("kept");
+  QTest::newRow("elsewhere, as a body parts") << false << "part" << true;
+  QTest::newRow("elsewhere, as a body goes") << false << "remove" << true;
+  QTest::newRow("elsewhere, as a material comes") << false << "material" << true;
+  QTest::newRow("on what parts") << true << "part" << true;
+  QTest::newRow("on what goes") << true << "remove" << false;
+}
+
+/// As far as it came, as a step of its own after what the desktop did; without what it goes on with there is nothing
+/// left to keep. A bar in the air, of two pieces, is what parts and goes.
+void VrHandsTest::strokesEndWhereBodiesPartAndGo() {
+  QFETCH(bool, onTheBar);
+  QFETCH(QString, edit);
+  QFETCH(bool, kept);
+  Toolbox& tools = m_window->tools();
+  const BrushSettings chosen = tools.brush();
+  const double spacing = tools.spacing();
+  Body bar;
+  bar.id = "bar", bar.material = "water";
+  bar.constraints.push_back({"bonds", {}, {}});
+  VoxelShape cells;
+  cells.origin = Vector3::Constant(spacing / 2);
+  cells.spacing = spacing;
+  cells.palette = {{"water", chosen.temperature}};
+  cells.runs = {{-6, 30, 0, 3, 0}, {2, 30, 0, 3, 0}};
+  bar.shape = cells;
+  const std::string id = document().addBody(bar);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  const std::string before = writeProject(document().project());
+  const int begun = steps();
+
+  VrHands hands(session(), tools);
+  vr::HandsSeen seen;
+  const auto acts = [&](const Vector3& tip, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[vr::kRight].tip = tip;
+    seen.hands[vr::kRight].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  const Vector3 from = onTheBar ? Vector3(-5.5 * spacing, 30.5 * spacing, spacing / 2) : Vector3(-0.2, 0.45, -0.2);
+  acts(from, 0);
+  for (int k = 0; k < 5; ++k) acts(from + Vector3(0, 0, 0.02 * k), 1);
+  QCOMPARE(steps(), begun);
+  if (edit == QStringLiteral("part")) {
+    QCOMPARE(document().partBody(id, {{{2, 30, 0}, {3, 30, 0}, {4, 30, 0}}}).size(), size_t{1});
+  } else if (edit == QStringLiteral("remove")) {
+    QCOMPARE(document().removeBody(id), QString());
+  } else {
+    document().addMaterial("iron");
+  }
+  const int edited = steps();
+  QCOMPARE(edited, begun + 1);
+  acts(from + Vector3(0, 0, 0.1), 1);
+  acts(from + Vector3(0, 0, 0.12), 0);
+  QCOMPARE(steps(), edited + (kept ? 1 : 0));
+  if (kept) {
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("brush stroke"));
+    const Body& drawn = onTheBar ? *document().body(id) : document().project().bodies.back();
+    const auto [low, high] = boxOfCells(drawn);
+    QVERIFY(low.z() < from.z() - spacing && high.z() > from.z() + 0.08);
+    QVERIFY(high.x() < 2 * spacing);  // the other piece is none of it
+    document().undoStack().undo();
+  }
+  document().undoStack().undo();
+  QCOMPARE(writeProject(document().project()), before);
+  if (kept) QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
 }
 
 /// The left one with its grip held: it draws then, as the right one erases.
