@@ -886,6 +886,16 @@ void VrHandsTest::handsOfTheMouseAreWhereItPoints() {
   QVERIFY(seen && std::abs(seen->x() - 225) < 1e-6 && std::abs(seen->y() - 125) < 1e-6);
   QVERIFY(std::abs((tipOf(frame.hands[vr::kRight]) - frame.head.position).norm() - 0.55) < 1e-9);
   QVERIFY((frame.head.position - placeOf(room.eye(aspect))).norm() < 1e-9);
+  // Rolled, it points there still, and its upper side leans to its wearer's right.
+  room.roll(0.5);
+  const vr::HandPose rolled = *room.frame(1.5, aspect).hands[vr::kRight].aim;
+  const vr::HandPose level = *frame.hands[vr::kRight].aim;
+  QVERIFY((rolled.position - level.position).norm() < 1e-9);
+  QVERIFY((rolled.orientation * Vector3::UnitZ() - level.orientation * Vector3::UnitZ()).norm() < 1e-9);
+  const Vector3 upper = level.orientation.conjugate() * (rolled.orientation * Vector3::UnitY());
+  QVERIFY((upper - Vector3(std::sin(0.5), std::cos(0.5), 0)).norm() < 1e-9);
+  room.level();
+  QVERIFY(room.frame(1.5, aspect).hands[vr::kRight].aim->orientation.angularDistance(level.orientation) < 1e-9);
   room.useOther();
   room.point(-0.5, 0);
   const vr::HeadsetFrame other = room.frame(2, aspect);
@@ -927,6 +937,20 @@ void VrHandsTest::mouseDrawsWithoutAHeadset() {
   QTest::keyPress(&window, Qt::Key_U);
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
   QTest::keyRelease(&window, Qt::Key_U);
+  // X rolls the hand on and on; R makes real.
+  const auto upper = [&]() -> Vector3 { return window.room().input(vr::kRight).aim->orientation * Vector3::UnitY(); };
+  const Vector3 level = upper();
+  QTest::keyPress(&window, Qt::Key_X);
+  QTRY_VERIFY_WITH_TIMEOUT(upper().dot(level) < 0.9, kLong);
+  QTest::keyPress(&window, Qt::Key_C);
+  QTRY_VERIFY_WITH_TIMEOUT(upper().dot(level) > 1 - 1e-9, kLong);
+  QTest::keyRelease(&window, Qt::Key_C);
+  QTest::keyRelease(&window, Qt::Key_X);
+  const Address held{Owner::Body, "ice", "held"};
+  QCOMPARE(document().setParameter(held, true), QString());
+  QTest::keyPress(&window, Qt::Key_R);
+  QTRY_COMPARE_WITH_TIMEOUT(document().value(held), Value(false), kLong);
+  QTest::keyRelease(&window, Qt::Key_R);
   QTest::keyClick(&window, Qt::Key_Escape);
   QVERIFY(!vr().active() && !without->isChecked());
   without->trigger();  // and again, until it is asked to end here
