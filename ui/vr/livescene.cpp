@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace ps::vr {
 namespace {
@@ -107,6 +108,7 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
     else if (!m_panels.takes(hand) && !m_moving.takes(hand))
       addVolume(m_props, m_moving.stand().toScene(tipOf(*aim)), brush);
   }
+  if (m_link->handsWanted()) m_link->showHands(std::make_shared<Props>(Props{m_props.opaque, m_props.clear, {}}));
   m_panels.addTo(m_props, m_moving.stand(), *m_view);
   m_panelsThere = m_props.panels.size();
   m_moving.addTo(m_props, frame, m_view->accent);
