@@ -646,12 +646,12 @@ void HeadsetTest::aLoneHandGoesAndScales() {
   frame.head.position = {0.2, 1.6, 0.1};
   ps::vr::HandInput& hand = frame.hands[kRight];
   hand.grip = hand.aim = ps::vr::HandPose{{0, 1, 0}, ps::Quaternion(Eigen::AngleAxisd(-M_PI / 4, Vector3::UnitX()))};
-  const auto after = [&](double hold, double right, double forward) {
+  const auto after = [&](double hold, double right, double forward, bool busy = false) {
     frame.time += 0.01;
     hand.hold = hold;
     hand.steerX = right;
     hand.steerY = forward;
-    moving.follow(frame, roles);
+    moving.follow(frame, roles, busy);
   };
   after(0, 0, 1);
   QVERIFY(!moving.goal() && !moving.steers(kRight, hand));
@@ -667,6 +667,11 @@ void HeadsetTest::aLoneHandGoesAndScales() {
   QVERIFY(near(moving.stand().toRoom(held), hand.grip->position, 1e-9));
   for (const double aside : {-1.0, 0.0, -1.0, 0.0}) after(1, aside, 0);
   QVERIFY(std::abs(moving.stand().scale / scale - 1) < 1e-9);
+  // Where it points at a panel the stick is that panel's.
+  for (const double aside : {1.0, 0.0, -1.0, 0.0}) after(1, aside, 0, true);
+  after(1, 0, 1, true);
+  QVERIFY(std::abs(moving.stand().scale / scale - 1) < 1e-9 && !moving.goal());
+  after(1, 0, 0);
   after(0, 1, 0);
   QVERIFY(std::abs(std::abs(moving.stand().turn) - M_PI / 6) < 1e-12);
 }

@@ -11,6 +11,7 @@
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/rows/groupheading.h"
 #include "ui/rows/parameterrow.h"
+#include "ui/session/preferences.h"
 #include "ui/theme/theme.h"
 #include "ui/vr/handlabels.h"
 #include "ui/vr/panels.h"
@@ -25,6 +26,8 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QTreeView>
 
@@ -41,7 +44,10 @@ class VrPanelsTest : public PanelsTest {
  private Q_SLOTS:
   void initTestCase() { open(); }
   void init() { backToTheStart(); }
-  void cleanup() { leaveAtLast(); }
+  void cleanup() {
+    leaveAtLast();
+    preferences::setOneHanded(false);
+  }
   void cleanupTestCase() { m_window.reset(); }
 
   void thePaletteShowsWithThePalm();
@@ -65,6 +71,7 @@ class VrPanelsTest : public PanelsTest {
   void namesLeadToTheirPages();
   void menusComeAlong();
   void aStickOpensMenus();
+  void aLoneHandWithItsGripScrolls();
   void gravityIsTakenAndGivenBack();
   void labelsSayWhatControllersDo_data();
   void labelsSayWhatControllersDo();
@@ -739,6 +746,33 @@ void VrPanelsTest::aStickOpensMenus() {
   QVERIFY2(offered.contains(QStringLiteral("Reset")) && offered.contains(QStringLiteral("Explain")),
            qPrintable(offered.join(QStringLiteral(", "))));
   QCOMPARE(offered.count(QStringLiteral("Reset")), 1);
+}
+
+/// What its beam points at, as without the grip: by that stick it goes and scales elsewhere.
+void VrPanelsTest::aLoneHandWithItsGripScrolls() {
+  preferences::setOneHanded(true);
+  ScriptedRun run(vrScript({}, kHandsAway));
+  enter();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  QScrollArea* area = nullptr;
+  for (auto* one : panels().widget(vr::kBoard)->findChildren<QScrollArea*>())
+    if (one->isVisible()) area = one;
+  QVERIFY(area);
+  const QScrollBar& bar = *area->verticalScrollBar();
+  QVERIFY(bar.maximum() > 0 && bar.value() == 0);
+  const auto stick = [&](int frame, int y) {
+    return boardKey(frame, *area, QRectF(area->rect()).center(), false, false,
+                    kHolds + QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y));
+  };
+  run.goOn(vrScript({}, stick(0, 0) + stick(20, -1) + stick(26, 0)));
+  QTRY_VERIFY_WITH_TIMEOUT(bar.value() > 0, kLong);
+  const uint64_t over = vr().frames() + 10;
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > over, kLong);
+  run.goOn(vrScript({}, stick(0, 0) + stick(20, 1) + stick(40, 0)));
+  QTRY_COMPARE_WITH_TIMEOUT(bar.value(), 0, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
 }
 
 void VrPanelsTest::gravityIsTakenAndGivenBack() {

@@ -69,7 +69,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     told.holds = input.hold > kHeld && !m_moving.usesGrip(hand);
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
-    if (m_moving.steers(hand, input)) told.input.steerX = told.input.steerY = 0;
+    if (m_moving.steers(hand, input) && !told.panel) told.input.steerX = told.input.steerY = 0;
     if (!input.aim) continue;
     told.tip = m_moving.stand().toScene(tipOf(*input.aim));
     const Quaternion turned = m_moving.stand().toScene(*input.aim).orientation;
