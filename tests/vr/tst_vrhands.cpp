@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands in the headset: what they draw, erase, heat and carry in the editor's scene.
 #include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 #include "core/scene/solidform.h"
+#include "core/sketch/cellset.h"
 #include "tests/ui/hands.h"
 #include "tests/vr/panelhands.h"
+#include "ui/document/declared.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/toolbox.h"
@@ -99,6 +102,8 @@ class VrHandsTest : public VrWindowTest {
   void aViveMenuHasTwoMeanings_data();
   void aViveMenuHasTwoMeanings();
   void whatIsLetGoInMotionFliesOn();
+  void everyBrushWorksInEitherHand_data();
+  void everyBrushWorksInEitherHand();
   void aTriggerMovesMatter_data();
   void aTriggerMovesMatter();
   void handsAreSeen();
@@ -152,6 +157,36 @@ class VrHandsTest : public VrWindowTest {
     [&] { QTRY_VERIFY_WITH_TIMEOUT(shows(), kLong); }();
     return id;
   }
+  /// A hollow cube of ice in the air, of so many cells from its middle to its sides, which are three cells thick.
+  std::string addHollow(int half) {
+    const std::string id = addFloatingBlock({0, 0.6, 0});
+    Body hollow = *document().body(id);
+    document().undoStack().undo();
+    VoxelShape cells;
+    cells.spacing = m_window->tools().spacing();
+    cells.origin = Vector3::Constant(cells.spacing / 2);
+    cells.palette = {{"water", 263.15}};
+    const int middle = static_cast<int>(0.6 / cells.spacing), hole = half - 3;
+    for (int z = -half; z <= half; ++z)
+      for (int y = -half; y <= half; ++y)
+        for (int x = -half; x <= half; ++x)
+          if (std::max({std::abs(x), std::abs(y), std::abs(z)}) > hole) cells.runs.push_back({x, middle + y, z, 1, 0});
+    cells.runs = VoxelCanvas(cells.runs).runs();  // as edits leave them
+    hollow.shape = cells;
+    return document().addBody(hollow);
+  }
+  /// m/s, of the body's fastest particle.
+  double fastestOf(const std::string& id) {
+    return onEngine<double>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.particles();
+      double fastest = 0;
+      for (size_t i = 0; i < store.size(); ++i)
+        if (engine.bodyIds()[store.body()[i]] == id) fastest = std::max(fastest, vectorOf(store.velocity()[i]).norm());
+      return fastest;
+    });
+  }
+  void drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way);
+  void touchesWhatIsThere(size_t hand, const std::string& id);
   struct Motion {
     Vector3 place{0, 0, 0}, velocity{0, 0, 0};  ///< m and m/s, of its particles on the average
     double turns = 0;                           ///< rad/s about the vertical through there
@@ -798,6 +833,114 @@ void VrHandsTest::whatIsLetGoInMotionFliesOn() {
           QStringLiteral("%1 %2 %3 m/s").arg(thrown.velocity.x()).arg(thrown.velocity.y()).arg(thrown.velocity.z())));
   QVERIFY(thrown.place.x() > from.x() + 0.15);
   QCOMPARE(bodies(), m_before + 1);
+}
+
+void VrHandsTest::everyBrushWorksInEitherHand_data() {
+  QTest::addColumn<QString>("brush");
+  const std::vector<std::string> brushes = idsByLabel(*session().plugins(), PluginKind::Brush);
+  QVERIFY(brushes.size() > 15);
+  for (const std::string& brush : brushes) QTest::newRow(brush.c_str()) << QString::fromStdString(brush);
+}
+
+/// Of the right hand, and of the left one of a left-handed wearer: what draws makes one step, in the air, in the hollow
+/// or on its sides, as it is meant for; what touches matter makes one, or moves it.
+void VrHandsTest::everyBrushWorksInEitherHand() {
+  QFETCH(QString, brush);
+  constexpr int kHalf = 4;
+  Toolbox& tools = m_window->tools();
+  const BrushSettings chosen = tools.brush();
+  const std::string id = addHollow(kHalf), iron = document().addMaterial("iron");
+  m_window->selection().selectBody(id);  // what a stamp stamps
+  m_window->selection().setMaterial(iron);
+  tools.takeBrush(brush.toStdString());
+  QCOMPARE(tools.brush().shape, brush.toStdString());
+  QTRY_VERIFY_WITH_TIMEOUT(!tools.stampsShape() || tools.shape(), kLong);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  QSignalSpy refused(&tools, &Toolbox::refused);
+  const double spacing = tools.spacing();
+  const Vector3 middle = motionOf(id).place;
+  const api::BrushPlugin* plugin = session().plugins()->brush(brush.toStdString());
+  for (const size_t hand : {vr::kRight, vr::kLeft}) {
+    if (tools.touchesMatter())
+      touchesWhatIsThere(hand, id);
+    else if (tools.reworks())
+      drawsAndIsUndone(hand, middle + Vector3::Constant(kHalf * spacing), Vector3(0, -0.04, 0));
+    else if (plugin->extension(api::kFillsHollows))
+      drawsAndIsUndone(hand, middle, Vector3(0, spacing, 0));
+    else
+      drawsAndIsUndone(hand, {-0.2, 0.42, -0.2}, {0.12, 0, 0});
+    const QString why = refused.isEmpty() ? QString() : refused.first()[1].toString();
+    QVERIFY2(why.isEmpty(), qPrintable(why));
+    if (QTest::currentTestFailed()) break;
+  }
+  session().pause();
+  tools.setBrush(chosen);
+}
+
+void VrHandsTest::drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way) {
+  constexpr int kParts = 8;
+  const std::string before = writeProject(document().project());
+  const size_t all = idsNow(session()).size();
+  const int begun = steps();
+  VrHands hands(session(), m_window->tools());
+  vr::HandsSeen seen;
+  seen.roles.main = hand;
+  const auto acts = [&](double share, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[hand].tip = from + share * way;
+    seen.hands[hand].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  acts(0, 0);
+  for (int part = 0; part <= kParts; ++part) acts(double(part) / kParts, 1);
+  acts(1, 0);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), begun + 1, kLong);  // what fills takes its time
+  QVERIFY(writeProject(document().project()) != before);
+  document().undoStack().undo();
+  QCOMPARE(steps(), begun);
+  QCOMPARE(writeProject(document().project()), before);
+  QTest::qWait(50);  // where the scene is made anew
+  QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
+}
+
+/// Upwards along a side of the cube, while time passes.
+void VrHandsTest::touchesWhatIsThere(size_t hand, const std::string& id) {
+  constexpr int kFrames = 10;
+  session().pause();
+  toTheStart();
+  const int begun = steps();
+  const Vector3 from = motionOf(id).place + Vector3(0.07, -0.03, 0), way(0, 0.06, 0);
+  QVERIFY(fastestOf(id) < 1e-3);
+  VrHands hands(session(), m_window->tools());
+  vr::HandsSeen seen;
+  seen.roles.main = hand;
+  const auto acts = [&](double share, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[hand].tip = from + share * way;
+    seen.hands[hand].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  acts(0, 0);
+  session().play();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing() && session().newest()->stats.frame > 0, kLong);
+  double fastest = 0;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    acts(double(frame) / kFrames, 1);
+    const uint64_t now = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > now, kLong);
+    fastest = std::max(fastest, fastestOf(id));
+  }
+  acts(1, 0);
+  vr::HeadsetView told;
+  hands.describe(told);
+  QCOMPARE(told.ticks[hand], uint64_t{1});
+  session().pause();
+  QVERIFY2(steps() == begun + 1 || (steps() == begun && fastest > 0.01), qPrintable(QString::number(fastest)));
+  if (steps() == begun) return;
+  QVERIFY(document().undoStack().undoText().contains(QStringLiteral("matter")));
+  document().undoStack().undo();
+  QCOMPARE(steps(), begun);
 }
 
 void VrHandsTest::aTriggerMovesMatter_data() {
