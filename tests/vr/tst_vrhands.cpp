@@ -102,6 +102,7 @@ class VrHandsTest : public VrWindowTest {
   void aViveMenuHasTwoMeanings_data();
   void aViveMenuHasTwoMeanings();
   void whatIsLetGoInMotionFliesOn();
+  void bothHandsStretchWhatIsSoft();
   void everyBrushWorksInEitherHand_data();
   void everyBrushWorksInEitherHand();
   void aTriggerMovesMatter_data();
@@ -174,6 +175,35 @@ class VrHandsTest : public VrWindowTest {
     cells.runs = VoxelCanvas(cells.runs).runs();  // as edits leave them
     hollow.shape = cells;
     return document().addBody(hollow);
+  }
+  /// A bar of jelly along x, 0.3 m long, that floats as that does, and soon comes to rest.
+  std::string addJelly(const Vector3& middle) {
+    const std::string jelly = document().addMaterial("jelly");
+    Body bar = *document().body(addFloatingBlock(middle));
+    document().undoStack().undo();
+    bar.material = jelly;
+    bar.parameters.values["temperature"] = 293.15;
+    ParameterSet soft;
+    soft.values["damping"] = 0.05;  // s
+    bar.constraints = {{"clusters", soft, {}}};
+    BoxShape box;
+    box.center = middle;
+    box.size = {0.3, 0.06, 0.06};
+    bar.shape = box;
+    return document().addBody(bar);
+  }
+  /// m, from the first to the last of its particles along x.
+  double lengthOf(const std::string& id) {
+    return onEngine<double>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.particles();
+      double low = 1e9, high = -1e9;
+      for (size_t i = 0; i < store.size(); ++i) {
+        if (engine.bodyIds()[store.body()[i]] != id) continue;
+        low = std::min(low, vectorOf(store.position()[i]).x());
+        high = std::max(high, vectorOf(store.position()[i]).x());
+      }
+      return high - low;
+    });
   }
   /// m/s, of the body's fastest particle.
   double fastestOf(const std::string& id) {
@@ -833,6 +863,59 @@ void VrHandsTest::whatIsLetGoInMotionFliesOn() {
           QStringLiteral("%1 %2 %3 m/s").arg(thrown.velocity.x()).arg(thrown.velocity.y()).arg(thrown.velocity.z())));
   QVERIFY(thrown.place.x() > from.x() + 0.15);
   QCOMPARE(bodies(), m_before + 1);
+}
+
+/// Taken by its ends with the grips of both, as they part; let go, after hands that rest, it has the length again that
+/// it had. None of it is a step.
+void VrHandsTest::bothHandsStretchWhatIsSoft() {
+  constexpr int kPulls = 40, kStays = 15;                 // frames; the latter are longer than a throw is measured
+  constexpr double kEnd = 0.11, kPull = 0.05, kRest = 1;  // m, of each hand, and s
+  const Vector3 middle(0, 0.6, 0.1);
+  const std::string id = addJelly(middle);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  const int before = steps();
+  const size_t count = motionOf(id).count;
+  const double length = lengthOf(id);
+  QVERIFY2(std::abs(length - 0.28) < 0.021, qPrintable(QString::number(length)));
+  VrHands hands(session(), m_window->tools());
+  view()->setUpdatesEnabled(false);  // time does not wait for pictures
+  session().play();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  const auto time = [&] { return session().newest()->stats.time; };
+  const auto nextFrame = [&] {
+    const uint64_t frame = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > frame, kLong);
+  };
+  vr::HandsSeen seen;
+  const auto acts = [&](double apart, bool hold) {
+    seen.seconds = time();
+    for (const size_t hand : {vr::kLeft, vr::kRight}) {
+      seen.hands[hand].tip = middle + Vector3((hand == vr::kLeft ? -1 : 1) * (kEnd + apart), 0, 0);
+      seen.hands[hand].holds = hold;
+    }
+    hands.act(seen, session().newest());
+  };
+  nextFrame();
+  acts(0, false);
+  acts(0, true);
+  vr::HeadsetView told;
+  hands.describe(told);
+  QVERIFY(told.keeps[vr::kLeft] && told.keeps[vr::kRight]);
+  for (int frame = 1; frame <= kPulls + kStays; ++frame) {
+    acts(kPull * std::min(1.0, double(frame) / kPulls), true);
+    nextFrame();
+  }
+  const double stretched = lengthOf(id);
+  QVERIFY2(stretched > length + kPull && stretched < length + 3 * kPull, qPrintable(QString::number(stretched)));
+  acts(kPull, false);
+  const double then = time();
+  QTRY_VERIFY_WITH_TIMEOUT(time() > then + kRest, kLong);
+  const double after = lengthOf(id);
+  session().pause();
+  QVERIFY2(std::abs(after - length) < 0.2 * kPull, qPrintable(QString::number(after)));
+  QCOMPARE(steps(), before);
+  QCOMPARE(motionOf(id).count, count);
 }
 
 void VrHandsTest::everyBrushWorksInEitherHand_data() {
