@@ -34,13 +34,25 @@ Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function
   return stay;
 }
 
-size_t countGlObjects() {
-  size_t count = 0;
-  for (GLuint name = 1; name < 2000; ++name)
-    count += size_t(glIsTexture(name)) + size_t(glIsFramebuffer(name)) + size_t(glIsBuffer(name)) +
-             size_t(glIsRenderbuffer(name)) + size_t(glIsVertexArray(name)) + size_t(glIsQuery(name)) +
-             size_t(glIsProgram(name)) + size_t(glIsShader(name));
+std::map<std::string, size_t> glObjects() {
+  std::map<std::string, size_t> count;
+  for (GLuint name = 1; name < 2000; ++name) {
+    count["textures"] += size_t(glIsTexture(name));
+    count["framebuffers"] += size_t(glIsFramebuffer(name));
+    count["buffers"] += size_t(glIsBuffer(name));
+    count["renderbuffers"] += size_t(glIsRenderbuffer(name));
+    count["vertex arrays"] += size_t(glIsVertexArray(name));
+    count["queries"] += size_t(glIsQuery(name));
+    count["programs"] += size_t(glIsProgram(name));
+    count["shaders"] += size_t(glIsShader(name));
+  }
   return count;
+}
+
+size_t countGlObjects() {
+  size_t all = 0;
+  for (const auto& [kind, count] : glObjects()) all += count;
+  return all;
 }
 
 size_t countThreads() {

@@ -2,6 +2,9 @@
 #pragma once
 #include "tests/vr/paintedscene.h"
 
+#include <map>
+#include <string>
+
 namespace ps {
 
 /// How a stay in the headset went.
@@ -23,7 +26,8 @@ Stay stayInHeadset(const std::function<void()>& makeCurrent, const std::function
                    const StayPlan& plan = {});
 Stay stayInHeadset(HeadlessContext& context, const StayPlan& plan = {});
 
-/// Objects of all kinds that exist in the context that is current.
+/// How many objects of each kind exist in the context that is current, and of all kinds.
+std::map<std::string, size_t> glObjects();
 size_t countGlObjects();
 size_t countThreads();  ///< of this process
 

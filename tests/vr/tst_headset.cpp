@@ -69,6 +69,7 @@ class HeadsetTest : public QObject {
   void aBareHandPointsAndPinches();
   void gripsCarryUnlessAHandHasSomething();
   void aLoneHandGoesAndScales();
+  void theEdgeIsDimmedWhileTheWearerMoves();
   void aRuntimeMayTakeTheContext();
   void aLeftHandedWearerGoesWithTheRight();
 
@@ -645,12 +646,12 @@ void HeadsetTest::aLoneHandGoesAndScales() {
   frame.head.position = {0.2, 1.6, 0.1};
   ps::vr::HandInput& hand = frame.hands[kRight];
   hand.grip = hand.aim = ps::vr::HandPose{{0, 1, 0}, ps::Quaternion(Eigen::AngleAxisd(-M_PI / 4, Vector3::UnitX()))};
-  const auto after = [&](double hold, double right, double forward) {
+  const auto after = [&](double hold, double right, double forward, bool busy = false) {
     frame.time += 0.01;
     hand.hold = hold;
     hand.steerX = right;
     hand.steerY = forward;
-    moving.follow(frame, roles);
+    moving.follow(frame, roles, busy);
   };
   after(0, 0, 1);
   QVERIFY(!moving.goal() && !moving.steers(kRight, hand));
@@ -666,8 +667,60 @@ void HeadsetTest::aLoneHandGoesAndScales() {
   QVERIFY(near(moving.stand().toRoom(held), hand.grip->position, 1e-9));
   for (const double aside : {-1.0, 0.0, -1.0, 0.0}) after(1, aside, 0);
   QVERIFY(std::abs(moving.stand().scale / scale - 1) < 1e-9);
+  // Where it points at a panel the stick is that panel's.
+  for (const double aside : {1.0, 0.0, -1.0, 0.0}) after(1, aside, 0, true);
+  after(1, 0, 1, true);
+  QVERIFY(std::abs(moving.stand().scale / scale - 1) < 1e-9 && !moving.goal());
+  after(1, 0, 0);
   after(0, 1, 0);
   QVERIFY(std::abs(std::abs(moving.stand().turn) - M_PI / 6) < 1e-12);
+}
+
+/// By 60 % at its corners and not at all in its middle, before both eyes, and for as long as one moves: a step by the
+/// stick lasts for 0.15 s.
+void HeadsetTest::theEdgeIsDimmedWhileTheWearerMoves() {
+  using ps::vr::kLeft, ps::vr::kRight;
+  ps::vr::Moving moving;
+  ps::vr::HeadsetFrame frame;
+  frame.period = 0.02;
+  frame.head.position = {0.2, 1.6, 0.1};
+  const auto panels = [&] {
+    ps::Props props;
+    moving.addTo(props, frame, {});
+    return props.panels;
+  };
+  const auto after = [&](double right) {
+    frame.hands[kRight].steerX = right;
+    moving.follow(frame);
+    return panels().size();
+  };
+  QCOMPARE(after(0), size_t{0});
+  QCOMPARE(after(1), size_t{1});
+  const ps::Panel panel = panels().front();
+  const auto alpha = [&](double x, double y) {
+    const auto at = [](double share, int side) { return static_cast<int>(share * (side - 1)); };
+    const int width = panel.image->width;
+    return int(panel.image->pixels[size_t(4 * (at(y, panel.image->height) * width + at(x, width)) + 3)]);
+  };
+  for (const double end : {0.0, 1.0}) QCOMPARE(alpha(end, 1 - end), 153);
+  QCOMPARE(alpha(0.5, 0.5), 0);
+  QVERIFY(alpha(0.75, 0.5) > 0 && alpha(0.75, 0.5) < alpha(0.95, 0.5));
+  // Upright before the eyes, and as wide as they see: by 63 degrees to each side.
+  Vector3 middle(0, 0, 0);
+  for (const Vector3& corner : panel.corners) middle += moving.stand().toRoom(corner) / 4;
+  const Vector3 lowerLeft = moving.stand().toRoom(panel.corners[0]);
+  QVERIFY(near(middle - frame.head.position, {0, 0, -0.3}, 1e-9));
+  QVERIFY(near(lowerLeft - middle, {-0.6, -0.6, 0}, 1e-9));
+  int frames = 1;  // the stick is let go by the next one
+  for (; frames < 20 && after(0) > 0; ++frames) {
+  }
+  QCOMPARE(frames, 8);
+  // Both grips carry: as long as they do.
+  for (const size_t hand : {kLeft, kRight}) {
+    frame.hands[hand].grip = ps::vr::HandPose{{hand == kLeft ? -0.2 : 0.2, 1, 0}, ps::Quaternion::Identity()};
+    frame.hands[hand].hold = 1;
+  }
+  for (int k = 0; k < 20; ++k) QCOMPARE(after(0), size_t{1});
 }
 
 /// Whatever the runtime leaves current: pictures come all the same.

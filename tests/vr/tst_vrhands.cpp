@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands in the headset: what they draw, erase, heat and carry in the editor's scene.
 #include "core/io/projectio.h"
+#include "core/plugin_host/registry.h"
 #include "core/scene/project.h"
 #include "core/scene/solidform.h"
+#include "core/sketch/cellset.h"
 #include "tests/ui/hands.h"
 #include "tests/vr/panelhands.h"
+#include "ui/document/declared.h"
 #include "ui/session/preferences.h"
 #include "ui/session/selection.h"
 #include "ui/tools/toolbox.h"
@@ -37,6 +40,19 @@ Box boxOfCells(const Body& body) {
   return box;
 }
 
+/// Of the upper ones of an eye's picture, where no hand is: what their pixels have, on the average.
+double lightOfCorners(const QImage& picture) {
+  constexpr int kCorner = 16;
+  double all = picture.isNull() ? 1e9 : 0;
+  for (int y = 0; y < kCorner; ++y)
+    for (int x = 0; x < kCorner; ++x)
+      for (const int column : {x, picture.width() - 1 - x}) {
+        const QColor colour = picture.pixelColor(column, y);
+        all += colour.red() + colour.green() + colour.blue();
+      }
+  return all / (2 * kCorner * kCorner);
+}
+
 constexpr const char* kVive = "/interaction_profiles/htc/vive_controller";
 constexpr int kShortly = 5, kForLong = 40;  // frames of 20 ms, that a button is pressed
 
@@ -64,6 +80,8 @@ class VrHandsTest : public VrWindowTest {
 
   void aTriggerDrawsAStrokeThatAButtonTakesBack();
   void aStrokeOutlivesEdits();
+  void strokesEndWhereBodiesPartAndGo_data();
+  void strokesEndWhereBodiesPartAndGo();
   void bothHandsDrawAtOnce();
   void oneHandErases_data();
   void oneHandErases();
@@ -84,6 +102,9 @@ class VrHandsTest : public VrWindowTest {
   void aViveMenuHasTwoMeanings_data();
   void aViveMenuHasTwoMeanings();
   void whatIsLetGoInMotionFliesOn();
+  void bothHandsStretchWhatIsSoft();
+  void everyBrushWorksInEitherHand_data();
+  void everyBrushWorksInEitherHand();
   void aTriggerMovesMatter_data();
   void aTriggerMovesMatter();
   void handsAreSeen();
@@ -137,6 +158,65 @@ class VrHandsTest : public VrWindowTest {
     [&] { QTRY_VERIFY_WITH_TIMEOUT(shows(), kLong); }();
     return id;
   }
+  /// A hollow cube of ice in the air, of so many cells from its middle to its sides, which are three cells thick.
+  std::string addHollow(int half) {
+    const std::string id = addFloatingBlock({0, 0.6, 0});
+    Body hollow = *document().body(id);
+    document().undoStack().undo();
+    VoxelShape cells;
+    cells.spacing = m_window->tools().spacing();
+    cells.origin = Vector3::Constant(cells.spacing / 2);
+    cells.palette = {{"water", 263.15}};
+    const int middle = static_cast<int>(0.6 / cells.spacing), hole = half - 3;
+    for (int z = -half; z <= half; ++z)
+      for (int y = -half; y <= half; ++y)
+        for (int x = -half; x <= half; ++x)
+          if (std::max({std::abs(x), std::abs(y), std::abs(z)}) > hole) cells.runs.push_back({x, middle + y, z, 1, 0});
+    cells.runs = VoxelCanvas(cells.runs).runs();  // as edits leave them
+    hollow.shape = cells;
+    return document().addBody(hollow);
+  }
+  /// A bar of jelly along x, 0.3 m long, that floats as that does, and soon comes to rest.
+  std::string addJelly(const Vector3& middle) {
+    const std::string jelly = document().addMaterial("jelly");
+    Body bar = *document().body(addFloatingBlock(middle));
+    document().undoStack().undo();
+    bar.material = jelly;
+    bar.parameters.values["temperature"] = 293.15;
+    ParameterSet soft;
+    soft.values["damping"] = 0.05;  // s
+    bar.constraints = {{"clusters", soft, {}}};
+    BoxShape box;
+    box.center = middle;
+    box.size = {0.3, 0.06, 0.06};
+    bar.shape = box;
+    return document().addBody(bar);
+  }
+  /// m, from the first to the last of its particles along x.
+  double lengthOf(const std::string& id) {
+    return onEngine<double>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.particles();
+      double low = 1e9, high = -1e9;
+      for (size_t i = 0; i < store.size(); ++i) {
+        if (engine.bodyIds()[store.body()[i]] != id) continue;
+        low = std::min(low, vectorOf(store.position()[i]).x());
+        high = std::max(high, vectorOf(store.position()[i]).x());
+      }
+      return high - low;
+    });
+  }
+  /// m/s, of the body's fastest particle.
+  double fastestOf(const std::string& id) {
+    return onEngine<double>(session(), [id](Engine& engine) {
+      const ParticleStore& store = engine.particles();
+      double fastest = 0;
+      for (size_t i = 0; i < store.size(); ++i)
+        if (engine.bodyIds()[store.body()[i]] == id) fastest = std::max(fastest, vectorOf(store.velocity()[i]).norm());
+      return fastest;
+    });
+  }
+  void drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way);
+  void touchesWhatIsThere(size_t hand, const std::string& id);
   struct Motion {
     Vector3 place{0, 0, 0}, velocity{0, 0, 0};  ///< m and m/s, of its particles on the average
     double turns = 0;                           ///< rad/s about the vertical through there
@@ -232,6 +312,78 @@ void VrHandsTest::aStrokeOutlivesEdits() {
   QCOMPARE(steps(), 3);
   QVERIFY(run.lines("violation").empty());
   while (document().undoStack().canUndo()) document().undoStack().undo();
+}
+
+void VrHandsTest::strokesEndWhereBodiesPartAndGo_data() {
+  QTest::addColumn<bool>("onTheBar");
+  QTest::addColumn<QString>("edit");
+  QTest::addColumn<bool>("kept");
+  QTest::newRow("elsewhere, as a body parts") << false << "part" << true;
+  QTest::newRow("elsewhere, as a body goes") << false << "remove" << true;
+  QTest::newRow("elsewhere, as a material comes") << false << "material" << true;
+  QTest::newRow("on what parts") << true << "part" << true;
+  QTest::newRow("on what goes") << true << "remove" << false;
+}
+
+/// As far as it came, as a step of its own after what the desktop did; without what it goes on with there is nothing
+/// left to keep. A bar in the air, of two pieces, is what parts and goes.
+void VrHandsTest::strokesEndWhereBodiesPartAndGo() {
+  QFETCH(bool, onTheBar);
+  QFETCH(QString, edit);
+  QFETCH(bool, kept);
+  Toolbox& tools = m_window->tools();
+  const BrushSettings chosen = tools.brush();
+  const double spacing = tools.spacing();
+  Body bar;
+  bar.id = "bar", bar.material = "water";
+  bar.constraints.push_back({"bonds", {}, {}});
+  VoxelShape cells;
+  cells.origin = Vector3::Constant(spacing / 2);
+  cells.spacing = spacing;
+  cells.palette = {{"water", chosen.temperature}};
+  cells.runs = {{-6, 30, 0, 3, 0}, {2, 30, 0, 3, 0}};
+  bar.shape = cells;
+  const std::string id = document().addBody(bar);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  const std::string before = writeProject(document().project());
+  const int begun = steps();
+
+  VrHands hands(session(), tools);
+  vr::HandsSeen seen;
+  const auto acts = [&](const Vector3& tip, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[vr::kRight].tip = tip;
+    seen.hands[vr::kRight].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  const Vector3 from = onTheBar ? Vector3(-5.5 * spacing, 30.5 * spacing, spacing / 2) : Vector3(-0.2, 0.45, -0.2);
+  acts(from, 0);
+  for (int k = 0; k < 5; ++k) acts(from + Vector3(0, 0, 0.02 * k), 1);
+  QCOMPARE(steps(), begun);
+  if (edit == QStringLiteral("part")) {
+    QCOMPARE(document().partBody(id, {{{2, 30, 0}, {3, 30, 0}, {4, 30, 0}}}).size(), size_t{1});
+  } else if (edit == QStringLiteral("remove")) {
+    QCOMPARE(document().removeBody(id), QString());
+  } else {
+    document().addMaterial("iron");
+  }
+  const int edited = steps();
+  QCOMPARE(edited, begun + 1);
+  acts(from + Vector3(0, 0, 0.1), 1);
+  acts(from + Vector3(0, 0, 0.12), 0);
+  QCOMPARE(steps(), edited + (kept ? 1 : 0));
+  if (kept) {
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("brush stroke"));
+    const Body& drawn = onTheBar ? *document().body(id) : document().project().bodies.back();
+    const auto [low, high] = boxOfCells(drawn);
+    QVERIFY(low.z() < from.z() - spacing && high.z() > from.z() + 0.08);
+    QVERIFY(high.x() < 2 * spacing);  // the other piece is none of it
+    document().undoStack().undo();
+  }
+  document().undoStack().undo();
+  QCOMPARE(writeProject(document().project()), before);
+  if (kept) QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
 }
 
 /// The left one with its grip held: it draws then, as the right one erases.
@@ -569,7 +721,7 @@ void VrHandsTest::sticksAndPadsTurnTheWearerAndTakeThemThere() {
   const QByteArray turning = turns.toLatin1();
   const vr::HandPose& hand = turns == QStringLiteral("left") ? left : right;
   const ScriptedRun run(withProfile(
-      vrScript(QStringLiteral(R"(, "pictures": [60, 130])"),
+      vrScript(QStringLiteral(R"(, "pictures": [20, 22, 24, 26, 60, 130])"),
                key(5, "left", left, rests) + key(5, "right", right, rests) + key(20, turning.constData(), hand, aside) +
                    key(26, turning.constData(), hand, rests) + awayFrom(30) + key(65, "left", left, rests) +
                    key(80, "left", left, forward) + key(95, "left", left, rests) + awayFrom(100)),
@@ -581,6 +733,13 @@ void VrHandsTest::sticksAndPadsTurnTheWearerAndTakeThemThere() {
   QVERIFY(run.lines("violation").empty());
   QCOMPARE(m_window->tools().brush().radius, radius);
   QCOMPARE(m_window->tools().brush().shape, std::string("sphere"));
+  // While it turned, the picture's corners were darker, by half or so, than they are from there afterwards.
+  for (const bool eye : {false, true}) {
+    double darkest = 1e9;
+    for (const int frame : {20, 22, 24, 26}) darkest = std::min(darkest, lightOfCorners(run.picture(frame, eye)));
+    const double still = lightOfCorners(run.picture(60, eye));
+    QVERIFY2(darkest < 0.85 * still, qPrintable(QStringLiteral("%1 of %2").arg(darkest).arg(still)));
+  }
   sawFrom(run, 60, turned, QStringLiteral("vr-turned"));
   sawFrom(run, 130, there, QStringLiteral("vr-gone"));
 }
@@ -706,6 +865,167 @@ void VrHandsTest::whatIsLetGoInMotionFliesOn() {
   QCOMPARE(bodies(), m_before + 1);
 }
 
+/// Taken by its ends with the grips of both, as they part; let go, after hands that rest, it has the length again that
+/// it had. None of it is a step.
+void VrHandsTest::bothHandsStretchWhatIsSoft() {
+  constexpr int kPulls = 40, kStays = 15;                 // frames; the latter are longer than a throw is measured
+  constexpr double kEnd = 0.11, kPull = 0.05, kRest = 1;  // m, of each hand, and s
+  const Vector3 middle(0, 0.6, 0.1);
+  const std::string id = addJelly(middle);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  const int before = steps();
+  const size_t count = motionOf(id).count;
+  const double length = lengthOf(id);
+  QVERIFY2(std::abs(length - 0.28) < 0.021, qPrintable(QString::number(length)));
+  VrHands hands(session(), m_window->tools());
+  view()->setUpdatesEnabled(false);  // time does not wait for pictures
+  session().play();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing(), kLong);
+  const auto time = [&] { return session().newest()->stats.time; };
+  const auto nextFrame = [&] {
+    const uint64_t frame = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > frame, kLong);
+  };
+  vr::HandsSeen seen;
+  const auto acts = [&](double apart, bool hold) {
+    seen.seconds = time();
+    for (const size_t hand : {vr::kLeft, vr::kRight}) {
+      seen.hands[hand].tip = middle + Vector3((hand == vr::kLeft ? -1 : 1) * (kEnd + apart), 0, 0);
+      seen.hands[hand].holds = hold;
+    }
+    hands.act(seen, session().newest());
+  };
+  nextFrame();
+  acts(0, false);
+  acts(0, true);
+  vr::HeadsetView told;
+  hands.describe(told);
+  QVERIFY(told.keeps[vr::kLeft] && told.keeps[vr::kRight]);
+  for (int frame = 1; frame <= kPulls + kStays; ++frame) {
+    acts(kPull * std::min(1.0, double(frame) / kPulls), true);
+    nextFrame();
+  }
+  const double stretched = lengthOf(id);
+  QVERIFY2(stretched > length + kPull && stretched < length + 3 * kPull, qPrintable(QString::number(stretched)));
+  acts(kPull, false);
+  const double then = time();
+  QTRY_VERIFY_WITH_TIMEOUT(time() > then + kRest, kLong);
+  const double after = lengthOf(id);
+  session().pause();
+  QVERIFY2(std::abs(after - length) < 0.2 * kPull, qPrintable(QString::number(after)));
+  QCOMPARE(steps(), before);
+  QCOMPARE(motionOf(id).count, count);
+}
+
+void VrHandsTest::everyBrushWorksInEitherHand_data() {
+  QTest::addColumn<QString>("brush");
+  const std::vector<std::string> brushes = idsByLabel(*session().plugins(), PluginKind::Brush);
+  QVERIFY(brushes.size() > 15);
+  for (const std::string& brush : brushes) QTest::newRow(brush.c_str()) << QString::fromStdString(brush);
+}
+
+/// Of the right hand, and of the left one of a left-handed wearer: what draws makes one step, in the air, in the hollow
+/// or on its sides, as it is meant for; what touches matter makes one, or moves it.
+void VrHandsTest::everyBrushWorksInEitherHand() {
+  QFETCH(QString, brush);
+  constexpr int kHalf = 4;
+  Toolbox& tools = m_window->tools();
+  const BrushSettings chosen = tools.brush();
+  const std::string id = addHollow(kHalf), iron = document().addMaterial("iron");
+  m_window->selection().selectBody(id);  // what a stamp stamps
+  m_window->selection().setMaterial(iron);
+  tools.takeBrush(brush.toStdString());
+  QCOMPARE(tools.brush().shape, brush.toStdString());
+  QTRY_VERIFY_WITH_TIMEOUT(!tools.stampsShape() || tools.shape(), kLong);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  QSignalSpy refused(&tools, &Toolbox::refused);
+  const double spacing = tools.spacing();
+  const Vector3 middle = motionOf(id).place;
+  const api::BrushPlugin* plugin = session().plugins()->brush(brush.toStdString());
+  for (const size_t hand : {vr::kRight, vr::kLeft}) {
+    if (tools.touchesMatter())
+      touchesWhatIsThere(hand, id);
+    else if (tools.reworks())
+      drawsAndIsUndone(hand, middle + Vector3::Constant(kHalf * spacing), Vector3(0, -0.04, 0));
+    else if (plugin->extension(api::kFillsHollows))
+      drawsAndIsUndone(hand, middle, Vector3(0, spacing, 0));
+    else
+      drawsAndIsUndone(hand, {-0.2, 0.42, -0.2}, {0.12, 0, 0});
+    const QString why = refused.isEmpty() ? QString() : refused.first()[1].toString();
+    QVERIFY2(why.isEmpty(), qPrintable(why));
+    if (QTest::currentTestFailed()) break;
+  }
+  session().pause();
+  tools.setBrush(chosen);
+}
+
+void VrHandsTest::drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way) {
+  constexpr int kParts = 8;
+  const std::string before = writeProject(document().project());
+  const size_t all = idsNow(session()).size();
+  const int begun = steps();
+  VrHands hands(session(), m_window->tools());
+  vr::HandsSeen seen;
+  seen.roles.main = hand;
+  const auto acts = [&](double share, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[hand].tip = from + share * way;
+    seen.hands[hand].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  acts(0, 0);
+  for (int part = 0; part <= kParts; ++part) acts(double(part) / kParts, 1);
+  acts(1, 0);
+  QTRY_COMPARE_WITH_TIMEOUT(steps(), begun + 1, kLong);  // what fills takes its time
+  QVERIFY(writeProject(document().project()) != before);
+  document().undoStack().undo();
+  QCOMPARE(steps(), begun);
+  QCOMPARE(writeProject(document().project()), before);
+  QTest::qWait(50);  // where the scene is made anew
+  QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
+}
+
+/// Upwards along a side of the cube, while time passes.
+void VrHandsTest::touchesWhatIsThere(size_t hand, const std::string& id) {
+  constexpr int kFrames = 10;
+  session().pause();
+  toTheStart();
+  const int begun = steps();
+  const Vector3 from = motionOf(id).place + Vector3(0.07, -0.03, 0), way(0, 0.06, 0);
+  QVERIFY(fastestOf(id) < 1e-3);
+  VrHands hands(session(), m_window->tools());
+  vr::HandsSeen seen;
+  seen.roles.main = hand;
+  const auto acts = [&](double share, double pulled) {
+    seen.seconds += 0.02;
+    seen.hands[hand].tip = from + share * way;
+    seen.hands[hand].input.draw = pulled;
+    hands.act(seen, session().newest());
+  };
+  acts(0, 0);
+  session().play();
+  QTRY_VERIFY_WITH_TIMEOUT(session().playing() && session().newest()->stats.frame > 0, kLong);
+  double fastest = 0;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    acts(double(frame) / kFrames, 1);
+    const uint64_t now = session().newest()->stats.frame;
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > now, kLong);
+    fastest = std::max(fastest, fastestOf(id));
+  }
+  acts(1, 0);
+  vr::HeadsetView told;
+  hands.describe(told);
+  QCOMPARE(told.ticks[hand], uint64_t{1});
+  session().pause();
+  QVERIFY2(steps() == begun + 1 || (steps() == begun && fastest > 0.01), qPrintable(QString::number(fastest)));
+  if (steps() == begun) return;
+  QVERIFY(document().undoStack().undoText().contains(QStringLiteral("matter")));
+  document().undoStack().undo();
+  QCOMPARE(steps(), begun);
+}
+
 void VrHandsTest::aTriggerMovesMatter_data() {
   QTest::addColumn<QString>("brush");
   QTest::newRow("pushed along") << QStringLiteral("push");
@@ -792,6 +1112,16 @@ void VrHandsTest::handsOfTheMouseAreWhereItPoints() {
   QVERIFY(seen && std::abs(seen->x() - 225) < 1e-6 && std::abs(seen->y() - 125) < 1e-6);
   QVERIFY(std::abs((tipOf(frame.hands[vr::kRight]) - frame.head.position).norm() - 0.55) < 1e-9);
   QVERIFY((frame.head.position - placeOf(room.eye(aspect))).norm() < 1e-9);
+  // Rolled, it points there still, and its upper side leans to its wearer's right.
+  room.roll(0.5);
+  const vr::HandPose rolled = *room.frame(1.5, aspect).hands[vr::kRight].aim;
+  const vr::HandPose level = *frame.hands[vr::kRight].aim;
+  QVERIFY((rolled.position - level.position).norm() < 1e-9);
+  QVERIFY((rolled.orientation * Vector3::UnitZ() - level.orientation * Vector3::UnitZ()).norm() < 1e-9);
+  const Vector3 upper = level.orientation.conjugate() * (rolled.orientation * Vector3::UnitY());
+  QVERIFY((upper - Vector3(std::sin(0.5), std::cos(0.5), 0)).norm() < 1e-9);
+  room.level();
+  QVERIFY(room.frame(1.5, aspect).hands[vr::kRight].aim->orientation.angularDistance(level.orientation) < 1e-9);
   room.useOther();
   room.point(-0.5, 0);
   const vr::HeadsetFrame other = room.frame(2, aspect);
@@ -833,6 +1163,20 @@ void VrHandsTest::mouseDrawsWithoutAHeadset() {
   QTest::keyPress(&window, Qt::Key_U);
   QTRY_COMPARE_WITH_TIMEOUT(steps(), 0, kLong);
   QTest::keyRelease(&window, Qt::Key_U);
+  // X rolls the hand on and on; R makes real.
+  const auto upper = [&]() -> Vector3 { return window.room().input(vr::kRight).aim->orientation * Vector3::UnitY(); };
+  const Vector3 level = upper();
+  QTest::keyPress(&window, Qt::Key_X);
+  QTRY_VERIFY_WITH_TIMEOUT(upper().dot(level) < 0.9, kLong);
+  QTest::keyPress(&window, Qt::Key_C);
+  QTRY_VERIFY_WITH_TIMEOUT(upper().dot(level) > 1 - 1e-9, kLong);
+  QTest::keyRelease(&window, Qt::Key_C);
+  QTest::keyRelease(&window, Qt::Key_X);
+  const Address held{Owner::Body, "ice", "held"};
+  QCOMPARE(document().setParameter(held, true), QString());
+  QTest::keyPress(&window, Qt::Key_R);
+  QTRY_COMPARE_WITH_TIMEOUT(document().value(held), Value(false), kLong);
+  QTest::keyRelease(&window, Qt::Key_R);
   QTest::keyClick(&window, Qt::Key_Escape);
   QVERIFY(!vr().active() && !without->isChecked());
   without->trigger();  // and again, until it is asked to end here

@@ -4,6 +4,7 @@
 
 #include "tests/vr/plate.h"
 #include "tests/vr/vrwindow.h"
+#include "ui/render/camera.h"
 #include "ui/session/preferences.h"
 #include "ui/vr/mirror.h"
 #include "ui/window/vrmirror.h"
@@ -33,6 +34,7 @@ class VrMirrorTest : public VrWindowTest {
   void onlyWhatIsWantedIsCopied();
   void nothingIsWaitedFor();
   void theWindowShowsTheLeftEye();
+  void theViewShowsTheHands();
 };
 
 /// Stored bits of sRGB are those of the window's; a wide window cuts the picture above and below.
@@ -175,6 +177,43 @@ void VrMirrorTest::theWindowShowsTheLeftEye() {
   mirrors->trigger();
   QVERIFY(!vr().mirror() && !preferences::showsEye() && view()->updatesEnabled());
   leave();
+}
+
+/// As long as they are there, where they are, true to the scene's scale: wands, and the brush about their tips. After
+/// the stay the view is what it was.
+void VrMirrorTest::theViewShowsTheHands() {
+  constexpr int kClearly = 30, kHaze = 6;  // of three channels of 255
+  if (!m_window) open();
+  backToTheStart();
+  QAction* mirrors = m_window->action(QStringLiteral("simulation.mirror"));
+  QVERIFY(mirrors && !mirrors->isChecked());
+  m_window->tools().takeBrush("sphere");
+  const vr::Stand stands = stand();
+  const std::array<Vector3, 2> tips{Vector3(-0.12, 0.5, 0.2), Vector3(0.12, 0.45, 0.2)};
+  const QString there = QStringLiteral(R"(, "active": true)");
+  const QString hands = tipKey(0, "left", stands, tips[0], there) + tipKey(0, "right", stands, tips[1], there);
+  ScriptedRun run(vrScript({}, kHandsAway));
+  const auto picture = [&] { return view()->grabFramebuffer().convertToFormat(QImage::Format_RGB888); };
+  const QImage before = picture();
+  const auto apart = [&](const QImage& now, const Vector3& place) {
+    const auto at = project(view()->navigator().camera(), now.width(), now.height(), place);
+    if (!at || now.size() != before.size()) return -1;
+    const QColor a = before.pixelColor(int(at->x()), int(at->y())), b = now.pixelColor(int(at->x()), int(at->y()));
+    return std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) + std::abs(a.blue() - b.blue());
+  };
+  const auto wandOf = [&](const Vector3& tip) { return stands.toScene(stands.toRoom(tip) + Vector3(0, 0, 0.1)); };
+  enter();
+  run.goOn(vrScript({}, hands));
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  for (const Vector3& tip : tips)
+    QTRY_VERIFY2_WITH_TIMEOUT(apart(picture(), wandOf(tip)) > kClearly,
+                              qPrintable(QString::number(apart(picture(), wandOf(tip)))), kLong);
+  const QImage with = picture();
+  if (!folder.isEmpty()) with.save(folder + "/vr-view-hands.png");
+  for (const Vector3& tip : tips) QVERIFY(std::abs(apart(with, tip + Vector3(0, 0.2, 0))) <= kHaze);  // nothing
+  leave();
+  for (const Vector3& tip : tips) QVERIFY(std::abs(apart(picture(), wandOf(tip))) <= kHaze);
+  QVERIFY(run.lines("violation").empty());
 }
 
 QTEST_MAIN(VrMirrorTest)

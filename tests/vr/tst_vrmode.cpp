@@ -66,6 +66,7 @@ class VrModeTest : public VrWindowTest {
   void initTestCase() { open(); }
   void cleanup() {
     leaveAtLast();
+    view()->setUpdatesEnabled(true);
     preferences::setOneHanded(false);
   }
   void cleanupTestCase() { m_window.reset(); }
@@ -89,6 +90,14 @@ class VrModeTest : public VrWindowTest {
   void anotherProjectComesBeforeTheWearer();
   void staysLeaveNothing();
   void windowClosesInVr();
+
+ private:
+  bool isDrawnByCard() {
+    view()->makeCurrent();
+    const QByteArray name(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    view()->doneCurrent();
+    return !name.contains("llvmpipe") && !name.contains("softpipe") && !name.contains("swrast");
+  }
 };
 
 void VrModeTest::commandIsWhereOneLooksForIt() {
@@ -115,9 +124,13 @@ void VrModeTest::entersAndLeavesWhileTheSceneRuns() {
   QTRY_VERIFY_WITH_TIMEOUT(session().now() > before, kLong);
   clock.restart();
   leave();
-  // Two seconds are asked on a machine with a graphics card; here the figures are only told.
+  const qint64 left = clock.elapsed();
   qInfo("the command returned after %lld ms; in the headset after %lld ms, out of it in %lld ms", returned, entered,
-        clock.elapsed());
+        left);
+  // Two seconds are asked on a machine with a graphics card; where a processor draws, and computes, it gets four times
+  // as long.
+  const qint64 most = isDrawnByCard() ? 2000 : 8000;  // ms
+  QVERIFY(returned < most / 4 && entered < most && left < most);
   QVERIFY(!status().contains(QStringLiteral("VR")));
   QVERIFY(session().playing());
   QVERIFY(run.lines("violation").empty());
@@ -443,27 +456,39 @@ void VrModeTest::anotherProjectComesBeforeTheWearer() {
   session().pause();
 }
 
-/// Neither threads nor objects of OpenGL, of which each stay makes some dozens; the view may make one at any time.
+/// Neither threads nor objects of OpenGL, of which each stay makes some dozens: none at all, once a few stays have
+/// filled what the program and Qt keep for later ones. The view, which makes what it needs as it draws, does not draw
+/// meanwhile.
 void VrModeTest::staysLeaveNothing() {
+  constexpr int kFirst = 3, kStays = 50;
   backToTheStart();
+  view()->setUpdatesEnabled(false);
   const auto objects = [&] {
     view()->makeCurrent();
-    const size_t count = countGlObjects();
+    const std::map<std::string, size_t> count = glObjects();
     view()->doneCurrent();
     return count;
   };
   const ScriptedRun run(vrScript());
-  enter();
-  leave();
-  const size_t before = countThreads(), made = objects();
-  QVERIFY(made > 0);
-  for (int i = 0; i < 50; ++i) {
-    enter();
-    leave();
-  }
+  const auto stays = [&](int count) {
+    for (int k = 0; k < count && !QTest::currentTestFailed(); ++k) {
+      enter();
+      leave();
+    }
+  };
+  stays(kFirst);
+  const size_t before = countThreads();
+  std::map<std::string, size_t> made = objects();
+  QVERIFY(made["textures"] > 0 && made["programs"] > 0);
+  stays(kStays);
+  const auto left = [&] {
+    QStringList more;
+    for (const auto& [kind, count] : objects())
+      if (count > made[kind]) more << QStringLiteral("%1 %2").arg(count - made[kind]).arg(QLatin1String(kind.c_str()));
+    return more.join(QStringLiteral(", "));
+  };
   QTRY_COMPARE(countThreads(), before);
-  QTRY_VERIFY2_WITH_TIMEOUT(objects() < made + 25,
-                            qPrintable(QStringLiteral("%1, after one stay %2").arg(objects()).arg(made)), kLong);
+  QTRY_COMPARE_WITH_TIMEOUT(left(), QString(), kLong);
   QVERIFY(run.lines("violation").empty());
   for (const nlohmann::json& line : run.lines("textures")) QCOMPARE(line["textures"].get<int>(), 0);
 }

@@ -11,6 +11,7 @@
 #include "ui/panels/outlinerdelegate.h"
 #include "ui/rows/groupheading.h"
 #include "ui/rows/parameterrow.h"
+#include "ui/session/preferences.h"
 #include "ui/theme/theme.h"
 #include "ui/vr/handlabels.h"
 #include "ui/vr/panels.h"
@@ -25,6 +26,8 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QTreeView>
 
@@ -41,7 +44,10 @@ class VrPanelsTest : public PanelsTest {
  private Q_SLOTS:
   void initTestCase() { open(); }
   void init() { backToTheStart(); }
-  void cleanup() { leaveAtLast(); }
+  void cleanup() {
+    leaveAtLast();
+    preferences::setOneHanded(false);
+  }
   void cleanupTestCase() { m_window.reset(); }
 
   void thePaletteShowsWithThePalm();
@@ -53,6 +59,7 @@ class VrPanelsTest : public PanelsTest {
   void aBeamAtAnEdgeKeepsWhatItLeft();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
+  void aBeamIsSeenToWhatItPointsAt();
   void aTriggerPulledElsewhereDraws();
   void theNearerPanelIsMeant();
   void letteringAndTargetsAreLargeEnough();
@@ -64,6 +71,7 @@ class VrPanelsTest : public PanelsTest {
   void namesLeadToTheirPages();
   void menusComeAlong();
   void aStickOpensMenus();
+  void aLoneHandWithItsGripScrolls();
   void gravityIsTakenAndGivenBack();
   void labelsSayWhatControllersDo_data();
   void labelsSayWhatControllersDo();
@@ -302,6 +310,50 @@ void VrPanelsTest::tipsPressWhatTheyGoThrough() {
   QVERIFY(tipAt(-0.005)->pressed);
   QVERIFY(tipAt(0.005)->pressed);
   QVERIFY(!tipAt(0.015)->pressed);
+}
+
+/// From before the wand to a dot on the panel, in the accent's colour, by both eyes.
+void VrPanelsTest::aBeamIsSeenToWhatItPointsAt() {
+  constexpr int kWide = 512;
+  const QString size = QStringLiteral(R"("width": %1, "height": %1)");
+  QString text = QString::fromStdString(vrScript({}, kHandsAway));
+  QVERIFY(text.contains(size.arg(kSide)));
+  ScriptedRun run(text.replace(size.arg(kSide), size.arg(kWide)).toStdString());
+  enter();
+  panels().showLabels(false);
+  panels().showPage(QStringLiteral("Scene"));
+  const Vector3 hit = boardPlace().at(0.4, 0.5);
+  const vr::HandPose hand = pointing({0.3, 1.2, -0.1}, hit);
+  run.goOn(vrScript(QStringLiteral(R"(, "pictures": [20, 50])"), kHandsAway + key(30, "right", hand)));
+  QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{4}, 2 * kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  const Vector3 way = (hit - hand.position).normalized();
+  const int accent = Theme::current()[Token::Accent].hsvHue();
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  for (const bool right : {false, true}) {
+    std::vector<QImage> seen;
+    for (const std::string& name : run.texts("picture"))
+      if (name.ends_with(right ? "-right.png" : "-left.png")) seen.emplace_back(QString::fromStdString(name));
+    QCOMPARE(seen.size(), size_t{2});
+    if (!folder.isEmpty()) seen[1].save(folder + (right ? "/vr-beam-right.png" : "/vr-beam-left.png"));
+    // A pixel near there is of its colour, and was another one before.
+    const auto shines = [&](const Vector3& room) {
+      const auto colourAt = [&](const QImage& picture, int k) {
+        const Vector3 at = project(scriptEye(right), picture.width(), picture.height(), room).value_or(Vector3::Zero());
+        return picture.pixelColor(int(at.x()) + k % 5 - 2, int(at.y()) + k / 5 - 2);
+      };
+      for (int k = 0; k < 25; ++k) {
+        const QColor a = colourAt(seen[0], k), b = colourAt(seen[1], k);
+        const int apart = std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) + std::abs(a.blue() - b.blue());
+        if (apart > 30 && std::abs(b.hsvHue() - accent) < 25 && b.hsvSaturation() > 60) return true;
+      }
+      return false;
+    };
+    for (const double before : {0.05, 0.1}) QVERIFY(shines(hand.position + (vr::kTip + before) * way));
+    QVERIFY(shines(hit));
+    QVERIFY(!shines(hand.position + (vr::kTip + 0.05) * way + Vector3(0, 0.05, 0)));
+  }
 }
 
 void VrPanelsTest::aTriggerPulledElsewhereDraws() {
@@ -694,6 +746,33 @@ void VrPanelsTest::aStickOpensMenus() {
   QVERIFY2(offered.contains(QStringLiteral("Reset")) && offered.contains(QStringLiteral("Explain")),
            qPrintable(offered.join(QStringLiteral(", "))));
   QCOMPARE(offered.count(QStringLiteral("Reset")), 1);
+}
+
+/// What its beam points at, as without the grip: by that stick it goes and scales elsewhere.
+void VrPanelsTest::aLoneHandWithItsGripScrolls() {
+  preferences::setOneHanded(true);
+  ScriptedRun run(vrScript({}, kHandsAway));
+  enter();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  QScrollArea* area = nullptr;
+  for (auto* one : panels().widget(vr::kBoard)->findChildren<QScrollArea*>())
+    if (one->isVisible()) area = one;
+  QVERIFY(area);
+  const QScrollBar& bar = *area->verticalScrollBar();
+  QVERIFY(bar.maximum() > 0 && bar.value() == 0);
+  const auto stick = [&](int frame, int y) {
+    return boardKey(frame, *area, QRectF(area->rect()).center(), false, false,
+                    kHolds + QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y));
+  };
+  run.goOn(vrScript({}, stick(0, 0) + stick(20, -1) + stick(26, 0)));
+  QTRY_VERIFY_WITH_TIMEOUT(bar.value() > 0, kLong);
+  const uint64_t over = vr().frames() + 10;
+  QTRY_VERIFY_WITH_TIMEOUT(vr().frames() > over, kLong);
+  run.goOn(vrScript({}, stick(0, 0) + stick(20, 1) + stick(40, 0)));
+  QTRY_COMPARE_WITH_TIMEOUT(bar.value(), 0, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
 }
 
 void VrPanelsTest::gravityIsTakenAndGivenBack() {

@@ -5,7 +5,10 @@
 #include "tests/vr/panelhands.h"
 #include "ui/document/declared.h"
 #include "ui/panels/materialspanel.h"
+#include "ui/rows/rowvalue.h"
 #include "ui/tools/becoming.h"
+
+#include <QtWidgets/QScrollArea>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +16,7 @@
 #include <string>
 
 // What stories share that are told in the headset, each in one stay: hands draw, and choose on the palette and the
-// board with what they draw. What the heat brush gives is set for them.
+// board with what they draw, and how strongly they heat.
 namespace ps {
 
 /// `Story`: a SceneStory<PanelsTest>, or one that is one too.
@@ -144,13 +147,47 @@ class VrStory : public Story {
                               m_window->tools().brush().material.c_str(), kLong);
     putsBoardAway();
   }
-  /// The heat brush: its size as of any brush, and what it gives, W, to what is colder than so many K. Its own values
-  /// are not on the palette.
+  /// The heat brush: its size as of any brush, and on the board, whose page the palette's name of the brush leads to,
+  /// what it gives, W, to what is colder than so many K.
   void heatBrush(double radius, double power, double limit) {
     brush("heat", radius, m_window->tools().brush().temperature, false);
-    BrushSettings settings = m_window->tools().brush();
-    settings.parameters["heat"].values = {{"power", power}, {"limit", limit}};
-    m_window->tools().setBrush(settings);
+    presses("Brush");
+    const auto isThere = [&] {
+      return Story::panels().widget(vr::kBoard) && Story::rowOf(QStringLiteral("brush/power"));
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isThere(), kLong);
+    Story::painted();  // laid out by then
+    drags("brush/power", power, 0.1 * power);
+    drags("brush/limit", limit, 20);
+    putsBoardAway();
+  }
+  /// The number of a row of the page on the board, by the handle of its slider, which the beam of the right hand takes
+  /// and leads there. A hand that a busy machine saw too seldom takes it again. `within`: of the number, a pixel of the
+  /// slider or less.
+  void drags(const char* key, double wanted, double within) {
+    constexpr int kPulls = 4, kGoes = 14, kIsThere = 30, kLets = 36, kIsSeen = 6;  // frames
+    ParameterRow* row = Story::rowOf(QString::fromLatin1(key));
+    QVERIFY2(row, key);
+    for (QWidget* parent = row->parentWidget(); parent; parent = parent->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(parent)) area->ensureWidgetVisible(row);
+    const auto isMeant = [&] { return std::abs(row->number() - wanted) <= within; };
+    for (int k = 0; k < 3 && !isMeant(); ++k) {
+      const api::ParameterDeclaration& declaration = row->model().declaration;
+      const QRectF track = row->sliderRect();
+      const double now = sliderPosition(declaration, row->number()), then = sliderPosition(declaration, wanted);
+      const QPointF from(std::round(track.left() + now * track.width()), std::round(track.center().y()));
+      const QPointF to = from + QPointF((then - now) * track.width(), 0);
+      QVERIFY2(row->visibleRegion().contains(from.toPoint()), key);
+      pointsAtBoard(*row, from);
+      const auto hand = [&](int frame, const QPointF& at, bool pulls) {
+        return Story::boardKey(frame, *row, at, false, pulls);
+      };
+      next(kBesideBoard + hand(0, from, false) + hand(kPulls, from, true) + hand(kGoes, from, true) +
+           hand(kIsThere, to, true) + hand(kLets, to, false));
+      const uint64_t over = Story::vr().frames() + kLets + kIsSeen;
+      QTRY_VERIFY_WITH_TIMEOUT(Story::vr().frames() > over, kLong);
+    }
+    QVERIFY2(isMeant(), qPrintable(QStringLiteral("%1: %2").arg(QLatin1String(key)).arg(row->number())));
   }
   /// The right hand goes to a place and heats there. Whether it meets matter: a brush that misses gives nothing, and
   /// one that does not gives this share of its power at the very least, also to matter that is soon as warm as it gets.

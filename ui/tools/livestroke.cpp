@@ -59,7 +59,9 @@ Body LiveStroke::paintedBody(const Snapshot& now, const Vector3& point, const st
   const Project& project = document.project();
   const SceneMaterial* material = sceneMaterial(project, id);
   const Vector3 reach = m_box.stamp(m_setup.up).first + Vector3::Constant(m_setup.grid.spacing);
-  if (const auto found = goingOnAt(document, now, point, reach, material->id, brush, m_setup)) {
+  const auto found = goingOnAt(document, now, point, reach, material->id, brush, m_setup);
+  m_goesOn = found.has_value();
+  if (found) {
     m_record->palette = found->palette;
     m_record->way = found->way;
     Body body = *found->body;
@@ -258,6 +260,21 @@ void LiveStroke::note(const QString& problem) {
   if (problem.isEmpty() || !m_problem.isEmpty()) return;
   m_problem = problem;
   if (m_onTrouble) m_onTrouble();
+}
+
+bool LiveStroke::stands() const {
+  if (!m_record || m_kind == api::EditKind::Colour) return true;
+  if (m_kind == api::EditKind::Smooth) return m_box.document().body(m_body->id) != nullptr;
+  if (m_record->erase) return true;
+  const Project& project = m_box.document().project();
+  const auto has = [&](const std::string& id) {
+    return std::any_of(project.materials.begin(), project.materials.end(),
+                       [&](const SceneMaterial& material) { return material.id == id; });
+  };
+  if (m_kind == api::EditKind::Paint) return has(m_record->material);
+  const bool isThere = m_box.document().body(m_body->id) != nullptr;
+  const auto& palette = std::get<VoxelShape>(m_body->shape).palette;
+  return (isThere || !m_goesOn) && has(palette.at(static_cast<size_t>(m_record->palette)).material);
 }
 
 /// Cells that have come go to the engine.

@@ -59,6 +59,9 @@ class LiveStroke {
   void onTrouble(std::function<void()> call) { m_onTrouble = std::move(call); }
   void cancel();
   bool active() const { return m_record != nullptr; }
+  /// Whether the document still has what it goes on with, and the material that it is of. Without them nothing can be
+  /// kept of it.
+  bool stands() const;
   const Vector3& up() const { return m_up; }  ///< away from what it is drawn on
   size_t cellCount() const { return m_cells.size(); }
 
@@ -92,6 +95,7 @@ class LiveStroke {
   std::shared_ptr<StrokeRecord> m_record;
   std::shared_ptr<const Body> m_body;  ///< that an adding or smoothing stroke changes, as it was before
   bool m_atStart = false, m_smooths = false;
+  bool m_goesOn = false;  ///< that body was there already
   api::EditKind m_kind = api::EditKind::Add;
   QTimer m_looks;                          ///< whether the brush comes back
   std::shared_ptr<StrokeThread> m_thread;  ///< goes before what it tells

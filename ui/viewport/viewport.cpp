@@ -20,6 +20,7 @@
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/gizmopainter.h"
 #include "ui/viewport/portpainter.h"
+#include "ui/viewport/propsevent.h"
 #include "ui/viewport/viewportaccess.h"
 #include "ui/viewport/wirepainter.h"
 
@@ -403,6 +404,14 @@ bool Viewport::event(QEvent* event) {
               this, m_hits.legend.toRect());
       return true;
     }
+  }
+  if (event->type() == PropsEvent::kind()) {
+    if (!m_renderer) return true;
+    makeCurrent();
+    m_renderer->show(static_cast<PropsEvent*>(event)->props());
+    doneCurrent();
+    requestPaint();
+    return true;
   }
   return QOpenGLWidget::event(event);
 }

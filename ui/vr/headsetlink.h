@@ -5,6 +5,7 @@
 #include "ui/vr/handinput.h"
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -103,6 +104,21 @@ class HeadsetLink {
     return m_view;
   }
 
+  /// Hands, and what is in them, as the scene's own views show them to whoever looks on: copied once for each time that
+  /// somebody wants them.
+  void wantHands() { m_wantsHands = true; }
+  bool handsWanted() const { return m_wantsHands; }
+  void showHands(std::shared_ptr<const Props> hands) {
+    m_wantsHands = false;
+    const std::lock_guard lock(m_mutex);
+    m_shownHands.swap(hands);
+  }
+  /// nullptr: none since they were taken last.
+  std::shared_ptr<const Props> takeShownHands() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_shownHands, nullptr);
+  }
+
   /// In the order in which they were told. Where nobody takes them for seconds, what happened meanwhile is left out.
   void tell(const HandsSeen& hands) {
     const std::lock_guard lock(m_mutex);
@@ -119,6 +135,8 @@ class HeadsetLink {
   mutable std::mutex m_mutex;
   std::vector<HandsSeen> m_hands;
   std::shared_ptr<const HeadsetView> m_view;
+  std::shared_ptr<const Props> m_shownHands;
+  std::atomic<bool> m_wantsHands = false;
 };
 
 }  // namespace ps::vr

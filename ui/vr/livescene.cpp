@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace ps::vr {
 namespace {
@@ -68,7 +69,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
     told.holds = input.hold > kHeld && !m_moving.usesGrip(hand);
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
-    if (m_moving.steers(hand, input)) told.input.steerX = told.input.steerY = 0;
+    if (m_moving.steers(hand, input) && !told.panel) told.input.steerX = told.input.steerY = 0;
     if (!input.aim) continue;
     told.tip = m_moving.stand().toScene(tipOf(*input.aim));
     const Quaternion turned = m_moving.stand().toScene(*input.aim).orientation;
@@ -107,6 +108,7 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
     else if (!m_panels.takes(hand) && !m_moving.takes(hand))
       addVolume(m_props, m_moving.stand().toScene(tipOf(*aim)), brush);
   }
+  if (m_link->handsWanted()) m_link->showHands(std::make_shared<Props>(Props{m_props.opaque, m_props.clear, {}}));
   m_panels.addTo(m_props, m_moving.stand(), *m_view);
   m_panelsThere = m_props.panels.size();
   m_moving.addTo(m_props, frame, m_view->accent);

@@ -51,7 +51,7 @@ void Moving::follow(const HeadsetFrame& frame, const HandRoles& roles, bool busy
   }
   m_dimmed = std::max(0.0, m_dimmed - frame.period);
   carry(frame, keeps);
-  turn(frame);
+  turn(frame, busy);
   go(frame, busy);
 }
 
@@ -84,12 +84,12 @@ void Moving::turnBy(int64_t steps, const Vector3& about) {
   m_dimmed = kDimmed;
 }
 
-void Moving::turn(const HeadsetFrame& frame) {
+void Moving::turn(const HeadsetFrame& frame, bool busy) {
   const HandInput& hand = frame.hands[frame.hands[m_roles.other()].pad ? m_roles.other() : m_roles.main];
   const bool aside = std::abs(hand.steerX) > kPushed && std::abs(hand.steerX) > std::abs(hand.steerY);
   const bool grips = steers(m_roles.main, hand);
   // The sides of the main hand's pad choose the shape of its brush.
-  const bool free = !hand.pad || !m_roles.alone || grips;
+  const bool free = grips ? !busy : !hand.pad || !m_roles.alone;
   const bool asked = aside && free && (!hand.pad || hand.steerPressed);
   if (asked && !m_turns && !m_carrying) {
     if (grips && !hand.pad)

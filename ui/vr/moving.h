@@ -22,7 +22,7 @@ class Moving {
     m_stand = stand;
     m_carrying.reset();  // it goes on from there
   }
-  /// `busy`: the other hand has another use for its stick. `keeps`: which hands have something in them.
+  /// `busy`: the hand that goes has another use for its stick. `keeps`: which hands have something in them.
   void follow(const HeadsetFrame& frame, const HandRoles& roles = {}, bool busy = false,
               const std::array<bool, 2>& keeps = {});
   /// Its wearer at a place of the room, by so many steps of 30 degrees to the right.
@@ -45,7 +45,7 @@ class Moving {
  private:
   void carry(const HeadsetFrame& frame, const std::array<bool, 2>& keeps);
   static bool isGripped(const HandInput& input);
-  void turn(const HeadsetFrame& frame);
+  void turn(const HeadsetFrame& frame, bool busy);
   void scaleBy(double factor, const HeadsetFrame& frame);
   void go(const HeadsetFrame& frame, bool busy);
   void goBare(const HeadsetFrame& frame, const std::optional<Vector3>& goal);

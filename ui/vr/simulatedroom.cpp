@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace ps::vr {
@@ -34,6 +35,7 @@ void SimulatedRoom::rest() {
   const double x = m_roles.other() == kLeft ? -0.26 : 0.26;
   HandInput& other = m_hands[m_roles.other()];
   other = {};
+  m_roll = {};
   other.aim = other.grip = HandPose{{x, 1.2, -0.5}, along({0, 0, -1})};
 }
 
@@ -67,8 +69,9 @@ HeadsetFrame SimulatedRoom::frame(double seconds, double aspect) {
   HandInput& used = m_hands[m_used];
   for (HandInput& hand : m_hands) hand.profile = &hand == &used ? kMouse : std::string_view();
   const double reach = m_most ? std::min(m_reach[m_used], *m_most - kBeforePanel) : m_reach[m_used];
+  const Quaternion rolled(Eigen::AngleAxisd(-m_roll[m_used], Vector3::UnitZ()));
   used.aim = used.grip =
-      HandPose{eyes.position - (reach - kTip) * (eyes.orientation * Vector3::UnitZ()), eyes.orientation};
+      HandPose{eyes.position - (reach - kTip) * (eyes.orientation * Vector3::UnitZ()), eyes.orientation * rolled};
   // The palm of the other hand, where that rests, faces the eyes: it holds the palette.
   const size_t other = m_roles.other();
   HandPose& palm = *m_hands[other].grip;
@@ -98,6 +101,13 @@ void SimulatedRoom::point(double right, double up) {
   m_x = std::clamp(right, -1.0, 1.0);
   m_y = std::clamp(up, -1.0, 1.0);
 }
+
+/// As far round as an arm turns, and a little farther.
+void SimulatedRoom::roll(double right) {
+  m_roll[m_used] = std::clamp(m_roll[m_used] + right, -std::numbers::pi, std::numbers::pi);
+}
+
+void SimulatedRoom::level() { m_roll[m_used] = 0; }
 
 void SimulatedRoom::reach(double more) { m_reach[m_used] = std::clamp(m_reach[m_used] + more, kNearest, kFarthest); }
 

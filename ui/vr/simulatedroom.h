@@ -21,6 +21,8 @@ class SimulatedRoom {
   void walk(const Vector3& way);        ///< m to the right, up, and on the level to where it looks
   void point(double right, double up);  ///< -1..1 across the eye's picture
   void reach(double more);              ///< m, from the eyes
+  void roll(double right);              ///< rad, of the hand in use about where it points
+  void level();                         ///< that hand is turned so no more
   /// From now on; another main hand is the one in use.
   void give(const HandRoles& roles);
   const HandRoles& roles() const { return m_roles; }
@@ -36,6 +38,7 @@ class SimulatedRoom {
   double m_right = 0, m_up = -0.45;  // rad
   double m_x = 0, m_y = 0;           // where the hand in use is seen
   std::array<double, 2> m_reach{0.55, 0.55};
+  std::array<double, 2> m_roll{};  // rad, to the right
   std::optional<double> m_most;
   std::array<HandInput, 2> m_hands;
   HandRoles m_roles;

@@ -49,23 +49,25 @@ bool VrHands::ends() const {
 }
 
 /// A stroke in the making is not lost by what another hand does, or who sits at the desktop: it ends where something
-/// comes, goes or becomes another that it may lie on, and otherwise goes on. What it builds on may be gone, though.
+/// comes, goes, parts or becomes another that it may lie on, and otherwise goes on. Only what it builds on may be gone.
 void VrHands::onChanged(const ChangeEvent& event) {
   if (ends()) return;
   const auto* body = std::get_if<BodyChanged>(&event);
   const auto* stroke = std::get_if<StrokeChanged>(&event);
   const auto* value = std::get_if<ParameterChanged>(&event);
-  const bool lost = std::holds_alternative<ProjectOpened>(event) || std::holds_alternative<MaterialsChanged>(event) ||
-                    (body && !m_session.document().body(body->id)) || (stroke && !stroke->done);
-  if (lost) {
-    for (HandBrush& brush : m_brushes) brush.cancel();
+  const bool materials = std::holds_alternative<MaterialsChanged>(event);
+  const bool lost = std::holds_alternative<ProjectOpened>(event) || (stroke && !stroke->done);
+  const bool gone = materials || (body && !m_session.document().body(body->id));
+  const bool edited = gone || body || stroke || std::holds_alternative<BodyParted>(event) ||
+                      (value && (value->address.owner == Owner::Solver || value->address.owner == Owner::Body)) ||
+                      std::holds_alternative<PortChanged>(event) || std::holds_alternative<WallsChanged>(event);
+  for (HandBrush& brush : m_brushes)
+    if (lost || (gone && !brush.stands())) brush.cancel();
+  if (lost || gone) {
     for (HandBrush& grab : m_grabs) grab.cancel();
     for (HandTool& held : m_held) held.letGo();
-  } else if (body || stroke ||
-             (value && (value->address.owner == Owner::Solver || value->address.owner == Owner::Body)) ||
-             std::holds_alternative<PortChanged>(event) || std::holds_alternative<WallsChanged>(event)) {
-    m_edited = true;  // it may be under way
   }
+  m_edited = m_edited || (edited && !lost);  // it may be under way
 }
 
 void VrHands::finishStrokes() {

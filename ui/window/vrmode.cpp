@@ -11,6 +11,7 @@
 #include "ui/session/transitions.h"
 #include "ui/session/wording.h"
 #include "ui/tools/toolbox.h"
+#include "ui/viewport/propsevent.h"
 #include "ui/viewport/viewport.h"
 #include "ui/vr/livescene.h"
 #include "ui/vr/mirror.h"
@@ -29,13 +30,17 @@
 #include <QtGui/QAction>
 
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace ps {
 namespace {
 
 constexpr int kLook = 8;         // ms between looks at the headset
 constexpr int kShowAgain = 200;  // ms after which what nobody tells of, like the theme, is shown all the same
+constexpr int kOutside = 50;     // ms between looks at the hands that the window's view shows
 constexpr int kAsleep = 1000;    // ms without a word of hands, after which they do nothing any more
 const QString kTopic = QStringLiteral("VR");
 
@@ -180,6 +185,7 @@ void VrMode::look() {
   if (ending) return end(*ending);
   useHands();
   if (!m_panels) return;
+  showHandsOutside();
   const bool painted = m_panels->paint();
   if (m_changed || m_sinceShown.hasExpired(kShowAgain)) {
     show();
@@ -238,6 +244,36 @@ void VrMode::showHands() {
   m_link->show(std::move(shown));
 }
 
+namespace {
+
+bool isSame(const std::vector<MeshVertex>& a, const std::vector<MeshVertex>& b) {
+  static_assert(std::is_trivially_copyable_v<MeshVertex> && sizeof(MeshVertex) == 10 * sizeof(float));  // no gaps
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(MeshVertex)) == 0);
+}
+
+}  // namespace
+
+/// The view, which goes on as from a camera beside them, shows whoever looks on the hands. While these rest it draws
+/// nothing anew; a trial has a window of its own for all that.
+void VrMode::showHandsOutside() {
+  if (!m_headset || m_mirror) return;
+  std::shared_ptr<const Props> hands = m_link->takeShownHands();
+  if (hands && !(m_outside && isSame(hands->opaque, m_outside->opaque) && isSame(hands->clear, m_outside->clear))) {
+    PropsEvent event(hands);
+    QCoreApplication::sendEvent(m_parts.view, &event);
+    m_outside = std::move(hands);
+  }
+  if (m_sinceOutside.isValid() && !m_sinceOutside.hasExpired(kOutside)) return;
+  m_link->wantHands();
+  m_sinceOutside.start();
+}
+
+void VrMode::takeHandsOutside() {
+  if (!std::exchange(m_outside, nullptr)) return;
+  PropsEvent event(std::make_shared<Props>());
+  QCoreApplication::sendEvent(m_parts.view, &event);
+}
+
 /// The thread is done by then, or as good as, or left where its runtime keeps it.
 void VrMode::end(const vr::Ending& ending) {
   const bool trial = m_window != nullptr;
@@ -253,6 +289,7 @@ void VrMode::end(const vr::Ending& ending) {
   m_hands->letGo();
   m_panels.reset();
   m_link.reset();
+  takeHandsOutside();
   const QString said = ending.failed ? asSentence(ending.sentence)
                        : m_leaving   ? QString()
                                      : QStringLiteral("VR was left in the headset; the scene goes on here.");

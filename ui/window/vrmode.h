@@ -11,6 +11,8 @@ class QAction;
 
 namespace ps {
 
+struct Props;
+
 namespace vr {
 class Headset;
 class HeadsetLink;
@@ -72,6 +74,8 @@ class VrMode : public QObject {
   void useHands();
   void show();
   void showHands();  ///< they alone have changed
+  void showHandsOutside();
+  void takeHandsOutside();
   void end(const vr::Ending& ending);
   QString hindrance() const;
   void showState();
@@ -92,7 +96,8 @@ class VrMode : public QObject {
   bool m_entersNext = false;  ///< the headset was asked for again, while a stay in it has yet to end
   QTimer m_timer{this};
   bool m_changed = false;  ///< there is something else to show
-  QElapsedTimer m_sinceShown, m_sinceHands;
+  QElapsedTimer m_sinceShown, m_sinceHands, m_sinceOutside;
+  std::shared_ptr<const Props> m_outside;  ///< hands that the view shows; nullptr: none
   uint64_t m_picture = 0, m_looks = 0;
   uint64_t m_project = 1;  ///< counts those that were shown
 };

@@ -21,14 +21,15 @@ namespace {
 
 constexpr int kFrame = 16;       // ms
 constexpr double kWalk = 0.6;    // m/s
+constexpr double kRoll = 1.5;    // rad/s
 constexpr double kTurn = 0.004;  // rad for each pixel
 constexpr double kReach = 0.03;  // m for each notch of the wheel
 constexpr double kNotch = 120;
 constexpr const char* kHints[] = {
     "Mouse: hand    Left button: trigger    Shift: grip    G: both grips    Tab: other hand    Wheel: reach    "
-    "Right-drag: look",
+    "X C: roll it, both: level    Right-drag: look",
     "W A S D E Q: walk    F: go there    Arrows: size, turn    N: material    P: board    M: palette    U: undo    "
-    "Space: play    Esc: end"};
+    "Space: play    R: make real    Esc: end"};
 
 }  // namespace
 
@@ -102,6 +103,10 @@ void VrWithout::useKeys(double passed) {
   const auto down = [&](int key) { return m_keys.count(key) > 0; };
   const auto way = [&](int there, int back) { return kWalk * passed * (double(down(there)) - double(down(back))); };
   m_room.walk({way(Qt::Key_D, Qt::Key_A), way(Qt::Key_E, Qt::Key_Q), way(Qt::Key_W, Qt::Key_S)});
+  if (down(Qt::Key_X) && down(Qt::Key_C))
+    m_room.level();
+  else
+    m_room.roll(kRoll * passed * (double(down(Qt::Key_C)) - double(down(Qt::Key_X))));
   for (const size_t hand : {vr::kLeft, vr::kRight}) {
     vr::HandInput& input = m_room.input(hand);
     const bool used = hand == m_room.used();
@@ -111,6 +116,7 @@ void VrWithout::useKeys(double passed) {
   const vr::HandRoles roles = m_room.roles();
   vr::HandInput &other = m_room.input(roles.other()), &main = m_room.input(roles.main);
   other.first = down(Qt::Key_Space);
+  other.second = down(Qt::Key_R);
   other.steerY = double(down(Qt::Key_F));
   main.first = down(Qt::Key_U);
   main.second = down(Qt::Key_P);
