@@ -79,7 +79,7 @@ struct Engine::Impl {
   /// Without those that an emitter holds.
   std::vector<uint32_t> notHeld(const std::vector<uint32_t>& ids) const;
   /// Throws SceneError where the memory does not hold so many particles more of a body.
-  void requireRoomFor(double more, const Body& body) const;
+  void requireRoomFor(double more, const Body& body);
   void measurePouring();
   /// Whether so many particles more may be poured; what they take is then spoken for.
   bool mayPour(size_t more);
@@ -127,6 +127,7 @@ struct Engine::Impl {
   std::optional<Limit> fill;  ///< what whole layers make of the bodies' volumes
   double pouredBytes = 0;     ///< that a particle of an emitter takes
   double pouringRoom = 0;     ///< bytes that emitters may take before the memory is asked again
+  double addingRoom = 0;      ///< and what is added by hand
   bool toldFull = false;      ///< that they wait for memory
   uint64_t revision = 0;
   double spacing = 0;  ///< of the particles that live; the project's acts at the next reset

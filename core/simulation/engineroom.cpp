@@ -10,14 +10,22 @@
 namespace ps {
 namespace {
 
-/// Of the room that there is, until it is looked up again.
-constexpr double kPouringShare = 1.0 / 16;
+/// Of the room that there is, until it is looked up again: to look takes a good part of what a stroke's sample may.
+constexpr double kPouringShare = 1.0 / 16, kAddingShare = 1.0 / 16;
 
 }  // namespace
 
-void Engine::Impl::requireRoomFor(double more, const Body& body) const {
+void Engine::Impl::requireRoomFor(double more, const Body& body) {
   const double each = particleBytes(project, &plugins, body, {spacing, scaleOf(project).reach});
-  ps::requireRoomFor(static_cast<double>(solver->particles().size()), more, each, memoryNow());
+  const auto living = static_cast<double>(solver->particles().size());
+  if (more * each > addingRoom) {
+    const Memory memory = memoryNow();
+    ps::requireRoomFor(living, more, each, memory);
+    addingRoom = kAddingShare * (roomToGrow(memory) - more * each);
+    return;
+  }
+  requireFewer(living + more);
+  addingRoom -= more * each;
 }
 
 void Engine::Impl::measurePouring() {
