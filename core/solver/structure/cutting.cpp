@@ -35,27 +35,30 @@ bool meets(const Blade& blade, const Vector3& from, const Vector3& way) {
 class Reach {
  public:
   Reach(const ParticleStore& store, std::span<const Blade> blades, std::span<const uint8_t> isSpared, double spacing)
-      : m_store(store), m_blades(blades), m_place(store.size()) {
+      : m_store(store),
+        m_blades(blades),
+        m_isSpared(isSpared),
+        m_beyond(kLongestTie * spacing),
+        m_isNear(store.size()) {
+    // A ball around all of them leaves out most of a scene by one look.
+    for (const Blade& blade : blades) m_all = std::max(m_all, offset(blade.centre).norm() + blade.radius + m_beyond);
     forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        const uint32_t body = store.body()[i];
-        const bool spared = body < isSpared.size() && isSpared[body] != 0;
-        m_place[i] = spared ? Place::Spared : isNear(static_cast<uint32_t>(i), spacing) ? Place::Near : Place::Far;
-      }
+      for (size_t i = first; i < last; ++i) m_isNear[i] = findNear(static_cast<uint32_t>(i)) ? 1 : 0;
     });
+    findIndices(store.size(), m_near, [&](size_t i) { return m_isNear[i] != 0; });
   }
-  bool any() const { return std::find(m_place.begin(), m_place.end(), Place::Near) != m_place.end(); }
-  bool isNear(uint32_t i) const { return m_place[i] == Place::Near; }
+  std::span<const uint32_t> near() const { return m_near; }
   bool isCut(uint32_t i, uint32_t j) const {
-    if (!isNear(i) || m_place[j] == Place::Spared) return false;
+    if (m_isNear[i] == 0 || isSpared(j)) return false;
     const Vector3 way = vectorOf(m_store.separation(j, i));
     return std::any_of(m_blades.begin(), m_blades.end(),
                        [&](const Blade& blade) { return meets(blade, fromCentre(m_store, i, blade), way); });
   }
   /// Of a tie of several: whether a blade parts any two of them.
   bool isCut(std::span<const uint32_t> tied) const {
-    const auto spared = [&](uint32_t i) { return m_place[i] == Place::Spared; };
-    if (std::any_of(tied.begin(), tied.end(), spared)) return false;
+    const auto isNear = [&](uint32_t i) { return m_isNear[i] != 0; };
+    if (std::none_of(tied.begin(), tied.end(), isNear)) return false;
+    if (std::any_of(tied.begin(), tied.end(), [&](uint32_t i) { return isSpared(i); })) return false;
     for (size_t a = 0; a < tied.size(); ++a) {
       for (size_t b = a + 1; b < tied.size(); ++b) {
         if (isCut(tied[a], tied[b])) return true;
@@ -65,31 +68,50 @@ class Reach {
   }
 
  private:
-  enum class Place : uint8_t { Far, Near, Spared };
-  bool isNear(uint32_t i, double spacing) const {
-    return std::any_of(m_blades.begin(), m_blades.end(), [&](const Blade& blade) {
-      const double reach = blade.radius + kLongestTie * spacing;
+  bool isSpared(uint32_t i) const {
+    const uint32_t body = m_store.body()[i];
+    return body < m_isSpared.size() && m_isSpared[body] != 0;
+  }
+  /// From the middle of the first blade.
+  Vector3 offset(const Vector3& place) const {
+    api::Float4 from = float4Of(place - m_blades.front().centre, 0);
+    m_store.period().shorten(from.x, from.y, from.z);
+    return vectorOf(from);
+  }
+  bool findNear(uint32_t i) const {
+    if (m_blades.empty() || offset(vectorOf(m_store.position()[i])).squaredNorm() > m_all * m_all) return false;
+    return !isSpared(i) && std::any_of(m_blades.begin(), m_blades.end(), [&](const Blade& blade) {
+      const double reach = blade.radius + m_beyond;
       return fromCentre(m_store, i, blade).squaredNorm() < reach * reach;
     });
   }
 
   const ParticleStore& m_store;
   std::span<const Blade> m_blades;
-  std::vector<Place> m_place;
+  std::span<const uint8_t> m_isSpared;
+  double m_beyond, m_all = 0;  // m
+  std::vector<uint8_t> m_isNear;
+  std::vector<uint32_t> m_near;
 };
 
 /// Pairs of neighbours that structure ties, across blades.
 std::vector<Cuts::Pair> pairsAcross(const ParticleStore& store, const Neighbours& neighbours,
                                     const StructureGraph& graph, const Reach& reach) {
   const api::NeighbourView lists = neighbours.view();
-  std::vector<Cuts::Pair> pairs;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (!reach.isNear(i) || graph.isFree(i)) continue;
-    for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
-      const uint32_t j = lists.index[q];
-      if (i < j && graph.tied(i, j) && reach.isCut(i, j)) pairs.push_back(Cuts::pairOf(store.id()[i], store.id()[j]));
+  const std::span<const uint32_t> near = reach.near();
+  std::vector<std::vector<Cuts::Pair>> found(chunkCount(near.size(), grain::kPairs));
+  forChunks(near.size(), grain::kPairs, [&](size_t first, size_t last) {
+    for (const uint32_t i : near.subspan(first, last - first)) {
+      if (graph.isFree(i)) continue;
+      for (uint32_t q = lists.begin[i]; q < lists.last[i]; ++q) {
+        const uint32_t j = lists.index[q];
+        if (i < j && graph.tied(i, j) && reach.isCut(i, j))
+          found[first / grain::kPairs].push_back(Cuts::pairOf(store.id()[i], store.id()[j]));
+      }
     }
-  }
+  });
+  std::vector<Cuts::Pair> pairs;
+  for (const std::vector<Cuts::Pair>& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
   return pairs;
 }
 
@@ -114,7 +136,7 @@ TieChange ConstraintSystem::cut(const ParticleStore& store, const Neighbours& ne
                                 std::span<const uint8_t> isSpared) {
   const Reach reach(store, blades, isSpared, m_settings.spacing);
   TieChange change;
-  if (!reach.any()) return change;
+  if (reach.near().empty()) return change;
   change.cuts = m_cuts.add(pairsAcross(store, neighbours, graph(store.size()), reach));
   CopiedConstraints broken;
   for (Set& set : m_sets) {
@@ -133,7 +155,8 @@ TieChange ConstraintSystem::cut(const ParticleStore& store, const Neighbours& ne
 /// rigid is noted, since they do not find together by themselves.
 void ConstraintSystem::reshapeGroups(const ParticleStore& store, const Neighbours& neighbours,
                                      std::span<const Cuts::Pair> pairs, CopiedConstraints* noted) {
-  if (pairs.empty()) return;
+  const bool any = std::any_of(m_sets.begin(), m_sets.end(), [](const Set& s) { return s.groups && !s.disabled; });
+  if (pairs.empty() || !any) return;
   std::vector<uint8_t> marked(store.size(), 0);
   for (const Cuts::Pair pair : pairs) {
     for (const uint32_t id : {Cuts::lower(pair), Cuts::higher(pair)}) {
