@@ -436,6 +436,7 @@ class TestTools : public ToolTest {
     const Vector3 centre = SketchGrid{first.origin, first.spacing}.centreOf({run.x, run.y, run.z});
     scene->position = {{float(centre.x()), float(centre.y()), float(centre.z()), float(kSpacing / 2)}};
     scene->body = {0};
+    scene->motion = {api::Motion::Liquid};
     scene->id = {1};
     draw({centre, centre + Vector3(0, 0, 0.1)}, scene);
     QCOMPARE(bodies.size(), size_t{3});
@@ -463,6 +464,7 @@ class TestTools : public ToolTest {
     scene->spacing = kSpacing;
     scene->position = {{float(centre.x()), float(centre.y()), float(centre.z()), float(kSpacing / 2)}};
     scene->body = {0};
+    scene->motion = {api::Motion::Liquid};
     scene->id = {1};
     setGuide("draw_on", std::string("level"));
     setGuide("plane_at", centre.y());
@@ -551,6 +553,7 @@ class TestTools : public ToolTest {
       scene->position.push_back({0.2F * float(k), 0.4F, 0, float(kSpacing)});
       scene->temperature.push_back(300.0F + 25.0F * float(k));
       scene->body.push_back(0);
+      scene->motion.push_back(api::Motion::Liquid);
       scene->id.push_back(uint32_t(k));
     }
     tool.press(aimed({0, 0.4, 0}, scene));
@@ -590,6 +593,7 @@ class TestTools : public ToolTest {
     for (int k = 0; k < 8; ++k) {
       scene->position.push_back({0.1F + 0.03F * float(k), 0.3F, 0, float(kSpacing / 2)});
       scene->body.push_back(0);
+      scene->motion.push_back(api::Motion::Liquid);
       scene->id.push_back(uint32_t(k));
     }
     setBrush("sphere");
@@ -736,6 +740,7 @@ class TestTools : public ToolTest {
     scene->revision = 7;
     scene->position = {{0, 0, 0, 0.02F}};
     scene->body = {0};
+    scene->motion = {api::Motion::Liquid};
     scene->id = {42};
     m_tools->tool().click(aimed({0, 0, 0}, scene));
     QCOMPARE(m_selection->body(), std::string("ice"));
