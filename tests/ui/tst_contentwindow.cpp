@@ -635,9 +635,10 @@ class TestContentWindow : public SampleWindowTest {
     QCOMPARE(icon(), before);
     document().setStructure("ice", kNoStructure);
     QCOMPARE(icon(), QStringLiteral("grains"));
+    document().setParameter({Owner::Body, "ice", "phase"}, std::string("automatic"));
     document().setParameter({Owner::Body, "ice", "temperature"}, 300.0);
     QCOMPARE(icon(), QStringLiteral("liquid"));
-    for (int k = 0; k < 2; ++k) document().undoStack().undo();
+    for (int k = 0; k < 3; ++k) document().undoStack().undo();
     QCOMPARE(icon(), before);
   }
 
