@@ -145,6 +145,35 @@ class TestBecoming : public ToolTest {
     QCOMPARE(why(*m_plugins, "water", "gas"), QString());
   }
 
+  /// Matter that has melted flows whatever holds it together, which is said, until something else is drawn. What has no
+  /// melting point stands.
+  void whatFlowsIsSaid() {
+    m_document->addMaterial("glass");
+    const auto drawAt = [this](const char* material, double temperature, double x) {
+      take("sphere", 0.05);
+      BrushSettings brush = m_tools->brush();
+      brush.becomes = "rigid", brush.material = material, brush.temperature = temperature;
+      brush.drawOn = DrawOn::AcrossZ;
+      m_tools->setBrush(brush);
+      m_tools->tool().press(at({x, 0.2, 0}));
+      m_tools->tool().release(at({x, 0.2, 0}));
+    };
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    drawAt("water", 293.15, -0.3);
+    QCOMPARE(refused.count(), 1);
+    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("melts at 0 °C")), qPrintable(refused[0][1].toString()));
+    drawAt("water", 263.15, 0);
+    QCOMPARE(refused.count(), 2);
+    QCOMPARE(refused[1][1].toString(), QString());
+    drawAt("glass", 293.15, 0.3);
+    QCOMPARE(refused.count(), 2);
+    const std::vector<Body>& bodies = m_document->project().bodies;
+    QCOMPARE(bodies.size(), size_t{3});
+    const auto phaseOf = [](const Body& body) { return choiceOf(body.parameters, bodyParameters(), "phase"); };
+    QCOMPARE(phaseOf(bodies[1]), std::string("automatic"));
+    QCOMPARE(phaseOf(bodies[2]), std::string("solid"));
+  }
+
   /// Those of a sheet's edge, where a mark shows them, while it is selected alone; its row says which edge that is.
   void whatIsHeldIsShown() {
     Body sheet;

@@ -6,6 +6,7 @@
 #include "tests/ui/gizmohands.h"
 #include "tests/ui/hands.h"
 #include "ui/document/redrawing.h"
+#include "ui/library/librarypage.h"
 #include "ui/panels/brushpanel.h"
 #include "ui/panels/strokelistedits.h"
 #include "ui/panels/strokeslist.h"
@@ -15,6 +16,7 @@
 #include "ui/tools/tooltable.h"
 #include "ui/window/brushbar.h"
 #include "ui/window/dock.h"
+#include "ui/window/libraryactions.h"
 #include "ui/window/windowlayout.h"
 
 #include <QtGui/QAction>
@@ -117,7 +119,7 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(*columns.rbegin() + 40 <= 98 && *columns.rbegin() - *columns.begin() >= 40);
     const auto brushes = session().plugins()->ids(PluginKind::Brush);
     QCOMPARE(static_cast<size_t>(buttons().size()),
-             brushes.size() + 2 + std::min<size_t>(10, document().project().materials.size()));
+             brushes.size() + 3 + std::min<size_t>(10, document().project().materials.size()));
   }
 
   void whatDrawsComesBeforeWhatChangesAndWhatTouches() {
@@ -156,6 +158,23 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(iron->isChecked());
     document().undoStack().undo();
     QVERIFY(!of("material", "iron"));
+  }
+
+  /// One that the scene has not comes from the library; a tip says what a brush does, whose name is its name alone.
+  void itLeadsToTheLibrary() {
+    m_window->tools().activate(kBrushTool);
+    QAbstractButton* more = named("Material from the library");
+    QVERIFY(more);
+    const LibraryPage* page = m_window->library().page();
+    QVERIFY(!page->isVisible());
+    more->click();
+    QTRY_VERIFY(page->isVisible());
+    press(Qt::Key_Escape);
+    QTRY_VERIFY(!page->isVisible());
+    const QAbstractButton* sphere = of("shape", "sphere");
+    QVERIFY(sphere->toolTip().contains(QStringLiteral("\nDraws a round strand")));
+    QVERIFY(!sphere->accessibleName().contains(QLatin1Char('\n')));
+    m_window->tools().activate(kSelectTool);
   }
 
   /// Also where somebody looks at a body while the brush is in hand already: Ctrl+K triggers the same action.

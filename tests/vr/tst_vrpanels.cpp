@@ -753,14 +753,16 @@ void VrPanelsTest::aLoneHandWithItsGripScrolls() {
   preferences::setOneHanded(true);
   ScriptedRun run(vrScript({}, kHandsAway));
   enter();
-  panels().showPage(QStringLiteral("Brush"));
-  QTest::qWait(100);
+  panels().showPage(QStringLiteral("Materials"));
   QScrollArea* area = nullptr;
-  for (auto* one : panels().widget(vr::kBoard)->findChildren<QScrollArea*>())
-    if (one->isVisible()) area = one;
-  QVERIFY(area);
-  const QScrollBar& bar = *area->verticalScrollBar();
-  QVERIFY(bar.maximum() > 0 && bar.value() == 0);
+  const auto scrolls = [&] {
+    for (auto* one : panels().widget(vr::kBoard)->findChildren<QScrollArea*>())
+      if (one->isVisible() && one->verticalScrollBar()->maximum() > 0) area = one;
+    return area != nullptr;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(scrolls(), kLong);
+  QScrollBar& bar = *area->verticalScrollBar();
+  bar.setValue(0);
   const auto stick = [&](int frame, int y) {
     return boardKey(frame, *area, QRectF(area->rect()).center(), false, false,
                     kHolds + QStringLiteral(R"(, "/input/thumbstick/y": %1)").arg(y));
@@ -813,10 +815,10 @@ void VrPanelsTest::labelsSayWhatControllersDo_data() {
                                 << "Pinch, Fist, Fist, Pinch, Index, then Pinch"
                                 << "Pinch, Fist, Fist, Pinch";
   QTest::newRow("a mouse") << "mouse"
-                           << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
-                              "U, P, M, Tab"
-                           << "Left button, Shift, Shift, left button, G, Wheel, Up, down, Left, right, N, F, Space, "
-                              "U, P, M, Tab";
+                           << "Left button, Shift, Shift, left button, G, Wheel, X, C, Up, down, Left, right, N, F, "
+                              "Space, R, U, P, M, Tab"
+                           << "Left button, Shift, Shift, left button, G, Wheel, X, C, Up, down, Left, right, N, F, "
+                              "Space, R, U, P, M, Tab";
   QTest::newRow("none") << ""
                         << ""
                         << "";

@@ -4,6 +4,7 @@
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "ui/document/declared.h"
+#include "ui/theme/units.h"
 
 #include <phasesketch/thin.h>
 
@@ -122,6 +123,19 @@ QString whyNotBecome(const Project& project, const PluginRegistry& plugins, cons
       .arg((becoming == nameOf(kRope) ? QStringLiteral("a ") : QString()) + QString::fromStdString(becoming));
 }
 
+QString whatFlows(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                  const std::string& becoming, double temperature) {
+  const double melting = propertyOf(project, plugins, material, "melting_temperature", temperature).value_or(0);
+  if (!needsStructure(becoming) || melting <= 0 || temperature < melting) return {};
+  const auto rows = becomings();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.first == becoming; });
+  return QStringLiteral(
+             "“%1” melts at %2, and “%3” holds together what is solid. Choose a lower temperature than %4, or another "
+             "row under “Becomes”.")
+      .arg(ownerLabel(project, {Owner::Material, material, ""}), temperatureText(melting, 0), row->second,
+           temperatureText(temperature, 0));
+}
+
 void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
             double temperature) {
   const std::string wanted =
@@ -133,6 +147,9 @@ void become(Body& body, const std::string& becoming, const Project& project, con
   } else if (needsStructure(wanted)) {
     const std::string structure = structureFor(plugins, wanted);
     if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
+    // What has no melting point, such as glass, flows by itself, however slowly.
+    if (!structure.empty() && propertyOf(project, plugins, body.material, "melting_temperature", temperature) == 0.0)
+      body.parameters.values["phase"] = std::string("solid");
   }
 }
 

@@ -31,6 +31,9 @@ std::string ownBecoming(const Project& project, const PluginRegistry& plugins, c
 /// "" or why no body of a scene's material can become that: no plugin is installed that makes it, or it never boils.
 QString whyNotBecome(const Project& project, const PluginRegistry& plugins, const std::string& material,
                      const std::string& becoming);
+/// "" or why matter of a scene's material at `temperature` K flows though it is to be held together.
+QString whatFlows(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                  const std::string& becoming, double temperature);
 /// Sets what holds a new body of `temperature` K together, its phase, and whether it is held in place.
 void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
             double temperature);

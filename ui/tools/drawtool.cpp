@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -111,10 +112,16 @@ bool DrawTool::press(const Pointer& pointer) {
   m_before = m_cursor->erase ? pointer.scene : nullptr;
   m_straight.stop();
   m_trail.start(m_cursor->centre);
+  if (std::exchange(m_said, false)) refuse({});  // what was said before is over
   static const Snapshot kNothing;
   const QString problem = m_stroke.begin(m_cursor->erase, pointer.scene ? *pointer.scene : kNothing, m_cursor->centre,
                                          m_plane.normal, heldBy(pointer));
-  if (problem.isEmpty()) return true;
+  if (problem.isEmpty()) {
+    const QString flows = m_stroke.whatFlows();
+    m_said = !flows.isEmpty();
+    if (m_said) box().refuse(QStringLiteral("What is drawn flows."), flows);
+    return true;
+  }
   m_stroke.cancel();
   refuse(problem);
   return true;
@@ -277,6 +284,7 @@ bool DrawTool::cancel() {
 }
 
 void DrawTool::refuse(const QString& why, bool kept) {
+  m_said = !why.isEmpty();
   box().refuse(kept            ? QStringLiteral("The stroke ends here.")
                : meetsMatter() ? QStringLiteral("The matter stays as it is.")
                                : QStringLiteral("Nothing was drawn."),

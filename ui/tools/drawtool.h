@@ -64,6 +64,7 @@ class DrawTool : public Tool {
   Pointer m_hand;        ///< as it was last while it touches matter
   QString m_snapped;     ///< "" or what the place under the pointer has snapped to
   bool m_faces = false;  ///< the plane lies across the view, for what the hand holds
+  bool m_said = false;   ///< why something was not drawn, or flows
 };
 
 /// Takes matter away with the brush; Control draws instead.

@@ -187,6 +187,12 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   return {};
 }
 
+QString LiveStroke::whatFlows() const {
+  const Document& document = m_box.document();
+  if (!m_record || m_record->body.empty()) return {};
+  return ps::whatFlows(document.project(), *document.plugins(), m_body->material, m_brush.becomes, m_brush.temperature);
+}
+
 /// Its brush begins to work, for what is to come.
 void LiveStroke::start() {
   StrokeScene scene{m_box.document().project().environment, {}};

@@ -53,6 +53,8 @@ class LiveStroke {
   /// Waits for what the brush still gives. "" or what went wrong: the stroke then ends as far as it came, or is given
   /// up where the brush failed.
   QString finish();
+  /// "" or why what is being drawn flows, though the brush is to hold it together.
+  QString whatFlows() const;
   bool kept() const { return m_kept; }  ///< finish() has left something of it
   /// Something has gone wrong since, and nothing more is drawn: finish() says what. `call` is called when it does.
   bool troubled() const { return !m_problem.isEmpty(); }

@@ -52,9 +52,15 @@ class BarButton : public QToolButton {
   }
   void setKey(const QString& key) {
     m_key = key;
-    setToolTip(key.isEmpty() ? m_name : QStringLiteral("%1 (%2)").arg(m_name, key));
-    setAccessibleName(toolTip());
+    const QString name = key.isEmpty() ? m_name : QStringLiteral("%1 (%2)").arg(m_name, key);
+    setToolTip(m_help.isEmpty() ? name : name + QLatin1Char('\n') + m_help);
+    setAccessibleName(name);
     update();
+  }
+  /// What its tip says below its name.
+  void setHelp(const QString& help) {
+    m_help = help;
+    setKey(m_key);
   }
   void setPicture(std::function<void(QPainter&, const QRectF&)> picture) { m_picture = std::move(picture); }
 
@@ -77,7 +83,7 @@ class BarButton : public QToolButton {
   }
 
  private:
-  QString m_name, m_icon, m_key;
+  QString m_name, m_icon, m_key, m_help;
   std::function<void(QPainter&, const QRectF&)> m_picture;
 };
 
@@ -187,6 +193,11 @@ void BrushBar::addCommon() {
     m_tools.setBrush(brush);
     clicked(m_mirror);
   });
+  m_more = new BarButton(QStringLiteral("Material from the library"), QStringLiteral("plus"));
+  m_more->setCheckable(false);  // it opens a page
+  connect(m_more, &QToolButton::clicked, this, [this] {
+    if (auto* library = window()->findChild<QAction*>(QStringLiteral("add.library"))) library->trigger();
+  });
   place(m_change, m_erase = erase);
   place(m_change, m_mirror = mirror);
 }
@@ -198,6 +209,8 @@ void BrushBar::addBrushes() {
     const QString name = QString::fromStdString(id);
     auto* button = new BarButton(pluginLabel(plugins, id), iconNames().contains(name) ? name : QString());
     button->setProperty(kShape, name);
+    const QString help = QString::fromUtf8(plugins->brush(id)->help());
+    button->setHelp(help.left(help.indexOf(QStringLiteral(". ")) + 1));  // all of it is on the brush's page
     showKeyOf(QStringLiteral("sketch.shape.") + name, button);
     m_shapes->addButton(button);
     const bool changes =
@@ -216,6 +229,7 @@ void BrushBar::addMaterials() {
     button->hide();
     button->deleteLater();  // it may be the one that was clicked
   }
+  m_materials.grid->removeWidget(m_more);
   const Project& project = m_session.document().project();
   for (const SceneMaterial& material : project.materials) {
     const auto number = static_cast<int>(m_matter->buttons().size());
@@ -232,7 +246,7 @@ void BrushBar::addMaterials() {
     place(m_materials, button);
     button->show();
   }
-  m_materials.box->setVisible(!m_matter->buttons().isEmpty());
+  place(m_materials, m_more);
   showMaterial();
 }
 

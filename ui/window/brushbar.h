@@ -51,7 +51,7 @@ class BrushBar : public QWidget {
   QWidget* m_list;
   Group m_draw, m_change, m_touch, m_materials;
   QButtonGroup *m_shapes, *m_matter;
-  QAbstractButton *m_erase = nullptr, *m_mirror = nullptr;
+  QAbstractButton *m_erase = nullptr, *m_mirror = nullptr, *m_more = nullptr;
 };
 
 }  // namespace ps

@@ -525,14 +525,14 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     m_layout->setFullViewport(false);
   } else if (m_tools->active() == kSelectTool && view && view->endSection()) {
     return;
-  } else if (m_tools->active() != kSelectTool) {
-    m_tools->activate(kSelectTool);
-  } else if (view && !view->hasFocus()) {
+  } else if (view && !view->hasFocus()) {  // before the tool: who was at a row goes on with it
     if (auto* field = qobject_cast<QLineEdit*>(QApplication::focusWidget())) {
       while (field->isUndoAvailable()) field->undo();  // to leave it would take what was typed
       field->setModified(false);
     }
     view->setFocus(Qt::OtherFocusReason);
+  } else if (m_tools->active() != kSelectTool) {
+    m_tools->activate(kSelectTool);
   } else {
     m_selection->clear();
   }
