@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <tuple>
-#include <utility>
 
 namespace ps {
 namespace {
@@ -112,14 +111,13 @@ bool DrawTool::press(const Pointer& pointer) {
   m_before = m_cursor->erase ? pointer.scene : nullptr;
   m_straight.stop();
   m_trail.start(m_cursor->centre);
-  if (std::exchange(m_said, false)) refuse({});  // what was said before is over
   static const Snapshot kNothing;
   const QString problem = m_stroke.begin(m_cursor->erase, pointer.scene ? *pointer.scene : kNothing, m_cursor->centre,
                                          m_plane.normal, heldBy(pointer));
   if (problem.isEmpty()) {
     const QString flows = m_stroke.whatFlows();
-    m_said = !flows.isEmpty();
-    if (m_said) box().refuse(QStringLiteral("What is drawn flows."), flows);
+    if (!flows.isEmpty() || m_said) box().refuse(QStringLiteral("What is drawn flows."), flows);
+    m_said = !flows.isEmpty();  // what was said before is over
     return true;
   }
   m_stroke.cancel();
