@@ -4,7 +4,6 @@
 // Precompiled for the rooms that read and write JSON; a unit still names what it includes.
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>

@@ -27,8 +27,8 @@ struct Spawn {
   std::vector<api::Phase> phases;    ///< one each; empty: `phase` for all
   bool fixed = false;                ///< static boundary particles: they go on at their velocity, or as
                                      ///< setMotion() says, whatever they meet
-  /// Matter on its way in, or kept where it is: its neighbours feel it as what it is, but it goes on at its velocity, if
-  /// it has one, whatever it meets, until Solver::release() or hold() lets it go.
+  /// Matter on its way in, or kept where it is: its neighbours feel it as what it is, but it goes on at its velocity,
+  /// if it has one, whatever it meets, until Solver::release() or hold() lets it go.
   bool held = false;
   bool packed = false;                   ///< it lies in disorder: see Solver::settle()
   std::vector<uint32_t> constraintSets;  ///< built over the new particles
