@@ -38,6 +38,8 @@ class TestBrushWindow : public SampleWindowTest {
   }
   void init() {
     backToTheStart();
+    m_window->activateWindow();  // a form may have been before it
+    QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
     m_window->tools().activate(kBrushTool);
     QVERIFY(m_window->tools().tool().usesBrush());
   }

@@ -31,6 +31,7 @@
 #include <cmath>
 #include <set>
 #include <typeinfo>
+#include <utility>
 
 using namespace ps;
 
@@ -237,6 +238,31 @@ class TestGestures : public CurveWindowTest {
   }
   void drawMatter() { draw("sketch.brush"); }
   void eraseMatter() { draw("sketch.erase"); }
+  /// Two lumps of ice, apart, in the air.
+  void sketchTwoLumps() {
+    Body lumps;
+    lumps.id = lumps.name = "lumps";
+    lumps.material = document().project().materials[0].id;
+    lumps.parameters.values["temperature"] = 260.0;
+    lumps.parameters.values["held"] = true;
+    lumps.constraints.push_back({"bonds", {}, {}});
+    VoxelShape shape;
+    shape.spacing = m_window->tools().spacing();
+    shape.origin = {0, 0.6, 0};
+    shape.palette.push_back({lumps.material, 260, {}});
+    for (int row = 0; row < 9; ++row)
+      for (const int x : {0, 8}) shape.runs.push_back({x, row % 3, row / 3, 3, 0});
+    lumps.shape = std::move(shape);
+    document().addBody(lumps);
+    m_window->selection().selectBody("lumps");
+  }
+  void separateThem() {
+    const size_t before = document().project().bodies.size();
+    trigger("sketch.separate");
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
+    // With what goes along with its body it is one step, whose parts the history keeps to itself.
+    m_met.insert("PartingCommandE");
+  }
   void takeTheHandles() {
     selectTheIce();
     m_window->tools().activate("move");
@@ -522,6 +548,7 @@ std::vector<TestGestures::Gesture> TestGestures::edits() {
           {"material dropped", nullptr, &T::dropMatter},
           {"stroke", nullptr, &T::drawMatter},
           {"stroke erased", nullptr, &T::eraseMatter},
+          {"pieces separated", &T::sketchTwoLumps, &T::separateThem},
           {"handle dragged", &T::takeTheHandles, &T::moveByAHandle},
           {"tap placed", nullptr, &T::placeATap},
           {"key by K", nullptr, &T::keyByK},

@@ -685,8 +685,11 @@ class TestInteraction : public SampleWindowTest {
     stroke(QPoint(view()->width() / 2 - 60, view()->height() / 2), {40, 0}, true);
     QCOMPARE(idsNow(session()) == before, !why.isEmpty());
     QCOMPARE(document().undoStack().count() == steps, !why.isEmpty());
-    QCOMPARE(refused.count(), why.isEmpty() ? 0 : 1);
-    if (!why.isEmpty()) QVERIFY2(refused[0][1].toString().contains(why), qPrintable(refused[0][1].toString()));
+    QStringList told;  // "" takes away what was said before
+    for (const QList<QVariant>& said : refused) told << said[1].toString();
+    told.removeAll(QString());
+    QCOMPARE(told.size(), why.isEmpty() ? 0 : 1);
+    if (!why.isEmpty()) QVERIFY2(told[0].contains(why), qPrintable(told[0]));
     brush.radius = usual;
     m_window->tools().setBrush(brush);
   }
