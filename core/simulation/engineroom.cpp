@@ -11,7 +11,7 @@ namespace ps {
 namespace {
 
 /// Of the room that there is, until it is looked up again: to look takes a good part of what a stroke's sample may.
-constexpr double kPouringShare = 1.0 / 16, kAddingShare = 1.0 / 16;
+constexpr double kShare = 1.0 / 16;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void Engine::Impl::requireRoomFor(double more, const Body& body) {
   if (more * each > addingRoom) {
     const Memory memory = memoryNow();
     ps::requireRoomFor(living, more, each, memory);
-    addingRoom = kAddingShare * (roomToGrow(memory) - more * each);
+    addingRoom = kShare * (roomToGrow(memory) - more * each);
     return;
   }
   requireFewer(living + more);
@@ -35,7 +35,7 @@ void Engine::Impl::measurePouring() {
 bool Engine::Impl::mayPour(size_t more) {
   if (static_cast<double>(solver->particles().size() + more) > kMaximumParticles) return false;
   const double bytes = static_cast<double>(more) * pouredBytes;
-  if (bytes > pouringRoom) pouringRoom = kPouringShare * roomToGrow(memoryNow());
+  if (bytes > pouringRoom) pouringRoom = kShare * roomToGrow(memoryNow());
   if (bytes <= pouringRoom) {
     pouringRoom -= bytes;
     return true;

@@ -161,7 +161,8 @@ class TestBecoming : public ToolTest {
     QSignalSpy refused(m_tools.get(), &Toolbox::refused);
     drawAt("water", 293.15, -0.3);
     QCOMPARE(refused.count(), 1);
-    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("melts at 0 °C")), qPrintable(refused[0][1].toString()));
+    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("solid below 0 °C")),
+             qPrintable(refused[0][1].toString()));
     drawAt("water", 263.15, 0);
     QCOMPARE(refused.count(), 2);
     QCOMPARE(refused[1][1].toString(), QString());

@@ -217,6 +217,7 @@ class VrHandsTest : public VrWindowTest {
   }
   void drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way);
   void touchesWhatIsThere(size_t hand, const std::string& id);
+  void actAt(VrHands& hands, vr::HandsSeen& seen, size_t hand, const Vector3& place, double pulled);
   struct Motion {
     Vector3 place{0, 0, 0}, velocity{0, 0, 0};  ///< m and m/s, of its particles on the average
     double turns = 0;                           ///< rad/s about the vertical through there
@@ -961,6 +962,14 @@ void VrHandsTest::everyBrushWorksInEitherHand() {
   tools.setBrush(chosen);
 }
 
+/// A moment later the hand is there, with its trigger so far pulled.
+void VrHandsTest::actAt(VrHands& hands, vr::HandsSeen& seen, size_t hand, const Vector3& place, double pulled) {
+  seen.seconds += 0.02;
+  seen.hands[hand].tip = place;
+  seen.hands[hand].input.draw = pulled;
+  hands.act(seen, session().newest());
+}
+
 void VrHandsTest::drawsAndIsUndone(size_t hand, const Vector3& from, const Vector3& way) {
   constexpr int kParts = 8;
   const std::string before = writeProject(document().project());
@@ -969,12 +978,7 @@ void VrHandsTest::drawsAndIsUndone(size_t hand, const Vector3& from, const Vecto
   VrHands hands(session(), m_window->tools());
   vr::HandsSeen seen;
   seen.roles.main = hand;
-  const auto acts = [&](double share, double pulled) {
-    seen.seconds += 0.02;
-    seen.hands[hand].tip = from + share * way;
-    seen.hands[hand].input.draw = pulled;
-    hands.act(seen, session().newest());
-  };
+  const auto acts = [&](double share, double pulled) { actAt(hands, seen, hand, from + share * way, pulled); };
   acts(0, 0);
   for (int part = 0; part <= kParts; ++part) acts(double(part) / kParts, 1);
   acts(1, 0);
@@ -998,12 +1002,7 @@ void VrHandsTest::touchesWhatIsThere(size_t hand, const std::string& id) {
   VrHands hands(session(), m_window->tools());
   vr::HandsSeen seen;
   seen.roles.main = hand;
-  const auto acts = [&](double share, double pulled) {
-    seen.seconds += 0.02;
-    seen.hands[hand].tip = from + share * way;
-    seen.hands[hand].input.draw = pulled;
-    hands.act(seen, session().newest());
-  };
+  const auto acts = [&](double share, double pulled) { actAt(hands, seen, hand, from + share * way, pulled); };
   acts(0, 0);
   session().play();
   QTRY_VERIFY_WITH_TIMEOUT(session().playing() && session().newest()->stats.frame > 0, kLong);

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -38,6 +40,17 @@ std::optional<double> propertyOf(const Project& project, const PluginRegistry& p
 bool isSolid(const Project& project, const PluginRegistry& plugins, const std::string& material, double temperature) {
   const auto melting = propertyOf(project, plugins, material, "melting_temperature", temperature);
   return melting && temperature < *melting;
+}
+
+/// K, where it melts or turns to vapour; infinite for what does neither.
+double solidUntil(const Project& project, const PluginRegistry& plugins, const std::string& material,
+                  double temperature) {
+  double until = std::numeric_limits<double>::infinity();
+  for (const char* key : {"melting_temperature", "boiling_temperature"}) {
+    const double point = propertyOf(project, plugins, material, key, temperature).value_or(0);
+    if (point > 0) until = std::min(until, point);
+  }
+  return until;
 }
 
 /// Whether a plugin holds bodies as this wants them.
@@ -125,14 +138,14 @@ QString whyNotBecome(const Project& project, const PluginRegistry& plugins, cons
 
 QString whatFlows(const Project& project, const PluginRegistry& plugins, const std::string& material,
                   const std::string& becoming, double temperature) {
-  const double melting = propertyOf(project, plugins, material, "melting_temperature", temperature).value_or(0);
-  if (!needsStructure(becoming) || melting <= 0 || temperature < melting) return {};
+  const double until = solidUntil(project, plugins, material, temperature);
+  if (!needsStructure(becoming) || temperature < until) return {};
   const auto rows = becomings();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.first == becoming; });
   return QStringLiteral(
-             "“%1” melts at %2, and “%3” holds together what is solid. Choose a lower temperature than %4, or another "
-             "row under “Becomes”.")
-      .arg(ownerLabel(project, {Owner::Material, material, ""}), temperatureText(melting, 0), row->second,
+             "“%1” is solid below %2, and “%3” holds together what is solid. Choose a lower temperature than %4, or "
+             "another row under “Becomes”.")
+      .arg(ownerLabel(project, {Owner::Material, material, ""}), temperatureText(until, 0), row->second,
            temperatureText(temperature, 0));
 }
 
@@ -147,8 +160,8 @@ void become(Body& body, const std::string& becoming, const Project& project, con
   } else if (needsStructure(wanted)) {
     const std::string structure = structureFor(plugins, wanted);
     if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
-    // What has no melting point, such as glass, flows by itself, however slowly.
-    if (!structure.empty() && propertyOf(project, plugins, body.material, "melting_temperature", temperature) == 0.0)
+    // What neither melts nor boils, such as glass, flows by itself, however slowly.
+    if (!structure.empty() && std::isinf(solidUntil(project, plugins, body.material, temperature)))
       body.parameters.values["phase"] = std::string("solid");
   }
 }

@@ -40,6 +40,8 @@ void HandBrush::begin(const HandInScene& hand, const SnapshotPtr& scene) {
   if (!problem.isEmpty()) {
     m_stroke.cancel();
     say(problem);
+  } else if (const QString flows = m_stroke.whatFlows(); !flows.isEmpty()) {
+    m_box.refuse(QStringLiteral("What is drawn flows."), flows);
   }
 }
 

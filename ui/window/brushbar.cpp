@@ -210,7 +210,7 @@ void BrushBar::addBrushes() {
     auto* button = new BarButton(pluginLabel(plugins, id), iconNames().contains(name) ? name : QString());
     button->setProperty(kShape, name);
     const QString help = QString::fromUtf8(plugins->brush(id)->help());
-    button->setHelp(help.left(help.indexOf(QStringLiteral(". ")) + 1));  // all of it is on the brush's page
+    button->setHelp(help.section(QStringLiteral(". "), 0, 0));  // all of it is on the brush's page
     showKeyOf(QStringLiteral("sketch.shape.") + name, button);
     m_shapes->addButton(button);
     const bool changes =
