@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -42,15 +40,14 @@ bool isSolid(const Project& project, const PluginRegistry& plugins, const std::s
   return melting && temperature < *melting;
 }
 
-/// K, where it melts or turns to vapour; infinite for what does neither.
+/// K, where it melts or turns to vapour; 0 for what has no melting point, which is never solid of itself.
 double solidUntil(const Project& project, const PluginRegistry& plugins, const std::string& material,
                   double temperature) {
-  double until = std::numeric_limits<double>::infinity();
-  for (const char* key : {"melting_temperature", "boiling_temperature"}) {
-    const double point = propertyOf(project, plugins, material, key, temperature).value_or(0);
-    if (point > 0) until = std::min(until, point);
-  }
-  return until;
+  const auto point = [&](const char* key) {
+    return propertyOf(project, plugins, material, key, temperature).value_or(0);
+  };
+  const double melting = point("melting_temperature"), boiling = point("boiling_temperature");
+  return melting > 0 && boiling > 0 ? std::min(melting, boiling) : std::max(melting, 0.0);
 }
 
 /// Whether a plugin holds bodies as this wants them.
@@ -142,11 +139,16 @@ QString whatFlows(const Project& project, const PluginRegistry& plugins, const s
   if (!needsStructure(becoming) || temperature < until) return {};
   const auto rows = becomings();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.first == becoming; });
+  const QString name = ownerLabel(project, {Owner::Material, material, ""});
+  if (until <= 0)
+    return QStringLiteral(
+               "“%1” has no melting point and flows, however slowly, and “%2” holds together what is solid. Choose "
+               "another material, or another row under “Becomes”.")
+        .arg(name, row->second);
   return QStringLiteral(
              "“%1” is solid below %2, and “%3” holds together what is solid. Choose a lower temperature than %4, or "
              "another row under “Becomes”.")
-      .arg(ownerLabel(project, {Owner::Material, material, ""}), temperatureText(until, 0), row->second,
-           temperatureText(temperature, 0));
+      .arg(name, temperatureText(until, 0), row->second, temperatureText(temperature, 0));
 }
 
 void become(Body& body, const std::string& becoming, const Project& project, const PluginRegistry& plugins,
@@ -160,9 +162,6 @@ void become(Body& body, const std::string& becoming, const Project& project, con
   } else if (needsStructure(wanted)) {
     const std::string structure = structureFor(plugins, wanted);
     if (!structure.empty()) body.constraints.push_back({structure, {}, {}});
-    // What neither melts nor boils, such as glass, flows by itself, however slowly.
-    if (!structure.empty() && std::isinf(solidUntil(project, plugins, body.material, temperature)))
-      body.parameters.values["phase"] = std::string("solid");
   }
 }
 
