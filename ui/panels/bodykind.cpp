@@ -3,15 +3,15 @@
 
 #include "core/matter/material.h"
 #include "core/matter/phasebands.h"
-#include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
 #include "ui/document/declared.h"
+#include "ui/session/swatches.h"
 #include "ui/tools/becoming.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <variant>
+#include <vector>
 
 namespace ps {
 namespace {
@@ -25,30 +25,16 @@ double temperatureOf(const Body& body) {
   return numberOf(body.parameters, bodyParameters(), "temperature");
 }
 
-/// Whether what never melts and never boils is a liquid: who says how thick it is means one.
-bool flows(const Project& project, const PluginRegistry& plugins, const std::string& id) {
-  const auto own = std::find_if(project.materials.begin(), project.materials.end(),
-                                [&](const SceneMaterial& material) { return material.id == id; });
-  if (own == project.materials.end()) return false;
-  const Material* installed = plugins.material(own->base);
-  return own->properties.values.contains("viscosity") || (installed && installed->properties.contains("viscosity"));
-}
-
 /// That it says, or that is stable at its temperature.
 std::string phaseOf(const Body& body, const Project& project, const PluginRegistry& plugins) {
   const std::string asked = choiceOf(body.parameters, bodyParameters(), "phase");
   if (asked != "automatic") return asked;
-  const auto point = [&](const char* key) {
-    const Value value = valueAt(project, &plugins, {Owner::Material, body.material, key});
-    if (const auto* number = std::get_if<double>(&value)) return *number;
-    const auto* response = std::get_if<Response>(&value);
-    return response ? response->at(kRoom) : 0.0;
-  };
-  const double melting = point("melting_temperature"), boiling = point("boiling_temperature");
   const double temperature = temperatureOf(body);
-  if (boiling > 0 && temperature >= boiling) return "gas";
-  if (melting > 0) return temperature < melting ? kSolid : "liquid";
-  return boiling > 0 || flows(project, plugins, body.material) ? "liquid" : kSolid;
+  const std::vector<PhaseBand> bands = bandsOf(materialAsShown(project, &plugins, body.material));
+  const auto band =
+      std::find_if(bands.begin(), bands.end(), [&](const PhaseBand& one) { return temperature < one.to; });
+  if (band == bands.end() || band->phase == api::Phase::Gas) return "gas";
+  return band->phase == api::Phase::Solid ? kSolid : "liquid";
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, 
   painter.drawImage(snapped(painter, square), picture);
 }
 
-Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
+Material materialAsShown(const Project& project, const PluginRegistry* plugins, const std::string& material) {
   Material values;
   const auto take = [&](const ParameterSet& set) {
     for (const auto& [key, value] : set.values) values.properties[key] = responseOf(value);
@@ -150,7 +150,11 @@ Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std
   for (const SceneMaterial& each : project.materials) {
     if (each.id == material) take(each.properties);
   }
-  Swatch swatch = swatchOf(values);
+  return values;
+}
+
+Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std::string& material) {
+  Swatch swatch = swatchOf(materialAsShown(project, plugins, material));
   for (float& part : swatch.look) part = std::round(part * kShades) / kShades;
   return swatch;
 }

@@ -64,8 +64,9 @@ class Swatches : public QObject {
 /// The picture of a sample in a square, or, as long as there is none, a ball of its colour.
 void paintSwatch(QPainter& painter, const QRectF& square, const Swatch& swatch, Swatches& swatches);
 
-/// Of a material of the scene, with the values that it has there. One whose plugin is missing looks as the catalogue
-/// says.
+/// A material of the scene, with the values that it has there. One whose plugin is missing is as the catalogue says.
+Material materialAsShown(const Project& project, const PluginRegistry* plugins, const std::string& material);
+/// How it looks.
 Swatch swatchOf(const Project& project, const PluginRegistry* plugins, const std::string& material);
 
 }  // namespace ps
