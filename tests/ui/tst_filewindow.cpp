@@ -3,6 +3,7 @@
 #include "core/io/filelock.h"
 #include "core/io/outputfile.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/answered.h"
 #include "tests/ui/desk.h"
 #include "tests/ui/windowtesting.h"
 #include "ui/session/savejob.h"
@@ -92,9 +93,18 @@ class TestFileWindow : public QObject {
       QTRY_VERIFY(told());
       QVERIFY(QGuiApplication::overrideCursor());
       QCOMPARE(QGuiApplication::overrideCursor()->shape(), Qt::BusyCursor);
+      QElapsedTimer clock;
+      clock.start();
       QTest::keyClick(m_window.get(), Qt::Key_Escape);
+      QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
       QVERIFY(!told() && !QGuiApplication::overrideCursor());
       QCOMPARE(m_window->notice()->topic(), QStringLiteral("open"));
+      const Message& said = m_window->session().log().messages().back();  // a note, and no error
+      QCOMPARE(said.level, MessageLevel::Info);
+      QCOMPARE(
+          said.text,
+          QStringLiteral("Opening “other.json” was given up. “%1” is still open, as it was.").arg(document().title()));
+      QVERIFY(!noticeButton(*m_window, QStringLiteral("Open another…")));
     }
     m_window->session().worker().wait();
     QCoreApplication::processEvents();

@@ -216,7 +216,7 @@ void DocumentFiles::supersede() {
 bool DocumentFiles::giveUpOpening() {
   if (m_opening.isEmpty()) return false;
   ++m_request;
-  Q_EMIT openFailed(std::exchange(m_opening, QString()), QStringLiteral("It was given up"));
+  Q_EMIT openFailed(std::exchange(m_opening, QString()), QString());
   return true;
 }
 

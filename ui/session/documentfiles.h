@@ -47,7 +47,7 @@ class DocumentFiles : public QObject {
   /// What openFailed() came for last, a copy of unsaved work and an earlier version too, though plugins are missing
   /// that the project cannot do without, by its own word: what they made stands still.
   void openAnyway();
-  /// What is being read is not opened, which openFailed() says. False where nothing is.
+  /// What is being read is not opened, which openFailed() says without a problem. False where nothing is.
   bool giveUpOpening();
   /// Whether it was for them that openFailed() came.
   static bool lacksRequired(const QString& problem);
@@ -83,7 +83,7 @@ class DocumentFiles : public QObject {
   void tookOver(const QString& path, bool done);
   /// Once for everything that another program writes there; None: the file is again what was read or written here.
   void changedOutside(const QString& path, ps::OutsideChange change);
-  void openFailed(const QString& path, const QString& problem);
+  void openFailed(const QString& path, const QString& problem);  ///< "" for `problem`: by who gave it up
   /// `present`: what was saved is still the open project.
   void saved(const QString& path, bool present);
   /// Before saved(): the project would not open at its state any more, `why`, and it was left out. The document keeps

@@ -267,6 +267,7 @@ void FileActions::onOpened(const QString& path, const QStringList& warnings, dou
 
 void FileActions::onOpenFailed(const QString& path, const QString& problem) {
   const bool first = std::exchange(m_first, false);
+  if (problem.isEmpty()) return onOpeningGivenUp(path, first);
   if (first && m_options.exitOnBadProject) {
     Q_EMIT startFailed(problem);
     return;
@@ -284,6 +285,19 @@ void FileActions::onOpenFailed(const QString& path, const QString& problem) {
       buttons.push_back({QStringLiteral("Open the sample"), [this] { open(m_options.sample); }});
   }
   m_notices.bar().show(QStringLiteral("open"), MessageLevel::Error, title, text, std::move(buttons));
+}
+
+/// Nothing went wrong, and what is open is what there was to say.
+void FileActions::onOpeningGivenUp(const QString& path, bool first) {
+  if (first) {
+    m_session.files().newProject();  // the window must not stay empty
+    m_restore.offerAtStart();
+  }
+  const QString title = QStringLiteral("Opening “%1” was given up.").arg(nameOf(path));
+  const QString text = first ? QStringLiteral("A new scene is open instead.")
+                             : QStringLiteral("“%1” is still open, as it was.").arg(m_session.document().title());
+  m_session.log().add(MessageLevel::Info, nameOf(path), title + QLatin1Char(' ') + text);
+  m_notices.bar().show(QStringLiteral("open"), MessageLevel::Info, title, text);
 }
 
 void FileActions::onSaved(const QString& path, bool present) {

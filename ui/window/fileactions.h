@@ -65,6 +65,7 @@ class FileActions : public QObject {
   void writeFile(const QString& path, std::function<QByteArray()> content, const QString& what);
   void onOpened(const QString& path, const QStringList& warnings, double seconds);
   void onOpenFailed(const QString& path, const QString& problem);
+  void onOpeningGivenUp(const QString& path, bool first);
   void onSaved(const QString& path, bool present);
   void onStateLeftOut(const QString& path, const QString& why, bool present);
   void onSaveFailed(const QString& path, const QString& problem, bool present);
