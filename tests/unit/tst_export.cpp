@@ -2,7 +2,6 @@
 // What is exported reads back with somebody else's reader where the machine has one (assimp, Qt's XML), else byte by
 // byte as the format's description says.
 #include "clirun.h"
-#include "core/base/base64.h"
 #include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/export/exportformat.h"
@@ -40,19 +39,23 @@ QByteArray bytesOf(const QString& path) {
 
 template <class T>
 std::vector<T> numbersOf(const QString& base64) {
-  const auto bytes = fromBase64(base64.trimmed().toStdString());
-  if (!bytes || bytes->size() < sizeof(uint64_t)) return {};
+  const auto decoded =
+      QByteArray::fromBase64Encoding(base64.trimmed().toLatin1(), QByteArray::AbortOnBase64DecodingErrors);
+  const QByteArray& bytes = decoded.decoded;
+  if (!decoded || static_cast<size_t>(bytes.size()) < sizeof(uint64_t)) return {};
   uint64_t count = 0;
-  std::memcpy(&count, bytes->data(), sizeof count);
-  if (count + sizeof count != bytes->size()) return {};
+  std::memcpy(&count, bytes.constData(), sizeof count);
+  if (count + sizeof count != static_cast<uint64_t>(bytes.size())) return {};
   std::vector<T> values(count / sizeof(T));
-  std::memcpy(values.data(), bytes->data() + sizeof count, count);
+  std::memcpy(values.data(), bytes.constData() + sizeof count, count);
   return values;
 }
 
-/// Its arrays by name, and the numbers that the piece states.
+/// Its arrays by name, and the numbers that the piece states. `within`: the element that an array stands in.
 struct Vtp {
-  std::map<QString, QString> arrays, types;
+  std::map<QString, QString> arrays, types, within;
+  std::map<QString, int> components;
+  QXmlStreamAttributes head;
   int points = 0, cells = 0;
   QString problem;
 };
@@ -60,17 +63,25 @@ struct Vtp {
 Vtp readVtp(const QByteArray& bytes) {
   Vtp vtp;
   QXmlStreamReader xml(bytes);
+  QStringList open;
   while (!xml.atEnd()) {
-    if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+    const auto token = xml.readNext();
+    if (token == QXmlStreamReader::EndElement) open.removeLast();
+    if (token != QXmlStreamReader::StartElement) continue;
     const QXmlStreamAttributes attributes = xml.attributes();
+    if (open.isEmpty()) vtp.head = attributes;
     if (xml.name() == QStringLiteral("Piece")) {
       vtp.points = attributes.value("NumberOfPoints").toInt();
       vtp.cells = attributes.value("NumberOfVerts").toInt();
     } else if (xml.name().endsWith(QStringLiteral("Array"))) {
       const QString name = attributes.value("Name").toString();
       vtp.types[name] = attributes.value("type").toString();
+      vtp.components[name] = attributes.value("NumberOfComponents").toInt();
+      vtp.within[name] = open.join('/');
       vtp.arrays[name] = xml.readElementText();
+      continue;  // which ends with the element
     }
+    open << xml.name().toString();
   }
   vtp.problem = xml.errorString();
   return vtp;
@@ -86,7 +97,9 @@ class TestExport : public QObject {
   void initTestCase();
   void init() { QVERIFY(m_folder.isValid()); }
   void vtpReadsBack();
+  void vtpKeepsToItsFormat();
   void plyReadsBack();
+  void otherProgramsReadThePoints();
   void csvReadsBack();
   void surfacesReadBack_data();
   void surfacesReadBack();
@@ -165,6 +178,49 @@ void TestExport::vtpReadsBack() {
   QCOMPARE(frames.size(), 1);
   QCOMPARE(frames[0].section(' ', 0, 0).toDouble(), m_snapshot->stats.time);
   QCOMPARE(frames[0].section(' ', 1), QStringLiteral("particles-000007.vtp"));
+}
+
+/// As the description of VTK's XML formats says: what the root declares, where arrays stand, and how many numbers each
+/// has, of the type that it names.
+void TestExport::vtpKeepsToItsFormat() {
+  const Vtp vtp = readVtp(bytesOf(exported("vtp", *m_snapshot)));
+  QCOMPARE(vtp.problem, QString());
+  QCOMPARE(vtp.head.value("type").toString(), QStringLiteral("PolyData"));
+  QCOMPARE(vtp.head.value("byte_order").toString(), QStringLiteral("LittleEndian"));
+  QCOMPARE(vtp.head.value("header_type").toString(), QStringLiteral("UInt64"));  // before each array
+  const QString piece = QStringLiteral("VTKFile/PolyData/Piece/");
+  QCOMPARE(vtp.within.at("Points"), piece + "Points");
+  QCOMPARE(vtp.components.at("Points"), 3);
+  QCOMPARE(vtp.types.at("Points"), QStringLiteral("Float32"));
+  for (const char* name : {"connectivity", "offsets"}) QCOMPARE(vtp.within.at(name), piece + "Verts");
+  QCOMPARE(vtp.within.at("TimeValue"), QStringLiteral("VTKFile/PolyData/FieldData"));
+  size_t ofPoints = 0;
+  for (const auto& [name, where] : vtp.within) {
+    if (where != piece + "PointData") continue;
+    ++ofPoints;
+    QCOMPARE(vtp.components.at(name), 1);
+    const bool whole = vtp.types.at(name) == QStringLiteral("UInt32");
+    QVERIFY2(whole || vtp.types.at(name) == QStringLiteral("Float32"), qPrintable(name));
+    const size_t count =
+        whole ? numbersOf<uint32_t>(vtp.arrays.at(name)).size() : numbersOf<float>(vtp.arrays.at(name)).size();
+    QVERIFY2(count == m_order.size(), qPrintable(name));
+  }
+  QCOMPARE(ofPoints, exportableFields(*m_snapshot).size());
+}
+
+/// By assimp: a cloud of points in their order, to the bit.
+void TestExport::otherProgramsReadThePoints() {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(exported("ply", *m_snapshot).toStdString(), 0);
+  QVERIFY2(scene, importer.GetErrorString());
+  QCOMPARE(scene->mNumMeshes, 1U);
+  const aiMesh& cloud = *scene->mMeshes[0];
+  QCOMPARE(cloud.mPrimitiveTypes, static_cast<unsigned>(aiPrimitiveType_POINT));
+  QCOMPARE(static_cast<size_t>(cloud.mNumVertices), m_order.size());
+  for (unsigned k = 0; k < cloud.mNumVertices; ++k) {
+    const api::Float4& p = m_snapshot->position[m_order[k]];
+    QCOMPARE(cloud.mVertices[k], aiVector3D(p.x, p.y, p.z));
+  }
 }
 
 void TestExport::plyReadsBack() {
