@@ -26,6 +26,7 @@ class CsvFiles final : public FrameExporter {
     std::string time = "\r\n";
     appendNumber(time, snapshot.stats.time);
     for (size_t i = 0; i < table.position.size(); ++i) {
+      askAtRow(i);
       text += time;
       const api::Float4& p = table.position[i];
       for (const float value : {p.x, p.y, p.z}) appendNumber(text += ',', value);

@@ -51,6 +51,7 @@ class ObjFiles final : public FrameExporter {
   void write(OutputFile& file, const ParticleSurface& surface, size_t first) const {
     std::string line;
     for (size_t i = 0; i < surface.points.size(); ++i) {
+      askAtRow(i);
       line.clear();
       appendLine(line, "v", surface.points[i]);
       for (const uint8_t channel : m_choices.colour(surface.values[i]))
@@ -58,9 +59,10 @@ class ObjFiles final : public FrameExporter {
       appendLine(line, "\nvn", surface.normals[i]);
       file.write(line += '\n');
     }
-    for (const auto& triangle : surface.triangles) {
+    for (size_t t = 0; t < surface.triangles.size(); ++t) {
+      askAtRow(t);
       line = "f";
-      for (const uint32_t corner : triangle) {
+      for (const uint32_t corner : surface.triangles[t]) {
         const std::string number = std::to_string(first + corner);
         line.append(" ").append(number).append("//").append(number);
       }

@@ -38,6 +38,7 @@ class PlyFiles final : public FrameExporter {
     file.write(head + "end_header\n");
     std::string row;
     for (size_t i = 0; i < table.position.size(); ++i) {
+      askAtRow(i);
       const api::Float4& p = table.position[i];
       row.clear();
       for (const float value : {p.x, p.y, p.z}) appendBytes(row, value);
@@ -74,9 +75,10 @@ class SurfacePlyFiles final : public FrameExporter {
     uint32_t first = 0;
     for (const MaterialSurface& part : surfaces) {
       std::string row;
-      for (const auto& triangle : part.surface.triangles) {
+      for (size_t t = 0; t < part.surface.triangles.size(); ++t) {
+        askAtRow(t);
         row.assign(1, 3);
-        for (const uint32_t corner : triangle) appendBytes(row, first + corner);
+        for (const uint32_t corner : part.surface.triangles[t]) appendBytes(row, first + corner);
         file.write(row);
       }
       first += static_cast<uint32_t>(part.surface.points.size());
@@ -89,6 +91,7 @@ class SurfacePlyFiles final : public FrameExporter {
     const ParticleSurface& surface = part.surface;
     std::string row;
     for (size_t i = 0; i < surface.points.size(); ++i) {
+      askAtRow(i);
       row.clear();
       appendBytes(row, surface.points[i]);
       appendBytes(row, surface.normals[i]);

@@ -4,6 +4,7 @@
 #include "core/io/projectio.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
+#include "tests/ui/answered.h"
 #include "tests/ui/hands.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/document.h"
@@ -164,7 +165,10 @@ class TestBodies : public SampleWindowTest {
     const QString rabbit = QStringLiteral(PS_SOURCE_DIR "/resources/models/rabbit.obj");
     const std::string before = writeProject(document().project());
     drop(rabbit);
+    QElapsedTimer clock;
+    clock.start();
     QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
     QVERIFY2(m_window->notice()->text().contains(QStringLiteral("was given up")),
              qPrintable(m_window->notice()->text()));
     QCOMPARE(writeProject(document().project()), before);

@@ -5,6 +5,7 @@
 #include "core/simulation/enginethread.h"
 #include "core/simulation/runrecord.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/answered.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/session/messagelog.h"
 #include "ui/session/recordedview.h"
@@ -257,7 +258,10 @@ class TestExportWindow : public SampleWindowTest {
     QSignalSpy cancelled(&session().work(), &RunWork::cancelled);
     QTest::mouseClick(button("Export"), Qt::LeftButton);
     QVERIFY(session().work().isBusy());
+    QElapsedTimer clock;
+    clock.start();
     QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
     QVERIFY(session().work().isCancelled() || !cancelled.isEmpty());
     QVERIFY(!cancelled.isEmpty() || cancelled.wait(kLong));
     QVERIFY(!session().work().isBusy());

@@ -7,6 +7,7 @@
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/answered.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/document/declared.h"
 #include "ui/document/missingplugins.h"
@@ -114,7 +115,11 @@ class TestMendingWindow : public SampleWindowTest {
     constexpr int kSide = 60;
     document().open(scenes::iceOnPlate(kSide, 300), {}, false, false);
     QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
+    QElapsedTimer clock;
+    clock.start();
     noticeButton(*m_window, QStringLiteral("Cancel"))->click();
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("Giving up…")), qPrintable(m_window->notice()->text()));
+    QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
     QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Try again")), kLong);
     QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));
     QVERIFY(session().snapshot() && session().snapshot()->id.empty() && !session().engine()->making());
@@ -143,6 +148,7 @@ class TestMendingWindow : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT((cancel = noticeButton(*m_window, QStringLiteral("Cancel"))) != nullptr, kLong);
     QVERIFY(cancel->toolTip().contains(QStringLiteral("Esc")));
     QTest::keyClick(view(), Qt::Key_Escape);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("Giving up…")), qPrintable(m_window->notice()->text()));
     QTRY_VERIFY_WITH_TIMEOUT(holds(0), kLong);
     document().open(scene(), {}, false, false);
     QTRY_VERIFY_WITH_TIMEOUT(holds(125), kLong);

@@ -5,7 +5,9 @@
 #include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/export/exportformat.h"
+#include "core/export/particlecolumns.h"
 #include "core/export/recordedframes.h"
+#include "core/export/scenesurface.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/packedframe.h"
@@ -22,6 +24,7 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <sys/resource.h>
@@ -87,6 +90,19 @@ Vtp readVtp(const QByteArray& bytes) {
   return vtp;
 }
 
+/// Counts the questions whether to go on, and cancels at the `last`.
+class Asked final : public Progress {
+ public:
+  explicit Asked(uint64_t last) : m_last(last) {}
+  std::atomic<uint64_t> count{0};
+
+ private:
+  void advanced(size_t) override {
+    if (++count == m_last) cancel();
+  }
+  uint64_t m_last;
+};
+
 ByteColour grey(float kelvin) { return {static_cast<uint8_t>(kelvin / 2), 10, 20}; }
 
 }  // namespace
@@ -106,14 +122,20 @@ class TestExport : public QObject {
   void everyFormatWritesAnEmptyFrame();
   void namesOfOthersBreakNothing();
   void onlyTheChosenFieldsAreWritten();
+  void aFrameIsGivenUpWhileItIsWritten_data() { formats(); }
+  void aFrameIsGivenUpWhileItIsWritten();
   void framesOfARunAreFound();
-  void theCommandLineExports_data();
+  void theCommandLineExports_data() { formats(); }
   void theCommandLineExports();
   void theCommandLineSaysWhatIsWrong_data();
   void theCommandLineSaysWhatIsWrong();
   void aFullDiskIsSaid();
 
  private:
+  static void formats() {
+    QTest::addColumn<QString>("format");
+    for (const ExportFormat& format : exportFormats()) QTest::newRow(format.key) << QString::fromLatin1(format.key);
+  }
   /// Writes one frame and returns the path of its file.
   QString exported(const char* key, const Snapshot& snapshot, std::vector<std::string> fields = {}) {
     const ExportFormat& format = exportFormat(key);
@@ -347,6 +369,31 @@ void TestExport::onlyTheChosenFieldsAreWritten() {
   for (const std::string& name : exportableFields(*m_snapshot)) requireFields({name}, *m_snapshot);
 }
 
+/// Not only between frames, and between the columns of a table or the blocks of a surface: of a large one the rows
+/// alone take longer than whoever gives it up should wait. Counted are questions, not time. What is given up leaves no
+/// file.
+void TestExport::aFrameIsGivenUpWhileItIsWritten() {
+  QFETCH(const QString, format);
+  constexpr int kLarge = 26;
+  Engine engine(scenes::iceOnPlate(kLarge, 300), m_plugins);
+  Snapshot large = *engine.snapshot();
+  QVERIFY(large.id.size() > kProgressSlice);
+  const auto asked = [](uint64_t last, const auto& act) {
+    Asked progress(last);
+    const ProgressScope scope(&progress);
+    act();
+    return progress.count.load();
+  };
+  const bool surface = QByteArray(exportFormat(format.toStdString()).first).startsWith("surface");
+  const uint64_t making = asked(~uint64_t{0}, [&] { surface ? void(surfacesOf(large)) : void(tableOf(large, {})); });
+  large.stats.frame = 20;
+  const uint64_t whole = asked(~uint64_t{0}, [&] { exported(qPrintable(format), large); });
+  QVERIFY2(whole >= making + 2, qPrintable(QStringLiteral("%1 of %2").arg(making).arg(whole)));
+  large.stats.frame = 21;
+  QVERIFY_EXCEPTION_THROWN(asked(whole, [&] { exported(qPrintable(format), large); }), Cancelled);
+  QVERIFY(QDir(m_folder.filePath(format)).entryList({"*000021*"}, QDir::Files).isEmpty());
+}
+
 /// Of those that are kept: the one before stands for one that is not, and once.
 void TestExport::framesOfARunAreFound() {
   KeptRun run;
@@ -383,11 +430,6 @@ void TestExport::framesOfARunAreFound() {
   QVERIFY_EXCEPTION_THROWN(exportFrames(run, {2, 9, 1}, exporter), Cancelled);
   QCOMPARE(exporter.seen, 2);
   QVERIFY(exporter.finished);
-}
-
-void TestExport::theCommandLineExports_data() {
-  QTest::addColumn<QString>("format");
-  for (const ExportFormat& format : exportFormats()) QTest::newRow(format.key) << QString::fromLatin1(format.key);
 }
 
 /// A project and the recording of the same run give the same files, to what a recording keeps.

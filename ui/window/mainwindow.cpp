@@ -502,7 +502,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 bool MainWindow::cancelLongWork() {
   if (findChild<OpeningNote*>()->cancel()) return true;
-  if (m_session->cancelMaking() || m_bodies->cancelReading()) return true;
+  if (m_notices->cancelMaking() || m_bodies->cancelReading()) return true;
   if (m_session->work().cancel() || m_session->recordings().cancelTold()) return true;
   auto* fitting = findChild<FitPanel*>();
   return fitting && fitting->cancel();

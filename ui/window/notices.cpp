@@ -23,6 +23,7 @@ const QString kStep = QStringLiteral("step");  // topic of what the engine says
 const QString kRefused = QStringLiteral("refused");
 const QString kRefusedNow = QStringLiteral("refused now");  // until the next edit
 const QString kMaking = QStringLiteral("making");
+const QString kGivingUp = QStringLiteral("Giving up…");
 
 }  // namespace
 
@@ -36,22 +37,30 @@ Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObje
     m_bar.close(kRefusedNow);
   });
   connect(&session, &Session::madeOrNot, this, [this] {
-    m_tellsMaking = false;
+    m_tellsMaking = m_givesUpMaking = false;
     m_bar.close(kMaking);
   });
 }
 
+bool Notices::cancelMaking() {
+  if (!m_session.cancelMaking()) return false;
+  m_givesUpMaking = true;
+  if (m_tellsMaking) m_bar.setText(kMaking, kGivingUp);
+  return true;
+}
+
 void Notices::showMaking(const QString& stage, double done, double left) {
-  const QString text = stage + QStringLiteral(", ") + progressText(done, left);
+  const QString text = m_givesUpMaking ? kGivingUp : stage + QStringLiteral(", ") + progressText(done, left);
   if (std::exchange(m_tellsMaking, true)) {
     m_bar.setText(kMaking, text);
   } else {
     m_bar.show(kMaking, MessageLevel::Info, QStringLiteral("The scene is being made."), text,
-               {NoticeBar::cancelButton([this] { m_session.cancelMaking(); })});
+               {NoticeBar::cancelButton([this] { cancelMaking(); })});
   }
 }
 
 void Notices::showCancelled() {
+  m_givesUpMaking = false;
   const QString text = m_session.isBroken()
                            ? QStringLiteral("It stands still until you play it, go back to the start or change it.")
                            : QStringLiteral("It goes on as it was.");

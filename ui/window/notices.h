@@ -30,6 +30,9 @@ class Notices : public QObject {
   void refuseUntilEdited(const QString& title, const QString& why);
   /// Into the log, and over the view where it is a warning or worse.
   void message(MessageLevel level, const QString& where, const QString& text);
+  /// The scene that is being made is given up, which is said at once: what is at work ends a little later. False where
+  /// none has been told of.
+  bool cancelMaking();
 
  Q_SIGNALS:
   void rowWanted(const ps::Address& address);  ///< "Show it"
@@ -47,6 +50,7 @@ class Notices : public QObject {
   const Actions& m_actions;
   std::optional<uint64_t> m_refusedAt;  ///< Document::changeCount() at the refusal that goes with an edit
   bool m_tellsMaking = false;           ///< the scene that is being made has been told of
+  bool m_givesUpMaking = false;         ///< and somebody has given it up
 };
 
 }  // namespace ps
