@@ -22,7 +22,9 @@
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
 #include <QtCore/QPointer>
+#include <QtCore/QProcess>
 #include <QtCore/QRegularExpression>
+#include <QtCore/QStandardPaths>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QTimer>
 #include <QtGui/QAction>
@@ -149,6 +151,32 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(written.wait(kLong));
     QCOMPARE(QFileInfo(film).size(), qint64{3} * 1280 * 720 * 4);
     QCOMPARE(QDir(m_folder.path()).entryList({QStringLiteral("film*")}, QDir::Files), QStringList{"film.mp4"});
+  }
+
+  /// By the real one, where it is installed: its companion finds the pictures in the film, their size and their rate.
+  void anotherProgramReadsTheFilm() {
+    const QString probe = QStandardPaths::findExecutable(QStringLiteral("ffprobe"));
+    if (probe.isEmpty() || QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty())
+      QSKIP("films: apt install ffmpeg");
+    QVERIFY(openDialog<FilmForm>("file.film"));
+    field<QComboBox>("Format")->setCurrentIndex(0);
+    field<QComboBox>("Size")->setCurrentIndex(0);
+    choose("Frames", 12);
+    const QString film = m_folder.filePath(QStringLiteral("real.mp4"));
+    place(film);
+    QSignalSpy written(&session().work(), &RunWork::done), failed(&session().work(), &RunWork::failed);
+    QTest::mouseClick(button("Export"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(!written.isEmpty() || !failed.isEmpty(), kLong);
+    QVERIFY2(failed.isEmpty(), failed.isEmpty() ? "" : qPrintable(failed.front().at(1).toString()));
+    QProcess reader;
+    reader.start(probe,
+                 {QStringLiteral("-v"), QStringLiteral("error"), QStringLiteral("-count_frames"),
+                  QStringLiteral("-show_entries"), QStringLiteral("stream=width,height,avg_frame_rate,nb_read_frames"),
+                  QStringLiteral("-of"), QStringLiteral("default=noprint_wrappers=1"), film});
+    QVERIFY(reader.waitForFinished(kLong));
+    const QByteArray found = reader.readAllStandardOutput();
+    for (const char* line : {"width=1280\n", "height=720\n", "avg_frame_rate=5/1\n", "nb_read_frames=3\n"})
+      QVERIFY2(found.contains(line), found.constData());
   }
 
   void aFilmThatFailsLeavesNothing() {
