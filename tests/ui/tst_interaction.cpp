@@ -393,6 +393,7 @@ class TestInteraction : public SampleWindowTest {
     QVERIFY(all.contains(QStringLiteral("Ctrl+Shift+Z, Ctrl+Y\tRedo")));
     QVERIFY(all.contains(QStringLiteral("3 in Sketch\tDraw with the scene's material 3")));
     QVERIFY(all.contains(QStringLiteral("3 outside Sketch, Alt+3\tLook from: Top")));
+    QVERIFY(all.contains(QStringLiteral("T\tPlace a tap")));  // the menu Add has it too
     QVERIFY(!all.filter(QStringLiteral("Alt+Drag")).isEmpty());
     m_window->action(QStringLiteral("help.shortcuts"))->trigger();
     m_window->action(QStringLiteral("help.shortcuts"))->trigger();

@@ -26,6 +26,7 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/screenshot.h"
 #include "ui/window/statusline.h"
+#include "ui/window/windowlayout.h"
 
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAccessible>
@@ -34,6 +35,7 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
 #include <QtWidgets/QToolTip>
 
 #include <algorithm>
@@ -440,6 +442,27 @@ class TestWindow : public QObject {
     const auto entries = m_window->paletteEntries();
     const auto found = paletteMatches(entries, QStringLiteral("add wall"));
     QVERIFY(!found.empty() && entries[found.front()].title.startsWith(QStringLiteral("Add wall")));
+  }
+
+  /// Bodies, walls, taps, drains, probes: all from one menu, which opens from the outliner's header as well.
+  void theOutlinersHeaderAdds() {
+    const Dock* dock = m_window->layoutOfDocks().dock(QStringLiteral("dock.outliner"));
+    QToolButton* add = nullptr;
+    for (QToolButton* button : dock->titleBarWidget()->findChildren<QToolButton*>()) {
+      if (button->accessibleName() == QStringLiteral("Add to the scene")) add = button;
+    }
+    QVERIFY(add && add->isVisible());
+    QTest::mouseClick(add, Qt::LeftButton);
+    QTRY_VERIFY(QApplication::activePopupWidget());
+    const auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    QCOMPARE(menu->title(), QStringLiteral("Add"));
+    QStringList names;
+    for (const QAction* action : menu->actions()) names << action->text();
+    QApplication::activePopupWidget()->close();
+    QVERIFY2(names.front().startsWith(QStringLiteral("Add body: ")), qPrintable(names.front()));
+    for (const char* name : {"Wall", "Tool", "Place a tap", "Place a drain", "Add probe"})
+      QVERIFY2(names.contains(QString::fromLatin1(name)), qPrintable(names.join(QStringLiteral(", "))));
   }
 
   /// A notice lies over the view: the picture of the scene stays where it is.

@@ -88,6 +88,14 @@ namespace {
 
 constexpr Workspace kWorkspaceOf[] = {Workspace::Scene, Workspace::Tune, Workspace::Sketch, Workspace::Film};  // by tab
 
+/// The menu of what can be added, for who looks for it where what is added is listed.
+void offerInHeader(Dock& outliner, QMenu* adding) {
+  QToolButton* button =
+      outliner.addAction(QStringLiteral("plus"), QStringLiteral("Add to the scene"), QStringLiteral("Outliner"));
+  QObject::connect(button, &QToolButton::clicked, adding,
+                   [button, adding] { adding->popup(button->mapToGlobal(QPoint(0, button->height()))); });
+}
+
 }  // namespace
 
 MainWindow::MainWindow(const Options& options)
@@ -261,6 +269,10 @@ void MainWindow::makeMenus() {
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
+  adding->addSeparator();
+  for (const char* name : {"sketch.tap", "sketch.drain", "edit.probe"})
+    adding->addAction(m_actions.find(QString::fromLatin1(name)));
+  offerInHeader(*m_layout->dock(QStringLiteral("dock.outliner")), adding);
   m_favourites = new FavouriteBrushes(*m_session, *m_selection, *m_tools, m_actions, *m_notices, this);
   m_favourites->addTo(sketch);
   m_pane->showFavourites(m_favourites->menu());

@@ -29,11 +29,13 @@ QString nameOf(const QAction& action, const QString& menu) {
   const QString plain = action.property(kPlainText).toString();
   if (!plain.isEmpty()) return plain;
   const QString text = cleanText(action).remove(QStringLiteral("…"));
+  QString submenu;
   for (const QObject* owner : action.associatedObjects()) {
     const auto* in = qobject_cast<const QMenu*>(owner);
-    if (in && in->title() != menu) return in->title() + QStringLiteral(": ") + text;
+    if (in && in->title() == menu) return text;  // whichever other menus offer it
+    if (in) submenu = in->title() + QStringLiteral(": ");
   }
-  return text;
+  return submenu + text;
 }
 
 ShortcutGroup menuGroup(const MainWindow& window, const QString& title) {
