@@ -20,6 +20,8 @@
 #include <QtWidgets/QTabBar>
 #include <QtWidgets/QToolButton>
 
+#include <algorithm>
+
 using namespace ps;
 
 class TestLayout : public QObject {
@@ -292,6 +294,34 @@ class TestLayout : public QObject {
     m_window->action(QStringLiteral("view.outlines"))->trigger();
     m_window->selection().select(OutlineKind::Body, m_window->session().document().project().bodies.front().id);
     QTRY_VERIFY(view->look().outline);
+  }
+
+  /// By the button beside the colours, too, which gives way where there is no room: the menu View has all of it.
+  void whatTheViewShowsIsChosenBesideTheColours() {
+    open({1600, 1000});
+    const auto buttons = m_window->findChildren<QToolButton*>();
+    const auto found = std::find_if(buttons.begin(), buttons.end(), [](const QToolButton* button) {
+      return button->accessibleName() == QStringLiteral("What stands over the picture, and its light");
+    });
+    QVERIFY(found != buttons.end());
+    const QToolButton* button = *found;
+    QVERIFY(button->isVisible());
+    const QList<QAction*> entries = button->menu()->actions();
+    QAction* axes = m_window->action(QStringLiteral("view.axes"));
+    QAction* bright = m_window->action(QStringLiteral("view.studio.bright"));
+    QVERIFY(entries.contains(axes) && entries.contains(bright));
+    axes->trigger();
+    bright->trigger();
+    Viewport* view = m_window->viewport();
+    QVERIFY(!view->overlays().axes && !view->look().dark);
+    view->setOverlays({});
+    view->setStudio(Studio::AsTheme);
+    Q_EMIT button->menu()->aboutToShow();  // it says what is so, whoever has chosen it
+    QVERIFY(axes->isChecked() && !bright->isChecked());
+    resize({966, 600});
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->viewport()->width() < 600, kLong);
+    const QWidget* bar = button->parentWidget()->parentWidget();
+    QVERIFY(!button->isVisible() || bar->rect().contains(QRect(button->mapTo(bar, QPoint()), button->size())));
   }
 
   /// Brushes, the view, the brush's panel and a slim timeline.

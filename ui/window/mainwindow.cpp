@@ -266,6 +266,7 @@ void MainWindow::makeMenus() {
       new LibraryActions(*m_session, *m_selection, m_actions, *m_notices, *m_centre, *m_pane, m_options.presets, this);
   m_library->addTo(adding);
   m_views->makeMenu(bar->addMenu(QStringLiteral("View")));
+  m_pane->showLook(m_views->look());
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);

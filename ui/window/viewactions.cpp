@@ -19,6 +19,9 @@ namespace {
 
 constexpr int kViews = 9, kKeys = 9;
 
+QString nameOf(const OverlayRow& row) { return QStringLiteral("view.") + QLatin1String(row.key); }
+QString nameOf(const StudioRow& row) { return QStringLiteral("view.studio.") + QLatin1String(row.key); }
+
 /// Colours are numbered in their order; the first few have keys.
 QString colourAction(qsizetype index) { return QStringLiteral("view.colour%1").arg(index + 1); }
 
@@ -47,15 +50,16 @@ void ViewActions::makeMenu(QMenu* menu) {
   addColours(colours);
   QObject::connect(&m_session, &Session::ready, colours, [this, colours] { addColours(colours); });
   makeSection(menu->addMenu(QStringLiteral("Section")));
-  makeShow(menu->addMenu(QStringLiteral("Show")));
-  makeLight(menu->addMenu(QStringLiteral("Light")));
+  QMenu *shown = menu->addMenu(QStringLiteral("Show")), *light = menu->addMenu(QStringLiteral("Light"));
+  makeShow(shown);
+  makeLight(light);
+  makeLook(*shown, *light);
   menu->addSeparator();
   makeThemes(menu);
 }
 
 /// What stands over the picture.
 void ViewActions::makeShow(QMenu* menu) {
-  const auto nameOf = [](const OverlayRow& row) { return QStringLiteral("view.") + QLatin1String(row.key); };
   for (const OverlayRow& row : kOverlayRows) {
     QAction* action = m_actions.add(menu, nameOf(row), QString::fromLatin1(row.label), {}, [this, on = row.on] {
       if (!m_view) return;
@@ -66,16 +70,11 @@ void ViewActions::makeShow(QMenu* menu) {
     action->setProperty(kWords, QString::fromLatin1(row.words));
     action->setCheckable(true);
   }
-  const auto follow = [this, nameOf] {
-    for (const OverlayRow& row : kOverlayRows)
-      m_actions.find(nameOf(row))->setChecked(m_view && m_view->overlays().*row.on);
-  };
-  QObject::connect(menu, &QMenu::aboutToShow, menu, follow);
+  QObject::connect(menu, &QMenu::aboutToShow, menu, [this] { followLook(); });
 }
 
 /// Whose light falls on the scene, whatever theme the window has.
 void ViewActions::makeLight(QMenu* menu) {
-  const auto nameOf = [](const StudioRow& row) { return QStringLiteral("view.studio.") + QLatin1String(row.key); };
   auto* studios = new QActionGroup(&m_actions.window());
   for (const StudioRow& row : kStudioRows) {
     QAction* action = m_actions.add(menu, nameOf(row), QString::fromLatin1(row.label), {}, [this, studio = row.studio] {
@@ -85,10 +84,22 @@ void ViewActions::makeLight(QMenu* menu) {
     action->setCheckable(true);
     studios->addAction(action);
   }
-  QObject::connect(menu, &QMenu::aboutToShow, menu, [this, nameOf] {
-    for (const StudioRow& row : kStudioRows)
-      m_actions.find(nameOf(row))->setChecked(m_view && m_view->studio() == row.studio);
-  });
+  QObject::connect(menu, &QMenu::aboutToShow, menu, [this] { followLook(); });
+}
+
+void ViewActions::makeLook(const QMenu& shown, const QMenu& light) {
+  m_look = new QMenu(&m_actions.window());
+  m_look->addActions(shown.actions());
+  m_look->addSeparator();
+  m_look->addActions(light.actions());
+  QObject::connect(m_look, &QMenu::aboutToShow, m_look, [this] { followLook(); });
+}
+
+void ViewActions::followLook() const {
+  for (const OverlayRow& row : kOverlayRows)
+    m_actions.find(nameOf(row))->setChecked(m_view && m_view->overlays().*row.on);
+  for (const StudioRow& row : kStudioRows)
+    m_actions.find(nameOf(row))->setChecked(m_view && m_view->studio() == row.studio);
 }
 
 /// What only acts on a section is enabled while there is one.

@@ -20,11 +20,15 @@ class ViewActions {
       : m_session(session), m_view(view), m_layout(layout), m_actions(actions) {}
   void makeMenu(QMenu* menu);
   void openViewMenu(const QPoint& global) const;
+  /// What stands over the picture and whose light falls on the scene, for a button beside the view.
+  QMenu* look() const { return m_look; }
 
  private:
   void makeSection(QMenu* menu);
   void makeShow(QMenu* menu);
   void makeLight(QMenu* menu);
+  void makeLook(const QMenu& shown, const QMenu& light);
+  void followLook() const;  ///< marks what is so at present
   void makeThemes(QMenu* menu);
   /// Matter and the fields that have no entry yet.
   void addColours(QMenu* menu);
@@ -33,6 +37,7 @@ class ViewActions {
   Viewport* m_view;
   WindowLayout& m_layout;
   const Actions& m_actions;
+  QMenu* m_look = nullptr;
 };
 
 }  // namespace ps

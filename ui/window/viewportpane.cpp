@@ -24,6 +24,7 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace ps {
@@ -63,6 +64,7 @@ ViewportPane::ViewportPane(Session& session, Selection& selection, Toolbox& tool
       m_brushBar(new QWidget),
       m_handleBar(new QWidget),
       m_rareTools(new QWidget),
+      m_lookBar(new QWidget),
       m_radius(new QLabel),
       m_sizeLabel(new QLabel),
       m_colourLabel(new QLabel(QStringLiteral("Colour"))),
@@ -142,6 +144,8 @@ QWidget* ViewportPane::makeBar() {
   connect(m_colour, &QComboBox::activated, this,
           [this](int index) { m_session.document().setColour(m_colour->itemData(index).toString().toStdString()); });
   row->addWidget(m_colour);
+  m_lookBar->setMinimumWidth(1);  // see share()
+  row->addWidget(m_lookBar);
   auto* frame = new QToolButton;
   frame->setIcon(icon(QStringLiteral("frame")));
   frame->setToolTip(QStringLiteral("Frame everything (Shift+F)"));
@@ -177,13 +181,13 @@ bool ViewportPane::eventFilter(QObject* watched, QEvent* event) {
 }
 
 /// What there is not always room for comes as far as it does: tools that keys and menus have too, the label of the
-/// colours.
+/// colours, what the view shows.
 void ViewportPane::share() {
   // What shows counts as if it did not, and is not hidden for that: it may have the focus.
   int room = width() - m_bar->sizeHint().width();
-  for (QWidget* part : {m_rareTools, static_cast<QWidget*>(m_colourLabel)})
-    room += part->isVisibleTo(m_bar) ? part->sizeHint().width() : 0;
-  for (QWidget* part : {m_rareTools, static_cast<QWidget*>(m_colourLabel)}) {
+  const std::array<QWidget*, 3> parts{m_rareTools, m_colourLabel, m_lookBar};
+  for (const QWidget* part : parts) room += part->isVisibleTo(m_bar) ? part->sizeHint().width() : 0;
+  for (QWidget* part : parts) {
     const int needs = part->sizeHint().width() + kGap;
     const bool has = room >= needs;
     part->setVisible(has);
@@ -221,6 +225,21 @@ void ViewportPane::showFavourites(QMenu* favourites) {
   button->setFocusPolicy(Qt::TabFocus);
   button->setMenu(favourites);
   m_brushBar->layout()->addWidget(button);
+}
+
+void ViewportPane::showLook(QMenu* look) {
+  auto* row = new QHBoxLayout(m_lookBar);
+  row->setContentsMargins(2, 0, 0, 0);
+  auto* button = new QToolButton;
+  button->setIcon(icon(QStringLiteral("eye")));
+  button->setToolTip(QStringLiteral("What stands over the picture, and its light"));
+  button->setAccessibleName(button->toolTip());
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setFocusPolicy(Qt::TabFocus);
+  button->setMenu(look);
+  row->addWidget(button);
+  setTabOrder(m_colour, button);
+  share();
 }
 
 void ViewportPane::showHandles(const HandleActions& handles) {

@@ -27,6 +27,7 @@ class ViewportPane : public QWidget {
   /// Beside the tools, while one with handles is in hand.
   void showHandles(const HandleActions& handles);
   void showFavourites(QMenu* favourites);  ///< beside the brush
+  void showLook(QMenu* look);              ///< beside the colours
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -51,6 +52,7 @@ class ViewportPane : public QWidget {
   QButtonGroup* m_buttons;
   QWidget *m_brushBar, *m_handleBar;
   QWidget* m_rareTools;  ///< those that there is not always room for
+  QWidget* m_lookBar;    ///< likewise
   QLabel* m_radius;
   QLabel* m_sizeLabel;  ///< what it says: the radius, or a scale
   QLabel* m_colourLabel;
