@@ -2,6 +2,7 @@
 #include "core/experiments/curvefit.h"
 
 #include "core/base/error.h"
+#include "core/base/progress.h"
 #include "core/experiments/probetable.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/declared.h"
@@ -19,6 +20,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -51,6 +53,18 @@ double parsedNumber(const std::string& text, const std::string& whole) {
   throw InputError("'" + whole + "': '" + text + "' is no number; write ADDRESS=LEAST..MOST");
 }
 
+/// Asks while a scene is made, too: a large one takes seconds.
+class Making final : public Progress {
+ public:
+  explicit Making(const StopTest& stop) : m_stop(stop) {}
+
+ private:
+  void advanced(size_t) override {
+    if (m_stop && m_stop()) cancel();
+  }
+  const StopTest& m_stop;
+};
+
 /// One search.
 class Fit {
  public:
@@ -59,7 +73,12 @@ class Fit {
       : m_project(project), m_plugins(plugins), m_task(task), m_stop(stop), m_each(each) {}
 
   FitResult run() {
-    checkTask();
+    try {
+      checkTask();
+    } catch (const Cancelled&) {
+      m_result.stopped = true;
+      return m_result;
+    }
     std::vector<double> start;
     for (const FitParameter& p : m_task.parameters) {
       start.push_back(partOf(p, numberAt(m_project, &m_plugins, p.target)));
@@ -93,7 +112,7 @@ class Fit {
       throw InputError("the wanted curve has no points");
     if (!std::is_sorted(m_task.wanted.time.begin(), m_task.wanted.time.end()))
       throw InputError("the wanted curve's points must ascend in time");
-    const Engine engine(m_project, m_plugins);
+    const Engine engine = made(m_project);
     const std::vector<std::string> titles = ProbeColumns(engine).titles();
     const auto found = std::find(titles.begin(), titles.end(), m_task.column);
     if (found == titles.end())
@@ -142,11 +161,18 @@ class Fit {
     return square;
   }
 
+  /// Throws Cancelled.
+  Engine made(Project project) const {
+    Making making(m_stop);
+    const ProgressScope scope(&making);
+    return Engine(std::move(project), m_plugins);
+  }
+
   /// Without values: of the project as it is.
   Series courseWith(const std::vector<double>& values) {
     Series course;
     try {
-      Engine engine(withValues(m_project, m_plugins, m_task, values), m_plugins);
+      Engine engine = made(withValues(m_project, m_plugins, m_task, values));
       const ProbeColumns columns(engine);
       const auto add = [&](const FrameStats& stats) {
         course.time.push_back(stats.time);
@@ -158,6 +184,7 @@ class Fit {
       runFrames(
           engine, static_cast<long>(frames), [&](const StepReport&, const FrameStats& stats) { add(stats); }, m_stop);
     } catch (const InputError&) {  // these values cannot be: the run has no course
+    } catch (const Cancelled&) {   // who stops it is asked again
     }
     return course;
   }

@@ -78,7 +78,8 @@ Project withValues(Project project, const PluginRegistry& plugins, const FitTask
 /// that it holds, each run as long as they reach. First the range is looked over, coarsely and evenly; from the best of
 /// what was found a quadratic model is followed down (BOBYQA, Powell, Cambridge NA2009/06, as NLopt has it), until
 /// values move by less than 1/3000 of their range. The same task takes the same way. It finds a minimum, not surely the
-/// least of all. Throws InputError for a task that means nothing here.
+/// least of all. `stop` is asked after each frame, and from several threads while a scene is made. Throws InputError
+/// for a task that means nothing here.
 FitResult fitToCurve(const Project& project, PluginRegistry& plugins, const FitTask& task, const StopTest& stop,
                      const FitVisitor& each);
 

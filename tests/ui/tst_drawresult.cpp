@@ -2,6 +2,7 @@
 // Draw the result, by hand in the real window: a curve is drawn over the sample's, a parameter may change, values are
 // found, taken over as one step, undone and done again.
 #include "core/io/projectio.h"
+#include "tests/ui/answered.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/fitting/fitpanel.h"
 #include "ui/fitting/fitparameterrows.h"
@@ -11,6 +12,7 @@
 #include <QtTest/QSignalSpy>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDockWidget>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QPushButton>
 
 #include <algorithm>
@@ -160,10 +162,16 @@ class TestDrawResult : public SampleWindowTest {
     QSignalSpy ended(panel(), &FitPanel::ended);
     QTest::mouseClick(button("Find values"), Qt::LeftButton);
     QTest::qWait(200);
+    QElapsedTimer clock;
+    clock.start();
     if (byKey)
       QTest::keyClick(view(), Qt::Key_Escape);
     else
       QTest::mouseClick(button("Cancel"), Qt::LeftButton);
+    QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
+    const auto labels = panel()->findChildren<QLabel*>();
+    QVERIFY(std::any_of(labels.begin(), labels.end(),
+                        [](const QLabel* label) { return label->text() == QStringLiteral("Giving up…"); }));
     QVERIFY(ended.wait(kLong));
     QVERIFY(button("Find values")->isVisible());
     QVERIFY(!button("Apply")->isEnabled());

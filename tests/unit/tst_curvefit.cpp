@@ -159,6 +159,19 @@ class TestCurveFit : public QObject {
     QCOMPARE(most.runs, 7);
   }
 
+  /// Before anything else is looked at, even what is wrong with the task.
+  void whileASceneIsMadeItIsStopped() {
+    const Project project = heatedBlock();
+    FitTask task = wantedWith(project, 300, 293.15, {1.0});
+    task.parameters = {FitParameter::parse(kPower, project, &m_plugins)};
+    task.column = "none of this name";
+    QVERIFY_EXCEPTION_THROWN(fitToCurve(project, m_plugins, task, nullptr, nullptr), InputError);
+    const FitResult result = fitToCurve(
+        project, m_plugins, task, [] { return true; }, nullptr);
+    QVERIFY(result.stopped);
+    QCOMPARE(result.runs, 0);
+  }
+
   /// From a state runs begin there; points before it are passed over, and what acts at the start alone is refused.
   void runsBeginAtTheProjectsState() {
     Project project = heatedBlock();

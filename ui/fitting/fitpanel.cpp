@@ -270,6 +270,8 @@ void FitPanel::search() {
 bool FitPanel::cancel() {
   if (!m_job.isRunning()) return false;
   m_job.cancel();
+  m_givesUp = true;
+  say(QStringLiteral("Giving up…"));  // the frame that runs ends first
   return true;
 }
 
@@ -294,6 +296,7 @@ void FitPanel::onTried(const FitTrial& trial) {
     showCourse(trial);
     m_found = trial;
   }
+  if (m_givesUp) return;
   say(QStringLiteral("Run %1 of at most %2: missed by %3 so far, %4 as it is")
           .arg(trial.run)
           .arg(m_task.mostRuns)
@@ -322,6 +325,7 @@ void FitPanel::onFinished(const FitResult& result) {
 
 /// A search has ended: what came and went in the scene meanwhile is looked up again.
 void FitPanel::end(const QString& text, bool problem) {
+  m_givesUp = false;
   if (std::exchange(m_abandoned, false))
     m_found.reset();
   else

@@ -76,6 +76,7 @@ class FitPanel : public QWidget {
   FitTask m_task;  ///< of the search that runs, or has ended
   double m_missedBefore = 0;
   bool m_abandoned = false;  ///< it is of a project that has gone
+  bool m_givesUp = false;    ///< somebody has cancelled it
   std::optional<FitTrial> m_found;
   WantedView* m_view;
   QComboBox *m_quantity, *m_candidate;
