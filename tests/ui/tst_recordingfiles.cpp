@@ -187,6 +187,18 @@ class TestRecordingFiles : public SampleWindowTest {
     QCOMPARE(QDir(m_folder.path()).entryList({QStringLiteral("given-up*")}), QStringList());
   }
 
+  /// At once, where the notice says how far it is: what is at work ends a little later.
+  void givingUpIsTold() {
+    RecordingFiles& files = session().recordings();
+    const auto text = [this] { return m_window->notice()->text(); };
+    Q_EMIT files.working(QStringLiteral("Saving the recording"), 0.1, 9);
+    QVERIFY2(text().contains(QStringLiteral("10 %")), qPrintable(text()));
+    Q_EMIT files.givingUp();
+    QVERIFY2(text().contains(QStringLiteral("Giving up…")), qPrintable(text()));
+    Q_EMIT files.ended();
+    QVERIFY(!noticeButton(*m_window, QStringLiteral("Cancel")));
+  }
+
   void whatCannotBeWrittenIsSaid() {
     QSignalSpy failed(&session().recordings(), &RecordingFiles::saveFailed);
     session().recordings().save(m_folder.filePath(QStringLiteral("no/such/folder/run.psrec")));

@@ -74,6 +74,7 @@ struct RecordingFiles::Answer {
 RecordingFiles::RecordingFiles(Session& session) : m_session(session) {
   m_clock.setInterval(kClockInterval);
   connect(&m_clock, &QTimer::timeout, this, [this] {
+    if (m_progress->cancelled()) return;
     const Progress::State state = m_progress->state();
     m_told = true;
     const double seconds = static_cast<double>(m_since.elapsed()) / 1000;
@@ -130,6 +131,7 @@ void RecordingFiles::cancel() {
   for (const auto& progress : {m_progress, m_reading}) {
     if (progress) progress->cancel();
   }
+  if (m_told) Q_EMIT givingUp();
 }
 
 bool RecordingFiles::cancelTold() {

@@ -46,7 +46,8 @@ class RecordingFiles : public QObject {
  Q_SIGNALS:
   /// For a while already; `done` 0..1; `left` in s, -1 where it is too early to tell; often.
   void working(const QString& stage, double done, double left);
-  void ended();  ///< after the last of those
+  void givingUp();  ///< between those: it ends when what it is at is whole
+  void ended();     ///< after the last of those
   void saved(const QString& path, qulonglong frames);
   /// `kept`: the run is still there, to be saved elsewhere.
   void saveFailed(const QString& path, const QString& problem, bool kept);

@@ -32,6 +32,9 @@ RecordingActions::RecordingActions(Session& session, const Actions& actions, Not
     : QObject(parent), m_session(session), m_actions(actions), m_notices(notices) {
   RecordingFiles& files = session.recordings();
   connect(&files, &RecordingFiles::working, this, &RecordingActions::onWorking);
+  connect(&files, &RecordingFiles::givingUp, this, [this] {
+    if (m_tells) m_notices.bar().setText(kWorking, QStringLiteral("Giving up…"));
+  });
   connect(&files, &RecordingFiles::ended, this, [this] {
     m_tells = false;
     m_notices.bar().close(kWorking);
