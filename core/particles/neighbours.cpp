@@ -99,7 +99,7 @@ void Neighbours::searchEach(const SearchGrid& grid, std::span<const uint32_t> wh
     for (size_t k = begin; k < end; ++k) rooms[k].count = static_cast<uint32_t>(search(k));
   });
   for (Room& room : rooms) room = takeRoom(room.count);
-  makeRoom();
+  makeRoom(true);
   forChunks(which.size(), grain::kNeighbours, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) search(k);
   });
@@ -144,7 +144,7 @@ void Neighbours::layOut(size_t chunks) {
   m_rooms.resize(chunks);
   m_slots = 0;
   for (size_t c = 0; c < chunks; ++c) giveRoom(c, m_needs[c] + m_needs[c] / kSpareShare);
-  makeRoom();
+  makeRoom(false);
 }
 
 /// At the end, for so many entries.
@@ -161,13 +161,19 @@ Neighbours::Room Neighbours::takeRoom(size_t entries) {
               " million): make the particle spacing larger, or look for matter that has been pressed together");
 }
 
-/// Lists that are there already stay where they are. Room is not given back: it would be zeroed when it is wanted
-/// again.
-void Neighbours::makeRoom() {
+/// Lists that are there already stay where they are, if they are to be kept. Room is not given back: it would be zeroed
+/// when it is wanted again.
+void Neighbours::makeRoom(bool keepLists) {
   const size_t size = m_slots + kListPad;
   if (size <= m_index.size()) return;
-  m_index.reserve(size + size / kSpareShare);
-  m_index.resize(m_index.capacity());
+  RoomVector<uint32_t> before;
+  m_index.swap(before);
+  if (!keepLists) before = {};  // before there are the next ones
+  m_index.resize(size + size / kSpareShare);
+  forChunks(before.size(), kRoomChunk, [&](size_t first, size_t last) {
+    std::copy(before.data() + first, before.data() + last, m_index.data() + first);
+  });
+  zeroFrom(m_index, before.size());
 }
 
 /// What has found too little room gets as much as it has turned out to need. False where all have found enough.
@@ -180,7 +186,7 @@ bool Neighbours::giveMoreRoom() {
     m_short[c] = 1;
     any = true;
   }
-  if (any) makeRoom();
+  if (any) makeRoom(true);
   return any;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/room.h"
 #include "core/particles/cellgrid.h"
 #include "core/particles/particlestore.h"
 
@@ -61,7 +62,7 @@ class Neighbours {
   Room takeRoom(size_t entries);
   void searchEach(const SearchGrid& grid, std::span<const uint32_t> which);
   bool giveMoreRoom();
-  void makeRoom();
+  void makeRoom(bool keepLists);
   void makeLists(std::span<const api::Float4> position, const Period& period);
   SearchGrid searchGrid(const Period& period) const;
   void findStirred(std::span<const api::Float4> position, const Period& period);
@@ -71,7 +72,8 @@ class Neighbours {
   void loadSlots(std::span<const api::Float4> position, const Period& period);
 
   double m_support = 0, m_skin = 0;
-  std::vector<uint32_t> m_begin, m_last, m_end, m_index, m_slotOf, m_lastOrder;
+  std::vector<uint32_t> m_begin, m_last, m_end, m_slotOf, m_lastOrder;
+  RoomVector<uint32_t> m_index;
   std::vector<uint32_t> m_needs;  ///< entries that each chunk of particles needed
   std::vector<Room> m_rooms;      ///< of each
   std::vector<uint8_t> m_short;   ///< 1 where that was too little

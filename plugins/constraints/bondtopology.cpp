@@ -4,6 +4,8 @@
 #include "joining.h"
 
 #include <algorithm>
+#include <atomic>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -74,23 +76,35 @@ class LettingGo {
   std::vector<uint8_t> m_state;
 };
 
-/// How many bonds a particle has, and to whom, where it may take more.
+template <class Visit>
+void forEach(const api::Threads* threads, size_t count, const Visit& visit) {
+  api::shareAmong(threads, count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(count),
+                  [&](size_t first, size_t last) {
+                    for (size_t k = first; k < last; ++k) visit(k);
+                  });
+}
+
+/// Returns what it was. Numbers that are only counted do not depend on who came first.
+uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
+
+/// How many bonds a particle has, and to whom, in no order, where it may take more.
 class BondGraph {
  public:
   template <class Open>
   BondGraph(std::vector<uint32_t> degree, const ConstraintBatch& all, const std::vector<uint8_t>& gone,
-            const Open& open)
+            const api::Threads* threads, const Open& open)
       : m_degree(std::move(degree)), m_begin(m_degree.size() + 1) {
-    for (uint32_t i = 0; i < m_degree.size(); ++i)
-      m_begin[i + 1] = m_begin[i] + (open(i, m_degree[i]) ? m_degree[i] : 0);
-    m_partner.resize(m_begin[m_degree.size()]);
+    forEach(threads, m_degree.size(),
+            [&](size_t i) { m_begin[i + 1] = open(static_cast<uint32_t>(i), m_degree[i]) ? m_degree[i] : 0; });
+    std::partial_sum(m_begin.begin(), m_begin.end(), m_begin.begin());
+    m_partner.resize(m_begin.back());
     std::vector<uint32_t> next(m_begin.begin(), m_begin.end());
-    for (size_t k = 0; k < all.count; ++k) {
-      if (gone[k] != 0) continue;
+    forEach(threads, all.count, [&](size_t k) {
+      if (gone[k] != 0) return;
       const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
-      if (m_begin[i] != m_begin[i + 1]) m_partner[next[i]++] = j;
-      if (m_begin[j] != m_begin[j + 1]) m_partner[next[j]++] = i;
-    }
+      if (m_begin[i] != m_begin[i + 1]) m_partner[addOne(next[i])] = j;
+      if (m_begin[j] != m_begin[j + 1]) m_partner[addOne(next[j])] = i;
+    });
   }
   uint32_t degree(uint32_t i) const { return m_degree[i]; }
   const std::vector<uint32_t>& degrees() const { return m_degree; }
@@ -182,31 +196,28 @@ class Search {
 void BondModel::topology(const ConstraintContext& context, const ParticleView& p, const NeighbourView& lists,
                          const ConstraintBatch& all, api::ConstraintSink& sink) const {
   const Joining joining(context, p);
-  joining.noteFluid();
+  joining.noteFluid(m_threads);
   std::vector<uint8_t> gone(all.count, 0);
-  auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
-  const LettingGo letsGo(context, p, m_threads);
-  api::shareAmong(m_threads, all.count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(all.count),
-                  [&](size_t first, size_t last) {
-                    for (size_t k = first; k < last; ++k)
-                      gone[k] = letsGo(all.particles[2 * k], all.particles[2 * k + 1]) ? 1 : 0;
-                  });
   std::vector<uint32_t> degree(p.count, 0);
-  for (size_t k = 0; k < all.count; ++k) {
-    if (gone[k] != 0) {
-      sink.remove(k);
-      continue;
-    }
-    ++degree[all.particles[2 * k]], ++degree[all.particles[2 * k + 1]];
+  auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
+  if (all.count > 0) {
+    const LettingGo letsGo(context, p, m_threads);
+    forEach(m_threads, all.count, [&](size_t k) {
+      const uint32_t i = all.particles[2 * k], j = all.particles[2 * k + 1];
+      gone[k] = letsGo(i, j) ? 1 : 0;
+      if (gone[k] == 0) addOne(degree[i]), addOne(degree[j]);
+    });
+    for (auto at = gone.begin(); (at = std::find(at, gone.end(), 1)) != gone.end(); ++at)
+      sink.remove(static_cast<size_t>(at - gone.begin()));
   }
-  for (size_t i = 0; i < p.count; ++i) ties[i] = static_cast<uint8_t>(degree[i]);
+  forEach(m_threads, p.count, [&](size_t i) { ties[i] = static_cast<uint8_t>(degree[i]); });
   const auto thesisRules = [](api::Span<const double> parameters) {
     return parameters.size > BondModel::kBondRule && parameters[BondModel::kBondRule] > 0.5;
   };
   const bool thesis = std::any_of(context.bodyParameters.begin(), context.bodyParameters.end(), thesisRules) ||
                       thesisRules(context.parameters);
-  if (!thesis && !joining.anybody()) return;
-  const BondGraph bonds(std::move(degree), all, gone, [&](uint32_t i, uint32_t count) {
+  if (!thesis && !joining.anybody(m_threads)) return;
+  const BondGraph bonds(std::move(degree), all, gone, m_threads, [&](uint32_t i, uint32_t count) {
     return byThesis(context, p, i) || count < mostBonds(context, p, i);
   });
   const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates(m_threads);

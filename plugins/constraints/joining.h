@@ -35,9 +35,9 @@ class Joining {
   Joining(const api::ConstraintContext& context, const api::ParticleView& particles);
 
   /// Notes who is fluid now. Once a frame, before anything joins; again by another plugin does no harm.
-  void noteFluid() const;
+  void noteFluid(const api::Threads* threads) const;
   /// Whether there is anybody whom the rule might join.
-  bool anybody() const;
+  bool anybody(const api::Threads* threads) const;
 
   bool frozen(uint32_t i) const { return m_p.solidFraction[i] >= ruleOf(i).freezeFraction; }
   bool fresh(uint32_t i) const { return m_fresh[i] != 0; }
@@ -65,6 +65,8 @@ class Joining {
     double solidus;
     bool sinters;
   };
+  template <class Visit>
+  void share(const api::Threads* threads, const Visit& visit) const;
   const Rule& ruleOf(uint32_t i) const { return m_rules[m_p.material[i]]; }
   bool cut(uint32_t i) const { return m_cuts && m_cuts->at(i); }
   bool akin(uint32_t a, uint32_t b) const { return a == b || m_adhesion[a * m_rules.size() + b] != 0; }

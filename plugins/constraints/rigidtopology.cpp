@@ -56,13 +56,13 @@ class Reshaping {
         m_joining(context, p),
         m_touch(static_cast<float*>(p.fields->write(kTouchField, api::FieldType::Float32))),
         m_gone(all.count, 0) {
-    m_joining.noteFluid();
+    m_joining.noteFluid(m_threads);
   }
 
   void run(api::GroupSink& sink) {
     for (size_t g = 0; g < m_all.count; ++g) split(g);
     const bool edited = std::any_of(m_all.changed, m_all.changed + m_all.count, [](uint8_t c) { return c != 0; });
-    if (edited || m_joining.anybody()) {
+    if (edited || m_joining.anybody(m_threads)) {
       m_pieceOf.assign(m_p.count, kNone);
       for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
         forKept(m_pieces[piece], [&](size_t k) { m_pieceOf[m_all.particles[k]] = piece; });

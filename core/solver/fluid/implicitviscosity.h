@@ -97,7 +97,7 @@ class ImplicitViscosity {
   std::vector<float> m_viscous;
   ViscousGroups m_groups;
   std::vector<api::Float4> m_points, m_direction;  ///< by particle
-  std::vector<float> m_coefficient;                ///< by slot of the lists
+  RoomVector<float> m_coefficient;                 ///< by slot of the lists
   std::vector<SymmetricBlock> m_own, m_inverse;    ///< by row, as all below
   std::vector<api::Float4> m_drag;                 ///< N s, of surfaces that move
   std::vector<api::Float4> m_diagonal, m_offDiagonal, m_change, m_rest, m_preconditioned, m_product;

@@ -257,7 +257,7 @@ class HeatStage {
   std::vector<double> m_joules;       ///< of the present substep
   std::vector<double> m_frameJoules;  ///< film and nucleation, once a frame
   std::vector<double> m_watts;        ///< sources, bodies' power and flux, W of thermal time
-  std::vector<double> m_pairWatts;    ///< the model's own pair law, per list entry
+  RoomVector<double> m_pairWatts;     ///< the model's own pair law, per list entry
   std::vector<double> m_lawRates;     ///< 1/s, the fastest of that law, by chunk
   double m_pairRate = 0;              ///< and of all
   std::vector<uint8_t> m_insulated;   ///< by particle; none where no body is
