@@ -316,7 +316,8 @@ void TestRenderComputed::passesTakeTime() {
   std::set<std::string> names;
   for (const PassTime& time : times) names.insert(time.pass);
   QCOMPARE(names.size(), passes);
-  for (const char* pass : {"shadow", "surfaces", "occlusion", "light", "liquid's light", "vapour", "final"})
+  for (const char* pass : {"matter uploaded", "view uploaded", "shadow", "surfaces", "occlusion", "light",
+                           "liquid's light", "vapour", "final", "outline", "panels", "hidden parts"})
     QVERIFY2(names.count(pass), pass);
   renderer.timePasses(nullptr);
   renderImage(renderer, everything(), tray(), shot);
