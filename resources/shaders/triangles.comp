@@ -39,7 +39,7 @@ void main() {
   uint own = gl_LocalInvocationIndex;
   if (own == 0u) findLists(corner);
   barrier();
-  int last = squareSizes - 1;
+  int last = max(squareSizes, 1) - 1;
   uint all = starts[last] + ranges[last].y - ranges[last].x;
   vec3 ray = viewRay((vec2(here) + 0.5) * size.zw), middle = viewRay((vec2(corner) + 8.0) * size.zw);
   vec2 reach = 16.0 * size.zw * lens.xy;

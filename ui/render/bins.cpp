@@ -29,7 +29,8 @@ void Bins::sort(const Program& sort, size_t things, size_t vectors, const Field&
   m_vectors = vectors;
   m_sizes = 0;
   size_t squares = 0;
-  for (int side = 1 << field.smallest; m_sizes == 0 || side / 2 < std::max(field.width, field.height);
+  // Without things there are no squares to look into.
+  for (int side = 1 << field.smallest; things > 0 && (m_sizes == 0 || side / 2 < std::max(field.width, field.height));
        side *= 2, ++m_sizes)
     squares += size_t{groups(field.width, side)} * groups(field.height, side);
   const size_t count = std::max<size_t>(things, 1);
@@ -38,11 +39,11 @@ void Bins::sort(const Program& sort, size_t things, size_t vectors, const Field&
   m_list.reserve(GL_SHADER_STORAGE_BUFFER, count * 16);
   m_sorted.reserve(GL_SHADER_STORAGE_BUFFER, count * 4 * vectors * 16);
   m_squares.reserve(GL_SHADER_STORAGE_BUFFER, (squares + 1) * 8);
+  if (things == 0) return;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // programs may still fill it
   glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, static_cast<GLsizeiptr>((squares + 1) * 8),
                        GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
   tell(sort);
-  if (things == 0) return;
   for (int turn = 0; turn < 3; ++turn) {
     const auto all = static_cast<int>(turn == 1 ? squares : things);
     glUniform1i(sort.at("turn"), turn);
