@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace ps;
 using namespace ps::testing;
@@ -63,6 +64,17 @@ Props hand() {
   return {{at(-0.2f, 0.1f), at(0.2f, 0.1f), at(0.2f, 0.3f), at(-0.2f, 0.1f), at(0.2f, 0.3f), at(-0.2f, 0.3f)}, {}, {}};
 }
 
+/// Clear liquid, which casts no shadow.
+Snapshot puddle() {
+  Snapshot s;
+  s.materialLook = {{0.75f, 0.87f, 0.98f, 1}};
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k)
+      addParticle(s, {i * 0.02 - 0.19, 0.01, k * 0.02 - 0.19}, 0.0124, static_cast<uint32_t>(20 * i + k),
+                  api::Motion::Liquid, 300);
+  return s;
+}
+
 Look ghostly() {
   Look look;
   auto other = std::make_shared<Snapshot>(everything());
@@ -90,6 +102,7 @@ class TestRenderComputed : public QObject {
 
   void picturesAreAsDrawn_data();
   void picturesAreAsDrawn();
+  void whatWasThereBeforeLeavesNothing();
   void textureOfTheTargetIsWritten_data();
   void textureOfTheTargetIsWritten();
   void whatNobodySeesIsLeftOut_data();
@@ -155,6 +168,26 @@ void TestRenderComputed::picturesAreAsDrawn() {
   const auto count = static_cast<double>(images[0].size());
   QVERIFY2(sum / count < mean && 100 * far / count < share,
            qPrintable(QStringLiteral("%1 levels, %2 %").arg(sum / count).arg(100 * far / count)));
+}
+
+/// Neither a shadow, nor in lists of which there are none any more: each picture is as a renderer's first one.
+void TestRenderComputed::whatWasThereBeforeLeavesNothing() {
+  const Shot shot = shotFrom(1.2);
+  const RenderScene stands = tray(), bare;
+  const Snapshot all = everything(), liquid = puddle(), none;
+  using Scene = std::pair<const Snapshot*, const RenderScene*>;
+  Renderer renderer(PixelWork::Computed);
+  for (const auto& [matter, scene] : {Scene{&all, &stands},
+                                      {&liquid, &stands},
+                                      {&liquid, &stands},
+                                      {&none, &bare},
+                                      {&all, &bare},
+                                      {&liquid, &bare},
+                                      {&all, &stands}}) {
+    Renderer first(PixelWork::Computed);
+    QVERIFY(renderImage(renderer, *matter, *scene, shot) == renderImage(first, *matter, *scene, shot));
+  }
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 void TestRenderComputed::textureOfTheTargetIsWritten_data() {

@@ -52,6 +52,8 @@ void Passes::sortSpheres(Range range, float growth, const Bins::Field& field) {
 
 void Passes::computeShadow(const Prepared& prepared) {
   const Range range = prepared.instances.casterRange();
+  if (range.count == 0 && m_shadowless) return;
+  m_shadowless = range.count == 0;
   const Program& sort = m_computing->sortDiscs;
   sort.use();
   tellParticles(sort, m_particles, range);

@@ -122,6 +122,7 @@ class Passes {
   std::optional<ComputingPrograms> m_computing;
   Bins m_bins;
   Texture m_shadow, m_contact{GL_RGBA8, GL_LINEAR};
+  bool m_shadowless = false;  // m_shadow has been computed of nothing
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;
