@@ -95,6 +95,7 @@ void Passes::computeSurfaces(const Job& job) {
   layers.distance.bindImage(2);
   program.texture("triangles", 0, layers.triangles.name());
   m_bins.run(program);
+  glFlush();  // the card begins with this while it is told the rest
 }
 
 /// Into the picture, or to where liquid is seen over it.
@@ -109,6 +110,7 @@ void Passes::computeLight(const Job& job) {
   const std::array<float, 3> even = backdrop.value_or(std::array<float, 3>{});
   glUniform4f(program.at("backdrop"), even[0], even[1], even[2], backdrop ? 1.f : 0.f);
   work(program, liquid ? layers.behind : layers.picture, {m_allTiles, frame.allTiles});
+  glFlush();  // as after surfaces
 }
 
 void Passes::computeNearest(const Texture& to, Range range, float growth) {
