@@ -129,6 +129,8 @@ void TestRenderComputed::picturesAreAsDrawn_data() {
   QTest::newRow("from below") << QString("dark") << 1.5 << -40.0 << 0.3 << 0.1;
   QTest::newRow("near") << QString("dark") << 0.35 << 20.0 << 0.3 << 0.1;
   QTest::newRow("from within") << QString("dark") << 0.02 << 20.0 << 0.3 << 1.0;
+  QTest::newRow("liquid at the edge") << QString("edge") << 0.5 << 20.0 << 0.3 << 0.1;
+  QTest::newRow("liquid beyond the edge") << QString("beyond") << 0.5 << 20.0 << 0.3 << 0.1;
   QTest::newRow("a hand") << QString("hand") << 1.0 << 10.0 << 0.3 << 0.1;
   QTest::newRow("backdrop") << QString("backdrop") << 1.5 << 20.0 << 0.3 << 0.1;
   QTest::newRow("section") << QString("section") << 1.5 << 20.0 << 0.3 << 0.1;
@@ -146,6 +148,8 @@ void TestRenderComputed::picturesAreAsDrawn() {
   Shot shot = shotFrom(distance);
   if (kind == QStringLiteral("ghost")) shot.look = ghostly();
   if (kind == QStringLiteral("section")) shot.look = cut();
+  if (kind == QStringLiteral("edge")) shot.camera.target = {0.3, 0.1, 0.1};
+  if (kind == QStringLiteral("beyond")) shot.camera.target = {0.8, 0.1, 0};
   if (kind == QStringLiteral("backdrop")) shot.look.backdrop = std::array<float, 3>{0.3f, 0.5f, 0.3f};
   if (kind == QStringLiteral("temperature")) shot.look.colour = "temperature";
   shot.look.dark = kind != QStringLiteral("light");

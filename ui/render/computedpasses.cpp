@@ -13,15 +13,21 @@ void Passes::work(const Program& program, const Texture& to, const Tiles& tiles,
     const Target target({&to}, depth);
     return drawTiles(tiles);
   }
+  workWithin({0, 0, to.width(), to.height()}, program, to);
+}
+
+/// The same of a part of the picture, where it is computed. Of what lies around, nothing is known afterwards.
+void Passes::workWithin(const PixelBox& box, const Program& program, const Texture& to) {
   to.bindImage(0);
   glUniform2i(program.at("used"), to.width(), to.height());
   glUniform2i(program.at("origin"), 0, 0);
-  computePixels(to.width(), to.height());
+  glUniform2i(program.at("first"), box[0], box[1]);
+  computePixels(box[2], box[3]);
 }
 
 /// What a program that is in use puts over the picture, of which `below` has all so far, within a box of pixels.
 void Passes::workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles,
-                      const std::array<int, 4>& box) {
+                      const PixelBox& box) {
   const Texture& picture = job.layers.picture;
   if (!m_quality.compute) {
     const Target target({&picture}, nullptr);

@@ -72,6 +72,9 @@ class Passes {
     const std::vector<TileSet::Corner>& corners;
   };
 
+  /// x, y, width, height; pixels of a layer.
+  using PixelBox = std::array<int, 4>;
+
   void uploadPrepared(const Prepared& prepared);
   void uploadFrame(const ViewFrame& frame);
   void drawShadow(const Prepared& prepared, const VertexArray& plain);
@@ -91,9 +94,9 @@ class Passes {
   void sortSpheres(Range range, float growth, const Bins::Field& field);
   void computeNearest(const Texture& to, Range range, float growth);
   void work(const Program& program, const Texture& to, const Tiles& tiles, const Texture* depth = nullptr);
-  void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles,
-                const std::array<int, 4>& box);
-  void smoothFluid(const Job& job);
+  void workWithin(const PixelBox& box, const Program& program, const Texture& to);
+  void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles, const PixelBox& box);
+  void smoothFluid(const Job& job, const PixelBox& texels);
   void drawOver(const Job& job);
   void drawSteam(const Job& job);
   void computeSteam(const Job& job, int sprites);

@@ -78,6 +78,7 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   ghostWidth = (prepared.look.ghost ? prepared.look.ghost->lineWidth : 0) * static_cast<float>(scale);
   lidInFront = placeOf(eye).y() > static_cast<double>(prepared.furniture.lidHeight);
   vapourBox = pixelsOf(prepared.instances.vapourExtent, eye, width, height);
+  liquidBox = pixelsOf(prepared.instances.liquidExtent, eye, width, height);
   amongSpheres = prepared.instances.sphereExtent.holds(placeOf(eye));
   amongLiquids = prepared.instances.liquidExtent.holds(placeOf(eye));
   chooseThickness(prepared, eye, quality.fluidScale);
