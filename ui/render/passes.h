@@ -55,7 +55,8 @@ class Passes {
   /// What was prepared last, into the framebuffer that the frame names.
   void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
   /// How far what that drew last is, and the first of its panels.
-  void drawDepth(const Prepared& prepared, const Layers& layers, const RenderTarget& target, size_t panels);
+  void drawDepth(const Prepared& prepared, const ViewFrame& frame, const Layers& layers, const RenderTarget& target,
+                 size_t panels);
 
  private:
   /// What the passes of one picture share.
@@ -109,6 +110,7 @@ class Passes {
   void computeFinal(const Job& job);
   void drawPanels(const Job& job);
   void panelAttributes();
+  void clearAllButDistances(const ViewFrame& frame, const RenderTarget& target);
   void hideInDepth(const Job& job);
   void drawHidden(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
