@@ -273,7 +273,7 @@ void Passes::lightTextures(const Program& program, const Layers& layers) {
   program.texture("shadowTexture", 4, m_shadow.name());
   program.texture("contactTexture", 5, m_contact.name());
   program.texture("noiseTexture", 6, m_noise.name());
-  glUniform1i(program.at("shadowTaps"), m_quality.shadowTaps);
+  glUniform1i(program.at("shadowTaps"), m_shadowless ? 0 : m_quality.shadowTaps);
 }
 
 void Passes::drawFinal(const Job& job) {
