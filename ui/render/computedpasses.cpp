@@ -4,6 +4,7 @@
 #include "ui/render/passes.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace ps::render {
 
@@ -48,12 +49,12 @@ void Passes::workOver(const Job& job, const Program& program, const Texture& bel
   computePixels(box[2], box[3]);
 }
 
-void Passes::sortSpheres(Range range, float growth, const Bins::Field& field) {
+Bins::Order Passes::sphereOrder(Bins& bins, Range range, float growth, const Bins::Field& field) {
   const Program& sort = m_computing->sortSpheres;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  glUniform1f(sort.at("growth"), growth);
-  m_bins.sort(sort, range.count, 1, field);
+  return {bins, sort, range.count, 1, field, [this, &sort, range, growth] {
+            tellParticles(sort, m_particles, range);
+            glUniform1f(sort.at("growth"), growth);
+          }};
 }
 
 void Passes::computeShadow(const Prepared& prepared) {
@@ -61,11 +62,11 @@ void Passes::computeShadow(const Prepared& prepared) {
   if (range.count == 0 && m_shadowless) return;
   m_shadowless = range.count == 0;
   const Program& sort = m_computing->sortDiscs;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  glUniformMatrix4fv(sort.at("toLight"), 1, GL_FALSE, prepared.toLight.data());
-  glUniform2fv(sort.at("radiusScale"), 1, prepared.shadowScale.data());
-  m_bins.sort(sort, range.count, 1, {m_shadow.width(), m_shadow.height()});
+  Bins::sort({Bins::Order{m_bins, sort, range.count, 1, {m_shadow.width(), m_shadow.height()}, [&] {
+                            tellParticles(sort, m_particles, range);
+                            glUniformMatrix4fv(sort.at("toLight"), 1, GL_FALSE, prepared.toLight.data());
+                            glUniform2fv(sort.at("radiusScale"), 1, prepared.shadowScale.data());
+                          }}});
   const Program& program = m_computing->discs;
   program.use();
   glUniform2fv(program.at("radiusScale"), 1, prepared.shadowScale.data());
@@ -73,25 +74,43 @@ void Passes::computeShadow(const Prepared& prepared) {
   m_bins.run(program);
 }
 
-/// Triangles first, since lists are held one at a time.
-void Passes::computeSurfaces(const Job& job) {
+/// Of the opaque scene, and of liquid.
+void Passes::sortLists(const Job& job) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const size_t props = prepared.props.opaque.size() / 3, all = props + prepared.furniture.opaque.size() / 3;
+  const Program& sort = m_computing->sortTriangles;
+  const Bins::Field whole{frame.width, frame.height};
+  const auto field = [&frame = job.frame](int scale) {
+    return Bins::Field{reduced(frame.width, scale), reduced(frame.height, scale)};
+  };
+  std::vector<Bins::Order> orders{
+      {m_triangleBins, sort, all, 3, whole, [&] { glUniform1i(sort.at("ofProps"), static_cast<GLint>(props)); }}};
+  const Instances& drawn = prepared.instances;
+  orders.push_back(sphereOrder(m_bins, drawn.sphereRange(frame.amongSpheres), 1, whole));
+  if (drawn.liquids() > 0) {
+    orders.push_back(
+        sphereOrder(m_liquidBins, drawn.liquidRange(frame.amongLiquids), kDistanceGrowth, field(m_quality.fluidScale)));
+    Bins::Field thickness = field(frame.thicknessScale);
+    thickness.smallest = 3;
+    orders.push_back(sphereOrder(m_thicknessBins, drawn.liquidRange(true), kThicknessGrowth, thickness));
+  }
+  Bins::sort(orders);
+}
+
+void Passes::computeSurfaces(const Job& job) {
+  const auto& [prepared, frame, layers, plain, clock] = job;
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, m_opaque.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, m_opaqueProps.name());
+  sortLists(job);
+  clock.mark("sorting");
   layers.triangles.resize(frame.width, frame.height);
-  const Program& sort = m_computing->sortTriangles;
-  sort.use();
-  glUniform1i(sort.at("ofProps"), static_cast<GLint>(props));
-  m_bins.sort(sort, all, 3, {frame.width, frame.height});
   m_computing->triangles.use();
   layers.triangles.bindImage(0);
-  m_bins.run(m_computing->triangles, 16);
+  m_triangleBins.run(m_computing->triangles, 16);
   clock.mark("triangles");
 
+  const size_t props = prepared.props.opaque.size() / 3;
   const Range spheres = prepared.instances.sphereRange(frame.amongSpheres);
-  sortSpheres(spheres, 1, {frame.width, frame.height});
-  clock.mark("sorting");
   const Program& program = m_computing->surface;
   program.use();
   tellParticles(program, m_particles, spheres);
@@ -119,18 +138,17 @@ void Passes::computeLight(const Job& job) {
   glFlush();  // as after surfaces
 }
 
-void Passes::computeNearest(const Texture& to, Range range, float growth) {
-  sortSpheres(range, growth, {to.width(), to.height()});
+/// Of spheres that were sorted.
+void Passes::computeNearest(const Texture& to, const Bins& bins) {
   m_computing->nearest.use();
   to.bindImage(0);
-  m_bins.run(m_computing->nearest);
+  bins.run(m_computing->nearest);
 }
 
 void Passes::computeThickness(const Job& job) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const Range range = prepared.instances.liquidRange(true);
   const int scale = frame.thicknessScale;
-  sortSpheres(range, kThicknessGrowth, {reduced(frame.width, scale), reduced(frame.height, scale), 3});
   const Program& program = m_computing->thickness;
   program.use();
   tellParticles(program, m_particles, range);
@@ -138,17 +156,22 @@ void Passes::computeThickness(const Job& job) {
   glUniform1i(program.at("scale"), scale);
   layers.fluidColour.bindImage(0);
   layers.fluidClear.bindImage(1);
-  m_bins.run(program);
+  m_thicknessBins.run(program);
 }
 
 void Passes::computeSteam(const Job& job, int sprites) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const Range range = prepared.instances.vapourRange();
   const Program& sort = m_computing->sortSprites;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  tellSprites(sort, sprites, prepared.data);
-  m_bins.sort(sort, range.count * static_cast<size_t>(sprites), 3, {layers.steam.width(), layers.steam.height()});
+  Bins::sort({Bins::Order{m_bins,
+                          sort,
+                          range.count * static_cast<size_t>(sprites),
+                          3,
+                          {layers.steam.width(), layers.steam.height()},
+                          [&, data = prepared.data] {
+                            tellParticles(sort, m_particles, range);
+                            tellSprites(sort, sprites, data);
+                          }}});
   const Program& program = m_computing->steam;
   program.use();
   tellParticles(program, m_particles, range);

@@ -26,7 +26,10 @@ std::array<int, 4> texelsOf(const std::array<int, 4>& box, int scale, const Text
 
 /// How far the nearest of some spheres is.
 void Passes::drawNearest(const Job& job, const Texture& to, Texture& depth, Range range, float growth) {
-  if (m_quality.compute) return computeNearest(to, range, growth);
+  if (m_quality.compute) {
+    Bins::sort({sphereOrder(m_bins, range, growth, {to.width(), to.height()})});
+    return computeNearest(to, m_bins);
+  }
   depth.resize(to.width(), to.height());
   const Target target({&to}, &depth);
   clearDepth();
@@ -68,7 +71,11 @@ void Passes::drawFluid(const Job& job) {
        {&layers.fluid, &layers.fluidOther, &layers.fluidColour, &layers.fluidClear, &layers.fluidNormal})
     texture->resize(width, height);
   layers.behind.resize(frame.width, frame.height);
-  drawNearest(job, layers.fluid, layers.fluidDepth, prepared.instances.liquidRange(frame.amongLiquids), 1.25f);
+  if (m_quality.compute)
+    computeNearest(layers.fluid, m_liquidBins);
+  else
+    drawNearest(job, layers.fluid, layers.fluidDepth, prepared.instances.liquidRange(frame.amongLiquids),
+                kDistanceGrowth);
   clock.mark("liquid's distance");
   if (m_quality.compute)
     computeThickness(job);

@@ -39,7 +39,8 @@ Quality coarser(const Quality& full, int steps);
 /// Of the buffer's corners of triangles, MeshVertex or EdgeVertex, in the vertex array that is bound.
 void meshAttributes(GLuint buffer);
 
-inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
+inline constexpr float kDistanceGrowth = 1.25f;  ///< liquid's surface lies on spheres so many times as large
+inline constexpr float kThicknessGrowth = 1.7f;  ///< and it adds up smoothly from these
 
 /// Shaders, textures and buffers, and the passes in their order, most of which are drawn or computed (Quality): the
 /// shadow picture once for everything that is prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost,
@@ -82,6 +83,7 @@ class Passes {
   void computeShadow(const Prepared& prepared);
   void drawSurfaces(const Job& job);
   void drawMesh(const Program& program, const Buffer& buffer, const std::vector<MeshVertex>& mesh);
+  void sortLists(const Job& job);
   void computeSurfaces(const Job& job);
   void drawOcclusion(const Job& job);
   const Texture& drawBackground(const Job& job);
@@ -92,8 +94,8 @@ class Passes {
   void drawNearest(const Job& job, const Texture& to, Texture& depth, Range range, float growth);
   void drawThickness(const Job& job);
   void computeThickness(const Job& job);
-  void sortSpheres(Range range, float growth, const Bins::Field& field);
-  void computeNearest(const Texture& to, Range range, float growth);
+  Bins::Order sphereOrder(Bins& bins, Range range, float growth, const Bins::Field& field);
+  void computeNearest(const Texture& to, const Bins& bins);
   void work(const Program& program, const Texture& to, const Tiles& tiles, const Texture* depth = nullptr);
   void workWithin(const PixelBox& box, const Program& program, const Texture& to);
   void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles, const PixelBox& box);
@@ -125,7 +127,7 @@ class Passes {
   Programs m_programs;
   std::optional<DrawingPrograms> m_drawing;  // one of the two
   std::optional<ComputingPrograms> m_computing;
-  Bins m_bins;
+  Bins m_bins, m_triangleBins, m_liquidBins, m_thicknessBins;
   Texture m_shadow, m_contact{GL_RGBA8, GL_LINEAR};
   bool m_shadowless = false;  // m_shadow has been computed of nothing
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
