@@ -9,9 +9,9 @@ void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), block = 8 * ivec2(gl_WorkGroupID.xy);
   vec2 place = vec2(here) + 0.5, metres = 2.0 / (radiusScale * vec2(field));
   float depth = 1.0;
-  int base = 0;
+  findLists(block, gl_LocalInvocationIndex);
   for (int step = 0; step < squareSizes; ++step) {
-    uvec2 range = listAt(step, block, base);
+    uvec2 range = lists[step];
     for (uint from = range.x; from < range.y; from += 64u) {
       uint count = min(range.y - from, 64u);
       barrier();

@@ -24,10 +24,13 @@ bool shade(ivec2 here, vec2 place, vec3 ray, out vec4 colour) {
   float sw = dot(texelFetch(picture, clamp(here + ivec2(-1, -1), ivec2(0), last), 0).rgb, kLuma);
   float se = dot(texelFetch(picture, clamp(here + ivec2(1, -1), ivec2(0), last), 0).rgb, kLuma);
   float low = min(m, min(min(nw, ne), min(sw, se))), high = max(m, max(max(nw, ne), max(sw, se)));
+  if (high - low < max(0.03, high * 0.10)) {  // most pixels: there is no edge
+    colour = vec4(middle, 1.0);
+    return true;
+  }
   vec2 along = vec2(sw + se - nw - ne, nw + sw - ne - se);
   float least = max((nw + ne + sw + se) * 0.03125, 1.0 / 128.0);
   along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -1.5, 1.5) * size.zw;
-  along *= high - low < max(0.03, high * 0.10) ? 0.0 : 1.0;
   vec2 uv = (vec2(here) + 0.5) * size.zw;
   vec3 both = textureLod(picture, uv - along * 0.5, 0.0).rgb + textureLod(picture, uv + along * 0.5, 0.0).rgb;
   colour = vec4(0.5 * both, 1.0);

@@ -9,6 +9,7 @@ uniform vec2 thicknessSize;          // texels that the picture takes of the las
 uniform float oneClearness;          // of all liquid; below 0: as fluidClear says
 uniform sampler2D distanceTexture;   // of what is opaque
 uniform sampler2D behindTexture;     // the picture so far
+uniform ivec2 firstLiquid, endLiquid;  // pixels between which all liquid is
 
 // Distance at a place of the picture, interpolated among the neighbours that are liquid; y: their share.
 vec2 distanceAt(vec2 at) {
@@ -28,6 +29,7 @@ vec2 distanceAt(vec2 at) {
 
 // Multiplied by its opacity.
 bool shade(ivec2 here, vec2 uv, vec3 worldRay, out vec4 colour) {
+  if (any(lessThan(here, firstLiquid)) || any(greaterThanEqual(here, endLiquid))) return false;
   vec2 centre = distanceAt(uv);
   float front = texelFetch(distanceTexture, here, 0).r;
   if (centre.y < 0.05 || centre.x > front + matter.x * 0.25) return false;

@@ -6,6 +6,7 @@ uniform ivec2 direction;
 uniform float width;  // m, standard deviation of the filter
 uniform int limit;    // taps to each side
 uniform int fine;     // 1: neighbouring texels only, which removes the comb that wider steps leave
+uniform ivec2 least, most;  // texels between which all liquid is: nothing is known of what lies around
 
 bool shade(ivec2 here, vec2 uv, vec3 ray, out vec4 distance) {
   ivec2 last = textureSize(fluidTexture, 0) - 1;
@@ -19,8 +20,8 @@ bool shade(ivec2 here, vec2 uv, vec3 ray, out vec4 distance) {
   for (int i = 1; i <= limit; ++i) {
     float w = exp(-0.5 * pow(float(i) * step / max(sigma, 0.3), 2.0));
     ivec2 offset = direction * int(float(i) * step + 0.5);
-    float a = texelFetch(fluidTexture, clamp(here + offset, ivec2(0), last), 0).r;
-    float b = texelFetch(fluidTexture, clamp(here - offset, ivec2(0), last), 0).r;
+    float a = texelFetch(fluidTexture, clamp(here + offset, least, most), 0).r;
+    float b = texelFetch(fluidTexture, clamp(here - offset, least, most), 0).r;
     float keep = a < centre + range && b < centre + range ? w : 0.0;  // both or none: slopes stay
     sum += keep * (max(a, centre - range) + max(b, centre - range));
     weights += 2.0 * keep;

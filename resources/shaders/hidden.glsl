@@ -8,9 +8,11 @@ layout(std430, binding = 7) readonly buffer Hidden {
 // Of a pixel of a layer, which has one for each few of the picture.
 bool isHidden(ivec2 pixel, ivec2 layer) {
   if (hiddenColumns == 0) return false;
-  int scale = (int(size.x) + layer.x - 1) / layer.x;
+  // Rounded up; by floats, since every pixel of every pass asks. They are off by less than what is taken away, and a
+  // layer that is no whole number of times as small is off by more.
+  int scale = int(ceil(size.x / float(layer.x) - 1e-5));
   ivec2 place = min(pixel * scale, ivec2(size.xy) - 1);
-  int i = (int(size.y) - 1 - place.y) / 16 * hiddenColumns + place.x / 16;
+  int i = ((int(size.y) - 1 - place.y) >> 4) * hiddenColumns + (place.x >> 4);
   return (hiddenTiles[i >> 5] >> uint(i & 31) & 1u) == 1u;
 }
 // Of a whole block of pixels that is no wider than a square.

@@ -11,9 +11,10 @@ float meeting(vec4 sphere, vec3 ray, float a) {
 // The nearest sphere that a ray with z = -1 meets before `distance`, which becomes that of the meeting; -1: none.
 int nearestSphere(ivec2 corner, vec3 ray, inout float distance) {
   float a = dot(ray, ray), least = nearestShown();
-  int found = -1, base = 0;
+  int found = -1;
+  findLists(corner, gl_LocalInvocationIndex);
   for (int step = 0; step < squareSizes; ++step) {
-    uvec2 range = listAt(step, corner, base);
+    uvec2 range = lists[step];
     for (uint from = range.x; from < range.y; from += 64u) {
       uint count = min(range.y - from, 64u);
       barrier();

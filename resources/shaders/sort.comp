@@ -9,7 +9,9 @@ void main() {
   int i = int(gl_GlobalInvocationID.x);
   if (i >= count) return;
   if (turn == 1) {
-    uint first = atomicAdd(listed, squares[i].y);
+    // Most are empty: all of them at one number would wait for each other.
+    uint held = squares[i].y, first = 0u;
+    if (held > 0u) first = atomicAdd(listed, held);
     squares[i] = uvec2(first);
     return;
   }

@@ -10,12 +10,16 @@ const uint kOpaque = 64u * uint(kSteps);  // more hides no more
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), block = 8 * ivec2(gl_WorkGroupID.xy);
   if (isHidden(block, 8, field)) return;
+  findLists(block, gl_LocalInvocationIndex);
+  if (seesNothing()) {
+    if (all(lessThan(here, field))) imageStore(painted, here, vec4(0.0));
+    return;
+  }
   vec2 ray = viewRay((vec2(here) + 0.5) / vec2(field)).xy;
   float behind = behindAt(here);
   uint hidden = 0u, lit = 0u, weight = 0u;
-  int base = 0;
   for (int step = 0; step < squareSizes; ++step) {
-    uvec2 range = listAt(step, block, base);
+    uvec2 range = lists[step];
     for (uint from = range.x; from < range.y; from += 64u) {
       uint count = min(range.y - from, 64u);
       barrier();

@@ -16,15 +16,20 @@ void main() {
   uint pixel = gl_LocalInvocationIndex & 63u, part = gl_LocalInvocationID.z;
   if (part == 0u)
     for (int k = 0; k < 5; ++k) sums[k][pixel] = 0u;
-  barrier();
+  findLists(corner, gl_LocalInvocationIndex);
+  if (seesNothing()) {
+    if (part > 0u || any(greaterThanEqual(here, field))) return;
+    imageStore(sum, here, vec4(0.0));
+    imageStore(clearSum, here, vec4(0.0));
+    return;
+  }
   float behind = texelFetch(distanceTexture, min(here * scale, textureSize(distanceTexture, 0) - 1), 0).r;
   vec3 ray = viewRay((vec2(here) + 0.5) / vec2(field));
   float a = dot(ray, ray);
   uvec4 total = uvec4(0u);
   uint clear = 0u;
-  int base = 0;
   for (int step = 0; step < squareSizes; ++step) {
-    uvec2 range = listAt(step, corner, base);
+    uvec2 range = lists[step];
     for (uint from = range.x; from < range.y; from += kAtOnce) {
       uint count = min(range.y - from, kAtOnce), own = gl_LocalInvocationIndex;
       barrier();

@@ -4,23 +4,15 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(binding = 0) writeonly uniform uimage2D marks;
 const uint kAtOnce = 256u;
-const int kSizes = 16;
-shared uint starts[kSizes];  // of the lists, one after the other
-shared uvec2 ranges[kSizes];
+shared uint starts[kSizes + 1];  // of the lists, one after the other; the last is how long all are
 shared uint seen[kAtOnce];
 shared uint seenCount;
 
-void findLists(ivec2 corner) {
+void placeLists() {
   uint sum = 0u;
-  int base = 0;
-  for (int step = 0; step < squareSizes; ++step) {
-    ranges[step] = listAt(step, corner, base);
+  for (int step = 0; step <= kSizes; ++step) {
     starts[step] = sum;
-    sum += ranges[step].y - ranges[step].x;
-  }
-  for (int step = squareSizes; step < kSizes; ++step) {
-    ranges[step] = uvec2(0u);
-    starts[step] = sum;
+    if (step < squareSizes) sum += lists[step].y - lists[step].x;
   }
 }
 
@@ -37,10 +29,11 @@ void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy), corner = 16 * ivec2(gl_WorkGroupID.xy);
   if (isHidden(corner, 16, field)) return;
   uint own = gl_LocalInvocationIndex;
-  if (own == 0u) findLists(corner);
+  findLists(corner, own);
+  if (own == 0u) placeLists();
   barrier();
   int last = squareSizes - 1;
-  uint all = starts[last] + ranges[last].y - ranges[last].x;
+  uint all = starts[kSizes];
   vec3 ray = viewRay((vec2(here) + 0.5) * size.zw), middle = viewRay((vec2(corner) + 8.0) * size.zw);
   vec2 reach = 16.0 * size.zw * lens.xy;
   float distance = farthestShown(), least = nearestShown();
@@ -52,7 +45,7 @@ void main() {
     if (at < all) {
       int step = 0;
       while (step < last && starts[step + 1] <= at) ++step;
-      uint i = list[ranges[step].x + at - starts[step]];
+      uint i = list[lists[step].x + at - starts[step]];
       if (touches(int(i), middle, reach)) seen[atomicAdd(seenCount, 1u)] = i;
     }
     barrier();

@@ -6,6 +6,9 @@
 //
 // The whole frame is from when xrWaitFrame() returns to when xrEndFrame() does; of it, what the scene prepares and what
 // it hands to the graphics card; and what that takes, which it is asked for some frames later.
+//
+// At last what the card takes for each pass of a frame, both eyes together: there it is waited for, so that the frames
+// themselves take longer than those before.
 #include <epoxy/gl.h>
 
 #include "core/experiments/benchscenes.h"
@@ -20,9 +23,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace ps;
@@ -40,7 +45,8 @@ enum Part : size_t { kPreparing, kEyes, kDepths };
 /// ms, of every frame.
 struct Costs {
   std::vector<double> whole, prepare, draw, card;
-  std::array<std::vector<double>, 3> parts;  ///< the card's, by Part
+  std::array<std::vector<double>, 3> parts;   ///< the card's, by Part
+  std::vector<std::vector<PassTime>> passes;  ///< the card's too, where each is waited for
 };
 
 /// What the graphics card takes for parts of a frame, by the times at which it begins and ends them; asked for some
@@ -95,10 +101,13 @@ class CardParts {
 /// The editor's scene, with a watch.
 class WatchedScene : public vr::HeadsetScene {
  public:
-  WatchedScene(std::shared_ptr<vr::HeadsetLink> link, bool depth, Costs& costs)
-      : m_scene(std::move(link)), m_depth(depth), m_costs(costs), m_card(costs) {}
+  WatchedScene(std::shared_ptr<vr::HeadsetLink> link, bool depth, bool passes, Costs& costs)
+      : m_scene(std::move(link)), m_depth(depth), m_costs(costs), m_card(costs) {
+    if (passes) m_scene.timePasses(&m_passes);
+  }
   std::array<std::optional<vr::Vibration>, 2> prepare(const vr::HeadsetFrame& frame) override {
     m_card.nextFrame();
+    if (!m_passes.empty()) m_costs.passes.push_back(std::exchange(m_passes, {}));
     const Clock::time_point start = Clock::now();
     std::array<std::optional<vr::Vibration>, 2> felt;
     m_card.time(kPreparing, [&] { felt = m_scene.prepare(frame); });
@@ -123,11 +132,12 @@ class WatchedScene : public vr::HeadsetScene {
   bool m_depth;
   Costs& m_costs;
   CardParts m_card;
+  std::vector<PassTime> m_passes;  ///< of the frame that goes on
 };
 
 struct Kind {
   const char* name;
-  bool depth, mask, mirror, runs, panels = true, hands = true;
+  bool depth, mask, mirror, runs, panels = true, hands = true, passes = false;
 };
 
 /// A panel with something on it, as large as the interface's.
@@ -269,7 +279,7 @@ Costs stay(const HeadlessContext& shared, Editor& editor, const Kind& kind, doub
   vr::HeadsetSetup setup;
   setup.makeCurrent = [&] { own.makeCurrent(); };
   setup.release = [&] { own.release(); };
-  setup.makeScene = [&] { return std::make_unique<WatchedScene>(editor.link(), kind.depth, costs); };
+  setup.makeScene = [&] { return std::make_unique<WatchedScene>(editor.link(), kind.depth, kind.passes, costs); };
   setup.mirror = std::make_shared<vr::Mirror>();
   setup.measured = [&](const vr::FrameCost& cost) {
     costs.whole.push_back(1e3 * cost.whole);
@@ -288,8 +298,27 @@ Costs stay(const HeadlessContext& shared, Editor& editor, const Kind& kind, doub
   return costs;
 }
 
+constexpr size_t kFirst = 60;  // frames, in which programs and pictures are made
+
+/// What the card takes for each pass of a frame, ms; 0 in frames that had it not.
+void printPasses(const std::vector<std::vector<PassTime>>& frames) {
+  std::vector<std::pair<std::string, std::vector<double>>> passes;
+  for (size_t frame = std::min(kFirst, frames.size()); frame < frames.size(); ++frame)
+    for (const PassTime& time : frames[frame]) {
+      const auto is = [&](const auto& pass) { return pass.first == time.pass; };
+      auto found = std::find_if(passes.begin(), passes.end(), is);
+      if (found == passes.end()) {
+        passes.emplace_back(time.pass, std::vector<double>(frames.size() - kFirst));
+        found = std::prev(passes.end());
+      }
+      found->second[frame - kFirst] = time.milliseconds;
+    }
+  for (const auto& [name, times] : passes)
+    std::printf("  %-24s  %7.3f %7.3f %7.3f\n", name.c_str(), quantile(times, 0.5), quantile(times, 0.95),
+                quantile(times, 0.99));
+}
+
 void print(const Kind& kind, Costs costs, const Editor& editor) {
-  constexpr size_t kFirst = 60;  // frames, in which programs and pictures are made
   const auto late = [](const std::vector<double>& times) {
     return std::count_if(times.begin(), times.end(), [](double ms) { return ms > 1000.0 / 90; });
   };
@@ -300,6 +329,7 @@ void print(const Kind& kind, Costs costs, const Editor& editor) {
     std::printf("  %6.2f %6.2f %6.2f", quantile(*times, 0.5), quantile(*times, 0.95), quantile(*times, 0.99));
   for (auto& part : costs.parts) std::printf(" %6.2f", quantile(part, 0.5));
   std::printf("  %6.2f ms, x %.2f\n", editor.frame(), editor.speed());
+  printPasses(costs.passes);
   std::fflush(stdout);
 }
 
@@ -328,7 +358,8 @@ int main(int count, char** words) {
           Kind{"without a mirror", true, true, false, true}, Kind{"without a mask", true, false, true, true},
           Kind{"paused", true, true, true, false}, Kind{"paused, no mask", true, false, true, false},
           Kind{"paused, no panels", true, true, true, false, false},
-          Kind{"paused, no hands", true, true, true, false, false, false}}) {
+          Kind{"paused, no hands", true, true, true, false, false, false},
+          Kind{"all, pass by pass", true, true, true, true, true, true, true}}) {
       editor.showPanels(kind.panels);
       writeScript(script, pixels, kind);
       print(kind, stay(context, editor, kind, seconds), editor);

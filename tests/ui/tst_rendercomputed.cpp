@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace ps;
 using namespace ps::testing;
@@ -63,6 +64,17 @@ Props hand() {
   return {{at(-0.2f, 0.1f), at(0.2f, 0.1f), at(0.2f, 0.3f), at(-0.2f, 0.1f), at(0.2f, 0.3f), at(-0.2f, 0.3f)}, {}, {}};
 }
 
+/// Clear liquid, which casts no shadow.
+Snapshot puddle() {
+  Snapshot s;
+  s.materialLook = {{0.75f, 0.87f, 0.98f, 1}};
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k)
+      addParticle(s, {i * 0.02 - 0.19, 0.01, k * 0.02 - 0.19}, 0.0124, static_cast<uint32_t>(20 * i + k),
+                  api::Motion::Liquid, 300);
+  return s;
+}
+
 Look ghostly() {
   Look look;
   auto other = std::make_shared<Snapshot>(everything());
@@ -90,6 +102,7 @@ class TestRenderComputed : public QObject {
 
   void picturesAreAsDrawn_data();
   void picturesAreAsDrawn();
+  void whatWasThereBeforeLeavesNothing();
   void textureOfTheTargetIsWritten_data();
   void textureOfTheTargetIsWritten();
   void whatNobodySeesIsLeftOut_data();
@@ -116,6 +129,8 @@ void TestRenderComputed::picturesAreAsDrawn_data() {
   QTest::newRow("from below") << QString("dark") << 1.5 << -40.0 << 0.3 << 0.1;
   QTest::newRow("near") << QString("dark") << 0.35 << 20.0 << 0.3 << 0.1;
   QTest::newRow("from within") << QString("dark") << 0.02 << 20.0 << 0.3 << 1.0;
+  QTest::newRow("liquid at the edge") << QString("edge") << 0.5 << 20.0 << 0.3 << 0.1;
+  QTest::newRow("liquid beyond the edge") << QString("beyond") << 0.5 << 20.0 << 0.3 << 0.1;
   QTest::newRow("a hand") << QString("hand") << 1.0 << 10.0 << 0.3 << 0.1;
   QTest::newRow("backdrop") << QString("backdrop") << 1.5 << 20.0 << 0.3 << 0.1;
   QTest::newRow("section") << QString("section") << 1.5 << 20.0 << 0.3 << 0.1;
@@ -133,6 +148,8 @@ void TestRenderComputed::picturesAreAsDrawn() {
   Shot shot = shotFrom(distance);
   if (kind == QStringLiteral("ghost")) shot.look = ghostly();
   if (kind == QStringLiteral("section")) shot.look = cut();
+  if (kind == QStringLiteral("edge")) shot.camera.target = {0.3, 0.1, 0.1};
+  if (kind == QStringLiteral("beyond")) shot.camera.target = {0.8, 0.1, 0};
   if (kind == QStringLiteral("backdrop")) shot.look.backdrop = std::array<float, 3>{0.3f, 0.5f, 0.3f};
   if (kind == QStringLiteral("temperature")) shot.look.colour = "temperature";
   shot.look.dark = kind != QStringLiteral("light");
@@ -155,6 +172,26 @@ void TestRenderComputed::picturesAreAsDrawn() {
   const auto count = static_cast<double>(images[0].size());
   QVERIFY2(sum / count < mean && 100 * far / count < share,
            qPrintable(QStringLiteral("%1 levels, %2 %").arg(sum / count).arg(100 * far / count)));
+}
+
+/// Neither a shadow, nor in lists of which there are none any more: each picture is as a renderer's first one.
+void TestRenderComputed::whatWasThereBeforeLeavesNothing() {
+  const Shot shot = shotFrom(1.2);
+  const RenderScene stands = tray(), bare;
+  const Snapshot all = everything(), liquid = puddle(), none;
+  using Scene = std::pair<const Snapshot*, const RenderScene*>;
+  Renderer renderer(PixelWork::Computed);
+  for (const auto& [matter, scene] : {Scene{&all, &stands},
+                                      {&liquid, &stands},
+                                      {&liquid, &stands},
+                                      {&none, &bare},
+                                      {&all, &bare},
+                                      {&liquid, &bare},
+                                      {&all, &stands}}) {
+    Renderer first(PixelWork::Computed);
+    QVERIFY(renderImage(renderer, *matter, *scene, shot) == renderImage(first, *matter, *scene, shot));
+  }
+  QCOMPARE(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 void TestRenderComputed::textureOfTheTargetIsWritten_data() {
@@ -316,7 +353,8 @@ void TestRenderComputed::passesTakeTime() {
   std::set<std::string> names;
   for (const PassTime& time : times) names.insert(time.pass);
   QCOMPARE(names.size(), passes);
-  for (const char* pass : {"shadow", "surfaces", "occlusion", "light", "liquid's light", "vapour", "final"})
+  for (const char* pass : {"matter uploaded", "view uploaded", "shadow", "surfaces", "occlusion", "light",
+                           "liquid's light", "vapour", "final", "outline", "panels", "hidden parts"})
     QVERIFY2(names.count(pass), pass);
   renderer.timePasses(nullptr);
   renderImage(renderer, everything(), tray(), shot);

@@ -69,6 +69,22 @@ void VrMirrorTest::picturesAreHandedOverAsTheyAre() {
     window.makeCurrent();
     QVERIFY(mirror.draw(shown.framebuffer, shown.size, false));
     QCOMPARE(shown.at(125, 16), kRed);
+    // Only what the window showed was copied, and fills it with other proportions as well.
+    const Plate high(GL_RGBA8, 32, 128);
+    high.fill(kBlack, kBlack);
+    QVERIFY(mirror.draw(high.framebuffer, high.size, true));
+    for (const int y : {0, 64, 127}) QCOMPARE(high.at(16, y), kRed);
+    headset.makeCurrent();
+    eye.fill(kBlue, kRed);
+    mirror.want();
+    mirror.offer(eye.texture, eye.size);
+    glFinish();
+    window.makeCurrent();
+    QVERIFY(mirror.draw(high.framebuffer, high.size, false));
+    for (const int y : {0, 64, 127}) {
+      QCOMPARE(high.at(2, y), kBlue);
+      QCOMPARE(high.at(29, y), kRed);
+    }
     headset.makeCurrent();
     mirror.close();
     window.makeCurrent();

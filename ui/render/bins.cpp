@@ -24,32 +24,47 @@ void computePixels(int width, int height, int block) {
   waitForStores();
 }
 
-void Bins::sort(const Program& sort, size_t things, size_t vectors, const Field& field) {
-  m_field = field;
+void Bins::sort(const std::vector<Order>& orders) {
+  for (const Order& order : orders) order.bins.makeRoom(order);
+  for (int turn = 0; turn < 3; ++turn) {
+    for (const Order& order : orders)
+      if (order.things > 0) order.bins.go(order, turn);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+}
+
+/// Empty squares, too, but for a list of nothing, where nobody looks into any.
+void Bins::makeRoom(const Order& order) {
+  const auto& [width, height, smallest] = order.field;
+  const size_t vectors = order.vectors;
+  m_field = order.field;
   m_vectors = vectors;
   m_sizes = 0;
-  size_t squares = 0;
-  for (int side = 1 << field.smallest; m_sizes == 0 || side / 2 < std::max(field.width, field.height);
+  m_squareCount = 0;
+  for (int side = 1 << smallest; order.things > 0 && (m_sizes == 0 || side / 2 < std::max(width, height));
        side *= 2, ++m_sizes)
-    squares += size_t{groups(field.width, side)} * groups(field.height, side);
-  const size_t count = std::max<size_t>(things, 1);
+    m_squareCount += size_t{groups(width, side)} * groups(height, side);
+  const size_t count = std::max<size_t>(order.things, 1);
   m_things.reserve(GL_SHADER_STORAGE_BUFFER, count * vectors * 16);
   m_places.reserve(GL_SHADER_STORAGE_BUFFER, count * 8);
   m_list.reserve(GL_SHADER_STORAGE_BUFFER, count * 16);
   m_sorted.reserve(GL_SHADER_STORAGE_BUFFER, count * 4 * vectors * 16);
-  m_squares.reserve(GL_SHADER_STORAGE_BUFFER, (squares + 1) * 8);
+  m_squares.reserve(GL_SHADER_STORAGE_BUFFER, (m_squareCount + 1) * 8);
+  if (order.things == 0) return;
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // programs may still fill it
-  glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, static_cast<GLsizeiptr>((squares + 1) * 8),
+  glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, static_cast<GLsizeiptr>((m_squareCount + 1) * 8),
                        GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-  tell(sort);
-  if (things == 0) return;
-  for (int turn = 0; turn < 3; ++turn) {
-    const auto all = static_cast<int>(turn == 1 ? squares : things);
-    glUniform1i(sort.at("turn"), turn);
-    glUniform1i(sort.at("count"), all);
-    glDispatchCompute(groups(all, kGroup), 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-  }
+}
+
+void Bins::go(const Order& order, int turn) const {
+  const Program& program = order.sort;
+  program.use();
+  order.tell();
+  tell(program);
+  const auto all = static_cast<int>(turn == 1 ? m_squareCount : order.things);
+  glUniform1i(program.at("turn"), turn);
+  glUniform1i(program.at("count"), all);
+  glDispatchCompute(groups(all, kGroup), 1, 1);
 }
 
 void Bins::run(const Program& program, int block) const {

@@ -4,6 +4,7 @@
 #include "ui/render/passes.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace ps::render {
 
@@ -13,15 +14,21 @@ void Passes::work(const Program& program, const Texture& to, const Tiles& tiles,
     const Target target({&to}, depth);
     return drawTiles(tiles);
   }
+  workWithin({0, 0, to.width(), to.height()}, program, to);
+}
+
+/// The same of a part of the picture, where it is computed. Of what lies around, nothing is known afterwards.
+void Passes::workWithin(const PixelBox& box, const Program& program, const Texture& to) {
   to.bindImage(0);
   glUniform2i(program.at("used"), to.width(), to.height());
   glUniform2i(program.at("origin"), 0, 0);
-  computePixels(to.width(), to.height());
+  glUniform2i(program.at("first"), box[0], box[1]);
+  computePixels(box[2], box[3]);
 }
 
 /// What a program that is in use puts over the picture, of which `below` has all so far, within a box of pixels.
 void Passes::workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles,
-                      const std::array<int, 4>& box) {
+                      const PixelBox& box) {
   const Texture& picture = job.layers.picture;
   if (!m_quality.compute) {
     const Target target({&picture}, nullptr);
@@ -42,22 +49,24 @@ void Passes::workOver(const Job& job, const Program& program, const Texture& bel
   computePixels(box[2], box[3]);
 }
 
-void Passes::sortSpheres(Range range, float growth, const Bins::Field& field) {
+Bins::Order Passes::sphereOrder(Bins& bins, Range range, float growth, const Bins::Field& field) {
   const Program& sort = m_computing->sortSpheres;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  glUniform1f(sort.at("growth"), growth);
-  m_bins.sort(sort, range.count, 1, field);
+  return {bins, sort, range.count, 1, field, [this, &sort, range, growth] {
+            tellParticles(sort, m_particles, range);
+            glUniform1f(sort.at("growth"), growth);
+          }};
 }
 
 void Passes::computeShadow(const Prepared& prepared) {
   const Range range = prepared.instances.casterRange();
+  if (range.count == 0 && m_shadowless) return;
+  m_shadowless = range.count == 0;
   const Program& sort = m_computing->sortDiscs;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  glUniformMatrix4fv(sort.at("toLight"), 1, GL_FALSE, prepared.toLight.data());
-  glUniform2fv(sort.at("radiusScale"), 1, prepared.shadowScale.data());
-  m_bins.sort(sort, range.count, 1, {m_shadow.width(), m_shadow.height()});
+  Bins::sort({Bins::Order{m_bins, sort, range.count, 1, {m_shadow.width(), m_shadow.height()}, [&] {
+                            tellParticles(sort, m_particles, range);
+                            glUniformMatrix4fv(sort.at("toLight"), 1, GL_FALSE, prepared.toLight.data());
+                            glUniform2fv(sort.at("radiusScale"), 1, prepared.shadowScale.data());
+                          }}});
   const Program& program = m_computing->discs;
   program.use();
   glUniform2fv(program.at("radiusScale"), 1, prepared.shadowScale.data());
@@ -65,25 +74,43 @@ void Passes::computeShadow(const Prepared& prepared) {
   m_bins.run(program);
 }
 
-/// Triangles first, since lists are held one at a time.
-void Passes::computeSurfaces(const Job& job) {
+/// Of the opaque scene, and of liquid.
+void Passes::sortLists(const Job& job) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const size_t props = prepared.props.opaque.size() / 3, all = props + prepared.furniture.opaque.size() / 3;
+  const Program& sort = m_computing->sortTriangles;
+  const Bins::Field whole{frame.width, frame.height};
+  const auto field = [&frame = job.frame](int scale) {
+    return Bins::Field{reduced(frame.width, scale), reduced(frame.height, scale)};
+  };
+  std::vector<Bins::Order> orders{
+      {m_triangleBins, sort, all, 3, whole, [&] { glUniform1i(sort.at("ofProps"), static_cast<GLint>(props)); }}};
+  const Instances& drawn = prepared.instances;
+  orders.push_back(sphereOrder(m_bins, drawn.sphereRange(frame.amongSpheres), 1, whole));
+  if (drawn.liquids() > 0) {
+    orders.push_back(
+        sphereOrder(m_liquidBins, drawn.liquidRange(frame.amongLiquids), kDistanceGrowth, field(m_quality.fluidScale)));
+    Bins::Field thickness = field(frame.thicknessScale);
+    thickness.smallest = 3;
+    orders.push_back(sphereOrder(m_thicknessBins, drawn.liquidRange(true), kThicknessGrowth, thickness));
+  }
+  Bins::sort(orders);
+}
+
+void Passes::computeSurfaces(const Job& job) {
+  const auto& [prepared, frame, layers, plain, clock] = job;
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, m_opaque.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, m_opaqueProps.name());
+  sortLists(job);
+  clock.mark("sorting");
   layers.triangles.resize(frame.width, frame.height);
-  const Program& sort = m_computing->sortTriangles;
-  sort.use();
-  glUniform1i(sort.at("ofProps"), static_cast<GLint>(props));
-  m_bins.sort(sort, all, 3, {frame.width, frame.height});
   m_computing->triangles.use();
   layers.triangles.bindImage(0);
-  m_bins.run(m_computing->triangles, 16);
+  m_triangleBins.run(m_computing->triangles, 16);
   clock.mark("triangles");
 
+  const size_t props = prepared.props.opaque.size() / 3;
   const Range spheres = prepared.instances.sphereRange(frame.amongSpheres);
-  sortSpheres(spheres, 1, {frame.width, frame.height});
-  clock.mark("sorting");
   const Program& program = m_computing->surface;
   program.use();
   tellParticles(program, m_particles, spheres);
@@ -93,6 +120,7 @@ void Passes::computeSurfaces(const Job& job) {
   layers.distance.bindImage(2);
   program.texture("triangles", 0, layers.triangles.name());
   m_bins.run(program);
+  glFlush();  // the card begins with this while it is told the rest
 }
 
 /// Into the picture, or to where liquid is seen over it.
@@ -107,20 +135,20 @@ void Passes::computeLight(const Job& job) {
   const std::array<float, 3> even = backdrop.value_or(std::array<float, 3>{});
   glUniform4f(program.at("backdrop"), even[0], even[1], even[2], backdrop ? 1.f : 0.f);
   work(program, liquid ? layers.behind : layers.picture, {m_allTiles, frame.allTiles});
+  glFlush();  // as after surfaces
 }
 
-void Passes::computeNearest(const Texture& to, Range range, float growth) {
-  sortSpheres(range, growth, {to.width(), to.height()});
+/// Of spheres that were sorted.
+void Passes::computeNearest(const Texture& to, const Bins& bins) {
   m_computing->nearest.use();
   to.bindImage(0);
-  m_bins.run(m_computing->nearest);
+  bins.run(m_computing->nearest);
 }
 
 void Passes::computeThickness(const Job& job) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const Range range = prepared.instances.liquidRange(true);
   const int scale = frame.thicknessScale;
-  sortSpheres(range, kThicknessGrowth, {reduced(frame.width, scale), reduced(frame.height, scale), 3});
   const Program& program = m_computing->thickness;
   program.use();
   tellParticles(program, m_particles, range);
@@ -128,17 +156,22 @@ void Passes::computeThickness(const Job& job) {
   glUniform1i(program.at("scale"), scale);
   layers.fluidColour.bindImage(0);
   layers.fluidClear.bindImage(1);
-  m_bins.run(program);
+  m_thicknessBins.run(program);
 }
 
 void Passes::computeSteam(const Job& job, int sprites) {
   const auto& [prepared, frame, layers, plain, clock] = job;
   const Range range = prepared.instances.vapourRange();
   const Program& sort = m_computing->sortSprites;
-  sort.use();
-  tellParticles(sort, m_particles, range);
-  tellSprites(sort, sprites, prepared.data);
-  m_bins.sort(sort, range.count * static_cast<size_t>(sprites), 3, {layers.steam.width(), layers.steam.height()});
+  Bins::sort({Bins::Order{m_bins,
+                          sort,
+                          range.count * static_cast<size_t>(sprites),
+                          3,
+                          {layers.steam.width(), layers.steam.height()},
+                          [&, data = prepared.data] {
+                            tellParticles(sort, m_particles, range);
+                            tellSprites(sort, sprites, data);
+                          }}});
   const Program& program = m_computing->steam;
   program.use();
   tellParticles(program, m_particles, range);

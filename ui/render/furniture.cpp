@@ -330,6 +330,12 @@ std::vector<std::pair<Vector3, Vector3>> roundLines(const Environment& environme
   return cylinderLines(face, endsOf(environment, wall, face));
 }
 
+Extent extentOf(const std::vector<MeshVertex>& mesh) {
+  Extent extent;
+  for (const MeshVertex& corner : mesh) extent.add(corner.position[0], corner.position[1], corner.position[2], 0);
+  return extent;
+}
+
 bool sameFurniture(const Environment& a, const Environment& b) {
   return a.boundsMinimum == b.boundsMinimum && a.boundsMaximum == b.boundsMaximum &&
          std::equal(a.walls.begin(), a.walls.end(), b.walls.begin(), b.walls.end(),
@@ -378,6 +384,7 @@ Furniture buildFurniture(const Environment& environment, bool dark, const std::o
         break;
     }
   }
+  out.opaqueExtent = extentOf(out.opaque);
   return out;
 }
 

@@ -45,6 +45,7 @@ inline constexpr double kLevel = 0.7;
 struct Furniture {
   std::vector<MeshVertex> opaque, clear;  ///< triangles
   std::vector<EdgeVertex> edges;          ///< triangles
+  Extent opaqueExtent;
   bool hasFloor = false;
   float floor = 0, ground = 0;                ///< heights, m
   std::array<float, 2> centre{}, half{1, 1};  ///< of the floor in x and z, m
@@ -53,6 +54,8 @@ struct Furniture {
   float lidHeight = 0;
   bool hasLid = false;
 };
+/// Of corners of triangles.
+Extent extentOf(const std::vector<MeshVertex>& mesh);
 /// Whether two environments look the same.
 bool sameFurniture(const Environment& a, const Environment& b);
 

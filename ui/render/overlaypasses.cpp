@@ -170,7 +170,23 @@ void Passes::drawPanels(const Job& job) {
   glDisable(GL_BLEND);
 }
 
-void Passes::drawDepth(const Prepared& prepared, const Layers& layers, const RenderTarget& target, size_t panels) {
+/// Leaves the scissor around the pixels of a target in which something has a distance: cards that are made for
+/// computing clear it far faster than they draw.
+void Passes::clearAllButDistances(const ViewFrame& frame, const RenderTarget& target) {
+  const auto& [width, height, still] = target.size;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(target.x, target.y, width, height);
+  clearDepth();
+  const auto& [x, y, wide, high] = frame.distanceBox;
+  const auto low = [](int pixel, int from, int to) { return std::max(pixel * to / from - 1, 0); };
+  const auto end = [](int pixel, int from, int to) { return std::min(pixel * to / from + 2, to); };
+  const int left = low(x, frame.width, width), bottom = low(y, frame.height, height);
+  const int right = end(x + wide, frame.width, width), top = end(y + high, frame.height, height);
+  glScissor(target.x + left, target.y + bottom, std::max(right - left, 0), std::max(top - bottom, 0));
+}
+
+void Passes::drawDepth(const Prepared& prepared, const ViewFrame& frame, const Layers& layers,
+                       const RenderTarget& target, size_t panels) {
   m_fence.wait();
   PassClock clock(m_times);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, m_uniforms.name());
@@ -187,7 +203,9 @@ void Passes::drawDepth(const Prepared& prepared, const Layers& layers, const Ren
   glUniform1i(program.at("fluidScale"), prepared.instances.liquids() ? m_quality.fluidScale : 0);
   const VertexArray array;
   array.bind();
+  clearAllButDistances(frame, target);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);  // panels have one side
   m_programs.panelDepth.use();

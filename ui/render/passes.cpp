@@ -94,6 +94,7 @@ void Passes::uploadPrepared(const Prepared& prepared) {
 
 void Passes::show(const Props& props) {
   m_fence.wait();
+  PassClock clock(m_times);
   for (const auto& [buffer, mesh] : {std::pair{&m_opaqueProps, &props.opaque}, {&m_clearProps, &props.clear}})
     buffer->upload(GL_ARRAY_BUFFER, mesh->data(), mesh->size() * sizeof(MeshVertex));
   std::vector<std::array<float, 5>> corners;
@@ -111,6 +112,7 @@ void Passes::show(const Props& props) {
     glGenerateMipmap(GL_TEXTURE_2D);
   }
   m_panels.upload(GL_ARRAY_BUFFER, corners.data(), corners.size() * sizeof(corners[0]));
+  clock.mark("props uploaded");
   m_fence.set();
 }
 
@@ -271,7 +273,7 @@ void Passes::lightTextures(const Program& program, const Layers& layers) {
   program.texture("shadowTexture", 4, m_shadow.name());
   program.texture("contactTexture", 5, m_contact.name());
   program.texture("noiseTexture", 6, m_noise.name());
-  glUniform1i(program.at("shadowTaps"), m_quality.shadowTaps);
+  glUniform1i(program.at("shadowTaps"), m_shadowless ? 0 : m_quality.shadowTaps);
 }
 
 void Passes::drawFinal(const Job& job) {
@@ -302,7 +304,7 @@ void Passes::prepare(const Prepared& prepared) {
   m_fence.wait();
   PassClock clock(m_times);
   uploadPrepared(prepared);
-  clock.mark("uploads");
+  clock.mark("matter uploaded");
   if (m_quality.compute)
     computeShadow(prepared);
   else
@@ -318,7 +320,7 @@ void Passes::draw(const Prepared& prepared, const ViewFrame& frame, Layers& laye
   PassClock clock(m_times);
   const Job job{prepared, frame, layers, plain, clock};
   uploadFrame(frame);
-  clock.mark("uploads");
+  clock.mark("view uploaded");
   if (m_quality.compute)
     computeSurfaces(job);
   else
@@ -355,9 +357,11 @@ void Passes::drawOver(const Job& job) {
     drawFinal(job);
   clock.mark("final");
   if (prepared.instances.outlined && !frame.still) drawOutline(job, frame.place);
+  clock.mark("outline");
   if (!prepared.props.panels.empty()) drawPanels(job);
+  clock.mark("panels");
   drawHidden(job);
-  clock.mark("outline and panels");
+  clock.mark("hidden parts");
 }
 
 }  // namespace ps::render

@@ -39,7 +39,8 @@ Quality coarser(const Quality& full, int steps);
 /// Of the buffer's corners of triangles, MeshVertex or EdgeVertex, in the vertex array that is bound.
 void meshAttributes(GLuint buffer);
 
-inline constexpr float kThicknessGrowth = 1.7f;  ///< liquid adds up smoothly from spheres so many times as large
+inline constexpr float kDistanceGrowth = 1.25f;  ///< liquid's surface lies on spheres so many times as large
+inline constexpr float kThicknessGrowth = 1.7f;  ///< and it adds up smoothly from these
 
 /// Shaders, textures and buffers, and the passes in their order, most of which are drawn or computed (Quality): the
 /// shadow picture once for everything that is prepared; surfaces, occlusion, light, liquid, vapour, glass, ghost,
@@ -55,7 +56,8 @@ class Passes {
   /// What was prepared last, into the framebuffer that the frame names.
   void draw(const Prepared& prepared, const ViewFrame& frame, Layers& layers);
   /// How far what that drew last is, and the first of its panels.
-  void drawDepth(const Prepared& prepared, const Layers& layers, const RenderTarget& target, size_t panels);
+  void drawDepth(const Prepared& prepared, const ViewFrame& frame, const Layers& layers, const RenderTarget& target,
+                 size_t panels);
 
  private:
   /// What the passes of one picture share.
@@ -72,12 +74,16 @@ class Passes {
     const std::vector<TileSet::Corner>& corners;
   };
 
+  /// x, y, width, height; pixels of a layer.
+  using PixelBox = std::array<int, 4>;
+
   void uploadPrepared(const Prepared& prepared);
   void uploadFrame(const ViewFrame& frame);
   void drawShadow(const Prepared& prepared, const VertexArray& plain);
   void computeShadow(const Prepared& prepared);
   void drawSurfaces(const Job& job);
   void drawMesh(const Program& program, const Buffer& buffer, const std::vector<MeshVertex>& mesh);
+  void sortLists(const Job& job);
   void computeSurfaces(const Job& job);
   void drawOcclusion(const Job& job);
   const Texture& drawBackground(const Job& job);
@@ -88,12 +94,12 @@ class Passes {
   void drawNearest(const Job& job, const Texture& to, Texture& depth, Range range, float growth);
   void drawThickness(const Job& job);
   void computeThickness(const Job& job);
-  void sortSpheres(Range range, float growth, const Bins::Field& field);
-  void computeNearest(const Texture& to, Range range, float growth);
+  Bins::Order sphereOrder(Bins& bins, Range range, float growth, const Bins::Field& field);
+  void computeNearest(const Texture& to, const Bins& bins);
   void work(const Program& program, const Texture& to, const Tiles& tiles, const Texture* depth = nullptr);
-  void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles,
-                const std::array<int, 4>& box);
-  void smoothFluid(const Job& job);
+  void workWithin(const PixelBox& box, const Program& program, const Texture& to);
+  void workOver(const Job& job, const Program& program, const Texture& below, const Tiles& tiles, const PixelBox& box);
+  void smoothFluid(const Job& job, const PixelBox& texels);
   void drawOver(const Job& job);
   void drawSteam(const Job& job);
   void computeSteam(const Job& job, int sprites);
@@ -106,6 +112,7 @@ class Passes {
   void computeFinal(const Job& job);
   void drawPanels(const Job& job);
   void panelAttributes();
+  void clearAllButDistances(const ViewFrame& frame, const RenderTarget& target);
   void hideInDepth(const Job& job);
   void drawHidden(const Job& job);
   void drawParticles(const Program& program, const VertexArray& plain, const Buffer& particles, Range range,
@@ -120,8 +127,9 @@ class Passes {
   Programs m_programs;
   std::optional<DrawingPrograms> m_drawing;  // one of the two
   std::optional<ComputingPrograms> m_computing;
-  Bins m_bins;
+  Bins m_bins, m_triangleBins, m_liquidBins, m_thicknessBins;
   Texture m_shadow, m_contact{GL_RGBA8, GL_LINEAR};
+  bool m_shadowless = false;  // m_shadow has been computed of nothing
   Texture m_noise{GL_RGBA8, GL_LINEAR_MIPMAP_NEAREST, GL_REPEAT}, m_cloud{GL_R8, GL_LINEAR, GL_REPEAT};
   uint64_t m_furniture = 0;  // revision that is in the buffers
   BufferTexture m_particleTexture;

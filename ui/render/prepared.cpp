@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace ps::render {
 namespace {
@@ -43,6 +44,16 @@ void Prepared::fill(const Snapshot& now, const Snapshot* previous, double blend,
   placeContactMap();
   fitShadow();
   ready = true;
+}
+
+void Prepared::show(const Props& what) {
+  props = what;
+  propsExtent = extentOf(props.opaque);
+}
+
+void Prepared::takeProps(Prepared& other) {
+  std::swap(props, other.props);
+  std::swap(propsExtent, other.propsExtent);
 }
 
 void Prepared::furnish(const Environment& environment) {

@@ -17,6 +17,7 @@ struct Prepared {
   Instances instances;
   Furniture furniture;
   Props props;
+  Extent propsExtent;              ///< of what is opaque of them
   std::vector<EdgeVertex> guides;  ///< triangles
   uint64_t furnitureRevision = 0;  ///< another one with every change of `furniture`, of any of these
   ContactMap contact;
@@ -27,6 +28,8 @@ struct Prepared {
   bool ready = false;
 
   void fill(const Snapshot& now, const Snapshot* previous, double blend, const RenderScene& scene, const Look& how);
+  void show(const Props& what);
+  void takeProps(Prepared& other);  ///< in exchange
 
  private:
   void furnish(const Environment& environment);

@@ -93,7 +93,7 @@ void Preparation::make(const Snapshot& now, const Snapshot* previous, double ble
 void Renderer::take(Preparation& preparation) {
   if (!preparation.m->ready) throw Error("there is nothing to take of what was never made");
   std::swap(m->prepared, *preparation.m);
-  std::swap(m->prepared.props, preparation.m->props);
+  m->prepared.takeProps(*preparation.m);
   const render::GlState state;
   m->passes->prepare(m->prepared);
 }
@@ -101,7 +101,7 @@ void Renderer::take(Preparation& preparation) {
 void Renderer::timePasses(std::vector<PassTime>* times) { m->passes->timePasses(times); }
 
 void Renderer::show(const Props& props) {
-  m->prepared.props = props;
+  m->prepared.show(props);
   const render::GlState state;
   m->passes->show(props);
 }
@@ -139,7 +139,7 @@ void Renderer::drawDepth(const RenderTarget& target, size_t panels) {
   if (!drawn) throw Error("there are no depths of what was never drawn");
   const Turn turn(m->passes->quality());
   const render::GlState state;
-  m->passes->drawDepth(m->prepared, *drawn, target, panels);
+  m->passes->drawDepth(m->prepared, m->frame, *drawn, target, panels);
 }
 
 }  // namespace ps

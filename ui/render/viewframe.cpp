@@ -35,6 +35,14 @@ std::array<int, 4> pixelsOf(const Extent& extent, const Eye& eye, int width, int
   return {left, height - bottom, right - left, bottom - top};
 }
 
+/// The smallest box that holds both.
+std::array<int, 4> joined(const std::array<int, 4>& a, const std::array<int, 4>& b) {
+  if (a[2] < 1 || a[3] < 1) return b;
+  if (b[2] < 1 || b[3] < 1) return a;
+  const int x = std::min(a[0], b[0]), y = std::min(a[1], b[1]);
+  return {x, y, std::max(a[0] + a[2], b[0] + b[2]) - x, std::max(a[1] + a[3], b[1] + b[3]) - y};
+}
+
 void markSpheres(TileSet& tiles, const Projector& projector, std::span<const Instance> spheres, float reach,
                  float margin = 3) {
   for (const Instance& p : spheres) {
@@ -78,6 +86,11 @@ void ViewFrame::fill(const Prepared& prepared, const Eye& eye, const RenderTarge
   ghostWidth = (prepared.look.ghost ? prepared.look.ghost->lineWidth : 0) * static_cast<float>(scale);
   lidInFront = placeOf(eye).y() > static_cast<double>(prepared.furniture.lidHeight);
   vapourBox = pixelsOf(prepared.instances.vapourExtent, eye, width, height);
+  liquidBox = pixelsOf(prepared.instances.liquidExtent, eye, width, height);
+  distanceBox = liquidBox;
+  for (const Extent* extent :
+       {&prepared.instances.sphereExtent, &prepared.furniture.opaqueExtent, &prepared.propsExtent})
+    distanceBox = joined(distanceBox, pixelsOf(*extent, eye, width, height));
   amongSpheres = prepared.instances.sphereExtent.holds(placeOf(eye));
   amongLiquids = prepared.instances.liquidExtent.holds(placeOf(eye));
   chooseThickness(prepared, eye, quality.fluidScale);

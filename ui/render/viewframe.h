@@ -37,7 +37,8 @@ struct ViewFrame {
   std::vector<TileSet::Corner> ghostTiles;      ///< where the ghost may be
   std::vector<TileSet::Corner> allTiles;        ///< the whole picture
   const HiddenTiles::Hidden* hidden = nullptr;  ///< where nobody sees anything, if anywhere; no others are there
-  std::array<int, 4> vapourBox{};               ///< x, y, width, height of the pixels that vapour may touch
+  std::array<int, 4> vapourBox{}, liquidBox{};  ///< x, y, width, height of the pixels that they may touch
+  std::array<int, 4> distanceBox{};             ///< the same of all that has a distance
 
   /// With Quality::cull finds out what is hidden, and which parts of the picture need which passes. A graphics card
   /// draws all of it faster than a processor finds out.

@@ -38,6 +38,7 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& s
   tellHands(frame);
   showHands(frame);
   prepareMatter(frame);
+  m_renderer.show(m_props);  // at last: the card has its matter by then, and begins with that
   return feel();
 }
 
@@ -112,7 +113,6 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
   m_panels.addTo(m_props, m_moving.stand(), *m_view);
   m_panelsThere = m_props.panels.size();
   m_moving.addTo(m_props, frame, m_view->accent);
-  m_renderer.show(m_props);
 }
 
 /// A tick for each stroke that began, and for what is pointed at on panels; a rumble for as long as matter is felt.

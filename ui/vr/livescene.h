@@ -6,6 +6,8 @@
 #include "ui/vr/panels.h"
 #include "ui/vr/preparing.h"
 
+#include <vector>
+
 namespace ps::vr {
 
 /// The editor's scene, as a table before whoever wears the headset. Matter moves from each picture of it to the next in
@@ -22,6 +24,8 @@ class LiveScene : public HeadsetScene {
   std::optional<double> panelAhead(const HandPose& aim) const { return m_panels.ahead(aim); }
   bool hasDepth() const override { return true; }
   void drawDepth(size_t eye, const Eye& view, const RenderTarget& target) override;
+  /// As Renderer::timePasses().
+  void timePasses(std::vector<PassTime>* times) { m_renderer.timePasses(times); }
 
  private:
   void take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame& frame);

@@ -11,7 +11,8 @@ namespace ps::vr {
 
 struct Mirror::Slot {
   uint32_t texture = 0;
-  PictureSize size{0, 0};  ///< of what is shown of it
+  int x = 0, y = 0;        ///< where what is shown of it begins, pixels
+  PictureSize size{0, 0};  ///< of that
   PictureSize held{0, 0};  ///< of the texture
   GLsync written = nullptr, read = nullptr;
   uint64_t number = 0;  ///< 0: nothing yet
@@ -85,10 +86,15 @@ void Mirror::offer(uint32_t texture, const PictureSize& size) {
     store(slot->texture, size);
     slot->held = size;
   }
-  // Bit by bit: nothing is decoded or encoded on the way.
-  glCopyImageSubData(texture, GL_TEXTURE_2D, 0, 0, 0, 0, slot->texture, GL_TEXTURE_2D, 0, 0, 0, 0, size.width,
-                     size.height, 1);
-  slot->size = size;
+  const auto [left, low, right, high] =
+      m_window.width > 0 ? cut(size, m_window) : std::array{0, 0, size.width, size.height};
+  slot->x = left;
+  slot->y = low;
+  slot->size = {right - left, high - low};
+  // A pixel around it, too, which the window looks at where it smooths. Bit by bit: nothing is decoded or encoded.
+  const int x = std::max(left - 1, 0), y = std::max(low - 1, 0);
+  glCopyImageSubData(texture, GL_TEXTURE_2D, 0, x, y, 0, slot->texture, GL_TEXTURE_2D, 0, x, y, 0,
+                     std::min(right + 1, size.width) - x, std::min(high + 1, size.height) - y, 1);
   slot->number = ++m_number;
   mark(slot->written);
   m_wanted = false;
@@ -97,6 +103,7 @@ void Mirror::offer(uint32_t texture, const PictureSize& size) {
 bool Mirror::draw(uint32_t framebuffer, const PictureSize& size, bool again) {
   const std::unique_lock lock(m_mutex, std::try_to_lock);
   if (!lock || m_closed) return false;
+  m_window = size;
   Slot* slot = newestDone();
   if (!slot || (slot->number <= m_drawn && !again)) return false;
   GLint reads = 0, draws = 0;
@@ -109,7 +116,8 @@ bool Mirror::draw(uint32_t framebuffer, const PictureSize& size, bool again) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   const auto [left, low, right, high] = cut(slot->size, size);
   glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(left, low, right, high, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBlitFramebuffer(slot->x + left, slot->y + low, slot->x + right, slot->y + high, 0, 0, size.width, size.height,
+                    GL_COLOR_BUFFER_BIT, GL_LINEAR);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(reads));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draws));
   glDeleteFramebuffers(1, &from);

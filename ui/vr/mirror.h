@@ -12,7 +12,8 @@ namespace ps::vr {
 /// An eye's picture for whoever looks on in a window: the headset's thread copies one where somebody wants it, the
 /// window draws it. Both have contexts of their own, which share objects. Neither waits for the other, nor for what
 /// the other has left to the graphics card: there are three pictures, of which one is free, and who comes while the
-/// other is at it does without. On the whole a copied picture costs the headset one copy of its pixels.
+/// other is at it does without. On the whole a copied picture costs the headset one copy of the pixels that the window
+/// shows.
 class Mirror {
  public:
   Mirror();
@@ -20,7 +21,8 @@ class Mirror {
   Mirror(const Mirror&) = delete;
   Mirror& operator=(const Mirror&) = delete;
 
-  /// The headset's thread: copies the lower left part of a texture (RGBA8, sRGB or not) that a picture fills.
+  /// The headset's thread: copies of the lower left part of a texture (RGBA8, sRGB or not) that a picture fills what
+  /// was in the window's proportions when it drew last, or all of it.
   void offer(uint32_t texture, const PictureSize& size);
   /// There too, at last: nothing comes any more.
   void close();
@@ -41,6 +43,7 @@ class Mirror {
 
   std::mutex m_mutex;  ///< over all but what is atomic
   std::unique_ptr<Slots> m_slots;
+  PictureSize m_window{0, 0};  ///< that was drawn to last
   std::atomic<bool> m_wanted = false;
   std::atomic<uint64_t> m_drawn = 0;
   uint64_t m_number = 0;
