@@ -567,6 +567,73 @@ class TestSketch : public QObject {
     }
   }
 
+  /// A cup of 5 x 5 cells and 6 high, in a scene that ends openly beyond its floor or at walls. It fills as high as its
+  /// rim and no higher, with a hole as high as that: what would run out is refused. A box fills, and so does a tray.
+  void whatIsOpenIsRefused_data() {
+    QTest::addColumn<QString>("vessel");
+    QTest::addColumn<bool>("room");  // walls around it
+    QTest::addColumn<int>("seed");   // as high, in cells
+    QTest::addColumn<int>("full");   // cells; -1: refused
+    for (const bool room : {false, true}) {
+      const auto row = [&](const char* vessel, int seed, int full) {
+        QTest::addRow("%s, from %d%s", vessel, seed, room ? ", in a room" : "")
+            << QString(vessel) << room << seed << full;
+      };
+      row("cup", 3, 25 * 3);
+      row("cup", 6, 25 * 6);
+      row("cup", 7, -1);
+      row("holed", 2, 25 * 2);
+      row("holed", 3, -1);
+      row("holed", 6, -1);
+      row("box", 5, 25 * 5);
+      row("box", 6, 25 * 6);
+      row("floor", 0, room ? 20 * 20 : -1);
+      row("floor", 4, room ? 20 * 20 * 5 : -1);
+      row("cup, drowned", 16, room ? 20 * 20 * 17 - (7 * 7 * 7 - 25 * 6) : -1);
+    }
+  }
+  void whatIsOpenIsRefused() {
+    QFETCH(QString, vessel);
+    QFETCH(bool, room);
+    QFETCH(int, seed);
+    QFETCH(int, full);
+    Environment scene;
+    scene.boundsMinimum = {-10, 0, -10}, scene.boundsMaximum = {10, 30, 10};
+    const auto wall = [&](const Vector3& point, const Vector3& normal) {
+      SceneWall& one = scene.walls.emplace_back();
+      one.point = point, one.normal = normal;
+    };
+    wall({0, 0, 0}, {0, 1, 0});
+    if (room) wall({-10, 0, 0}, {1, 0, 0}), wall({10, 0, 0}, {-1, 0, 0});
+    if (room) wall({0, 0, -10}, {0, 0, 1}), wall({0, 0, 10}, {0, 0, -1});
+    const auto isMatter = [&](const Cell& c) {
+      const bool lid = c.y == 7 && vessel == "box", hole = vessel == "holed" && c.x == 3 && c.y == 3 && c.z == 0;
+      if (vessel == "floor" || c.y > (lid ? 7 : 6) || std::max(std::abs(c.x), std::abs(c.z)) > 3 || hole) return false;
+      return c.y == 0 || lid || std::max(std::abs(c.x), std::abs(c.z)) == 3;
+    };
+    const FreeOf freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
+      std::vector<Cell> free;
+      for (const Cell& c : cells.cells()) {
+        if (isInScene(scene, grid, c) && !isMatter(c)) free.push_back(c);
+      }
+      return CellSet(free);
+    };
+    const BarrierOf barrierOf = [&](const SketchGrid& grid, const Cell& cell) { return barrierIn(scene, grid, cell); };
+    const SketchGrid grid{{0.5, 0.5, 0.5}, 1};
+    const auto fill = [&](const Cell& from) {
+      return flooded(grid, cellsOf({from}), {}, scene.gravity, freeOf, kMostFlooded, barrierOf);
+    };
+    for (const Cell& from : {Cell{0, seed, 0}, Cell{-2, seed, 2}}) {
+      if (full < 0) {
+        QVERIFY_EXCEPTION_THROWN(fill(from), InputError);
+      } else {
+        const CellSet wet = fill(from);
+        QCOMPARE(static_cast<int>(wet.size()), full);
+        for (const Cell& c : wet.cells()) QVERIFY(c.y <= seed);
+      }
+    }
+  }
+
   /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.
   void cellsArePainted() {
     VoxelShape shape;
