@@ -15,8 +15,12 @@
 
 #include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
+#include <QtGui/QTextCursor>
+#include <QtGui/QTextDocument>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPushButton>
+#include <QtWidgets/QScrollArea>
 #include <QtWidgets/QTextBrowser>
 
 using namespace ps;
@@ -140,6 +144,48 @@ class TestHelp : public SampleWindowTest {
     m_window->tools().activate("select");
     Q_EMIT dialog()->findChild<QTextBrowser*>()->anchorClicked(QUrl(QStringLiteral("help:sketching")));
     QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
+  }
+
+  /// At the line that tells of it, whichever way one comes.
+  void aBrushHasItsPlaceOnThePage() {
+    const auto sketching = std::find_if(writtenHelp().begin(), writtenHelp().end(),
+                                        [](const HelpPage& page) { return page.id == QLatin1String("sketching"); });
+    QVERIFY(sketching != writtenHelp().end() && !sketching->text.contains(QStringLiteral("{#")));
+    for (const std::string& brush : session().plugins()->ids(PluginKind::Brush))
+      QVERIFY2(sketching->sections.contains(QString::fromStdString(brush)), brush.c_str());
+    m_window->help().open(QStringLiteral("sketching"));
+    auto* text = dialog()->findChild<QTextBrowser*>();
+    const auto topOf = [&](const char* words) {
+      QTextCursor found = text->document()->find(QString::fromLatin1(words), 0, QTextDocument::FindCaseSensitively);
+      found.setPosition(found.selectionStart());
+      return text->cursorRect(found).top();
+    };
+    QVERIFY(topOf("Heat and cool:") > text->viewport()->height());
+    m_window->tools().activate("brush");
+    m_window->tools().takeBrush("cool");
+    Dock* bar = m_window->layoutOfDocks().dock(QStringLiteral("dock.brushes"));
+    QTRY_VERIFY(bar->isVisible());
+    const auto buttons = bar->findChildren<QAbstractButton*>();
+    const auto of = [&](const char* shape) {
+      return *std::find_if(buttons.begin(), buttons.end(), [&](const QAbstractButton* button) {
+        return button->property("shape").toString() == QLatin1String(shape);
+      });
+    };
+    for (QScrollArea* area : bar->findChildren<QScrollArea*>()) area->ensureWidgetVisible(of("paint"));
+    QTest::mouseMove(of("paint"), of("paint")->rect().center());
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
+    const auto isOnTop = [&](const char* words) { return topOf(words) > -8 && topOf(words) < 40; };  // px
+    QVERIFY2(isOnTop("Paint:"), qPrintable(QString::number(topOf("Paint:"))));
+    // Of the brush in hand where none is pointed at; from the page of the tool as well.
+    QTest::mouseMove(bar, QPoint(bar->width() / 2, bar->height() - 8));
+    f1();
+    QVERIFY2(isOnTop("Heat and cool:"), qPrintable(QString::number(topOf("Heat and cool:"))));
+    m_window->help().open(QStringLiteral("tool/brush"));
+    QVERIFY(text->toHtml().contains(QStringLiteral("help:sketching#cool")));
+    Q_EMIT text->anchorClicked(QUrl(QStringLiteral("help:sketching#cool")));
+    QVERIFY(isOnTop("Heat and cool:"));
+    m_window->tools().activate("select");
   }
 
   void allValuesAreListed() {
