@@ -235,6 +235,22 @@ class TestHelp : public SampleWindowTest {
     QVERIFY(!tour.running());
   }
 
+  /// In a low view, too, where it comes up to the axes instead.
+  void theTourLeavesTheHintsInSight() {
+    constexpr int kHints = 42;  // px above the lower edge of the view at which they begin
+    const QSize size = m_window->size();
+    QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    for (const int height : {800, 640}) {
+      m_window->resize(1280, height);
+      m_window->startTour();
+      const auto bottom = [&] { return view()->mapTo(m_window.get(), view()->rect().bottomLeft()).y(); };
+      QTRY_VERIFY2(card->isVisible() && card->geometry().bottom() < bottom() - kHints,
+                   qPrintable(QStringLiteral("%1: %2 of %3").arg(height).arg(card->geometry().bottom()).arg(bottom())));
+      m_window->tour().end();
+    }
+    m_window->resize(size);
+  }
+
   /// By Return too, wherever the focus came from; over the library and the plugins the scene comes back.
   void theTourGoesByTheKeyboardAndFromAnyPage() {
     for (const char* page : {"add.library", "help.plugins"}) {
