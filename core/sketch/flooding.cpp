@@ -66,9 +66,17 @@ class Reached {
     if (std::none_of(m_cells.begin(), m_cells.end(), [&](const api::Cell& cell) { return isBank(cell); })) return false;
     const Room room = roomAround();
     if (room == Room::Closed) return true;
-    const auto rim = firstRim();
-    const double spacing = m_upright.grid.spacing;
-    return rim && (room == Room::None || m_level - rim->height < rim->height - rim->bottom - 0.5 * spacing);
+    const double half = 0.5 * m_upright.grid.spacing;
+    // On top of a rim it may fall to either side.
+    std::vector<api::Cell> starts{m_spring};
+    for (const api::Cell& way : kFaces) {
+      const api::Cell other = beside(m_spring, way);
+      if (m_cells.count(other) && m_level - m_upright.heightOf(other) < half) starts.push_back(other);
+    }
+    return std::any_of(starts.begin(), starts.end(), [&](const api::Cell& start) {
+      const auto rim = firstRim(start);
+      return rim && (room == Room::None || m_level - rim->height < rim->height - rim->bottom - half);
+    });
   }
 
  private:
@@ -130,9 +138,9 @@ class Reached {
     return Room::Closed;
   }
 
-  /// Poured in at the spring it falls, and then rises: the first place where it falls again, unless it has come to the
+  /// Poured in at a cell it falls, and then rises: the first place where it falls again, unless it has come to the
   /// walls by then.
-  std::optional<Rim> firstRim() const {
+  std::optional<Rim> firstRim(const api::Cell& start) const {
     struct Next {
       double height;
       api::Cell cell;
@@ -142,16 +150,17 @@ class Reached {
     };
     const double step = m_upright.grid.spacing, none = std::numeric_limits<double>::infinity();
     std::priority_queue<Next> next;
-    next.push({m_upright.heightOf(m_spring), m_spring});
-    Cells seen{m_spring};
+    next.push({m_upright.heightOf(start), start});
+    Cells seen{start};
     double lowest = none, risen = -none, bank = none;
     while (!next.empty()) {
       const auto [height, cell] = next.top();
       next.pop();
-      if (height < risen - 0.9 * step) return bank < risen ? std::nullopt : std::optional(Rim{risen, lowest});
+      if (height < risen - 0.9 * step) return Rim{risen, lowest};
       if (height > lowest + 1e-3 * step) risen = std::max(risen, height);
       lowest = std::min(lowest, height);
       if (isBank(cell)) bank = std::min(bank, std::max(risen, height));
+      if (bank < risen) return std::nullopt;  // and no rim that comes is one before
       for (const api::Cell& way : kFaces) {
         const api::Cell other = beside(cell, way);
         if (m_cells.count(other) && seen.insert(other).second) next.push({m_upright.heightOf(other), other});

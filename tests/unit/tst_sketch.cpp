@@ -626,6 +626,7 @@ class TestSketch : public QObject {
     for (const Cell& from : {Cell{0, seed, 0}, Cell{-2, seed, 2}}) {
       if (full < 0) {
         QVERIFY_EXCEPTION_THROWN(fill(from), InputError);
+        if (vessel == "cup") QVERIFY_EXCEPTION_THROWN(fill({3, seed, 0}), InputError);  // on its rim
       } else {
         const CellSet wet = fill(from);
         QCOMPARE(static_cast<int>(wet.size()), full);
