@@ -508,6 +508,7 @@ class TestBrushBar : public SampleWindowTest {
     QCOMPARE(noteOf("radius"), QString());
     tools.takeBrush(before.shape);
     tools.setBrush(before);
+    m_window->layoutOfDocks().showPage(QStringLiteral("Brush"));
   }
 
   /// By hand, by keys and as text; the brush's own rows follow, and the swatch follows them.

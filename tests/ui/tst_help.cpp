@@ -154,6 +154,7 @@ class TestHelp : public SampleWindowTest {
     for (const std::string& brush : session().plugins()->ids(PluginKind::Brush))
       QVERIFY2(sketching->sections.contains(QString::fromStdString(brush)), brush.c_str());
     m_window->help().open(QStringLiteral("sketching"));
+    QApplication::setActiveWindow(m_window.get());
     auto* text = dialog()->findChild<QTextBrowser*>();
     const auto topOf = [&](const char* words) {
       QTextCursor found = text->document()->find(QString::fromLatin1(words), 0, QTextDocument::FindCaseSensitively);
@@ -181,6 +182,7 @@ class TestHelp : public SampleWindowTest {
     QTest::mouseMove(bar, QPoint(bar->width() / 2, bar->height() - 8));
     f1();
     QVERIFY2(isOnTop("Heat and cool:"), qPrintable(QString::number(topOf("Heat and cool:"))));
+    QCOMPARE(m_window->tools().brush().shape, std::string("cool"));
     m_window->help().open(QStringLiteral("tool/brush"));
     QVERIFY(text->toHtml().contains(QStringLiteral("help:sketching#cool")));
     Q_EMIT text->anchorClicked(QUrl(QStringLiteral("help:sketching#cool")));
