@@ -77,6 +77,27 @@ class GreedyBrush final : public api::BrushPlugin {
   api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
 };
 
+/// Lets a hollow run full from each sample.
+class SeedBrush final : public api::BrushPlugin {
+ public:
+  const char* label() const override { return "Seed"; }
+  const char* help() const override { return ""; }
+  api::ParameterList parameters() const override { return {}; }
+  void stroke(const api::StrokeContext& c, EditKind, const api::List<StrokeSample>& samples,
+              api::EditSink& sink) const override {
+    const SketchGrid grid{{c.origin.x, c.origin.y, c.origin.z}, c.spacing};
+    for (size_t k = 0; k < samples.count; ++k) {
+      const api::Double3 place = samples.at(k).position;
+      const Cell cell = grid.cellAt({place.x, place.y, place.z});
+      sink.submit(EditKind::Fill, {&cell, 1});
+    }
+  }
+  api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
+  const void* extension(const char* name) const noexcept override {
+    return std::string_view(name) == api::kFillsHollows ? this : nullptr;
+  }
+};
+
 StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) {
   return {{x, y, z}, pressure, time, {}};
 }
@@ -633,6 +654,19 @@ class TestSketch : public QObject {
         for (const Cell& c : wet.cells()) QVERIFY(c.y <= seed);
       }
     }
+    // So it is when it is drawn again.
+    const SeedBrush brush;
+    const BrushOf brushOf = [&](const std::string&) { return &brush; };
+    VoxelShape sketch;
+    sketch.origin = grid.origin, sketch.spacing = grid.spacing;
+    VoxelShape::Stroke stroke;
+    stroke.samples = {{0.5, seed + 0.5, 0.5, 1, 0, 0, 0, 0}};
+    sketch.strokes = {stroke};
+    const auto again = [&] { return redrawn(sketch, 1, freeOf, brushOf, scene.gravity, {}, barrierOf); };
+    if (full < 0)
+      QVERIFY_EXCEPTION_THROWN(again(), InputError);
+    else
+      QCOMPARE(static_cast<int>(VoxelCanvas(again().runs).size()), full);
   }
 
   /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.
