@@ -278,14 +278,14 @@ class Flood {
 
 Barrier barrierIn(const Environment& environment, const SketchGrid& grid, const api::Cell& cell) {
   const Vector3 place = grid.centreOf(cell);
-  const double spacing = grid.spacing;
+  const double radius = 0.49 * grid.spacing;  // as in isInScene()
   for (const SceneWall& wall : environment.walls) {
     // A wall in the bounds' own face comes before them, whatever the rounding.
-    if (faceOf(wall).heightOf(place) < 0.5 * spacing) return Barrier::Wall;
+    if (faceOf(wall).heightOf(place) < (1 + 1e-6) * radius) return Barrier::Wall;
   }
   for (int i = 0; i < 3; ++i) {
-    const bool isOut = place[i] < environment.boundsMinimum[i] + 0.49 * spacing ||
-                       place[i] > environment.boundsMaximum[i] - 0.49 * spacing;
+    const bool isOut =
+        place[i] < environment.boundsMinimum[i] + radius || place[i] > environment.boundsMaximum[i] - radius;
     if (isOut) return environment.periodic[static_cast<size_t>(i)] ? Barrier::Wall : Barrier::SceneEdge;
   }
   return Barrier::Matter;

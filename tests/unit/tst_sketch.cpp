@@ -606,6 +606,7 @@ class TestSketch : public QObject {
       row("holed", 2, 25 * 2);
       row("holed", 3, -1);
       row("holed", 6, -1);
+      row("ring", 3, 25 * 4);  // on the floor, without a bottom
       row("box", 5, 25 * 5);
       row("box", 6, 25 * 6);
       row("floor", 0, room ? 20 * 20 : -1);
@@ -630,7 +631,7 @@ class TestSketch : public QObject {
     const auto isMatter = [&](const Cell& c) {
       const bool lid = c.y == 7 && vessel == "box", hole = vessel == "holed" && c.x == 3 && c.y == 3 && c.z == 0;
       if (vessel == "floor" || c.y > (lid ? 7 : 6) || std::max(std::abs(c.x), std::abs(c.z)) > 3 || hole) return false;
-      return c.y == 0 || lid || std::max(std::abs(c.x), std::abs(c.z)) == 3;
+      return (c.y == 0 && vessel != "ring") || lid || std::max(std::abs(c.x), std::abs(c.z)) == 3;
     };
     const FreeOf freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
       std::vector<Cell> free;
