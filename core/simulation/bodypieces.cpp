@@ -124,6 +124,21 @@ std::vector<size_t> numbered(const Matter& matter, double touch, bool byTiesAlon
   return number;
 }
 
+/// The cells of a sketch that a particle was made of: where particles stand farther apart than its cells, all that lie
+/// about it.
+void addCells(std::vector<api::Cell>& cells, const VoxelShape& voxels, double spacing, const Vector3& rest) {
+  const double ratio = spacing / voxels.spacing;
+  const SketchGrid drawn{voxels.origin, voxels.spacing}, made{resampledOrigin(voxels, spacing), spacing};
+  if (ratio < 1 + 1e-9) return cells.push_back(drawn.cellAt(rest));
+  const api::Cell at = made.cellAt(rest);
+  const auto first = [ratio](int32_t k) { return static_cast<int32_t>(std::ceil(k * ratio - 0.5 - 1e-9)); };
+  for (int32_t z = first(at.z); z < first(at.z + 1); ++z) {
+    for (int32_t y = first(at.y); y < first(at.y + 1); ++y) {
+      for (int32_t x = first(at.x); x < first(at.x + 1); ++x) cells.push_back({x, y, z});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) {
@@ -134,9 +149,9 @@ std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) {
   const ParticleStore& store = engine.particles();
   const std::vector<size_t> number = numbered(matter, kTouch * now->spacing, store.period().any());
   std::vector<std::vector<api::Cell>> cells(number.empty() ? 0 : *std::max_element(number.begin(), number.end()) + 1);
-  const SketchGrid drawn{voxels->origin, voxels->spacing};
   for (size_t k = 0; k < number.size(); ++k) {
-    if (const auto rest = now->rest->of(store.id()[matter.rows[k]])) cells[number[k]].push_back(drawn.cellAt(*rest));
+    if (const auto rest = now->rest->of(store.id()[matter.rows[k]]))
+      addCells(cells[number[k]], *voxels, now->spacing, *rest);
   }
   std::vector<CellIndices> pieces;
   CellSet taken;  // a cell whose matter has melted away may have been drawn again

@@ -11,20 +11,20 @@ namespace {
 
 /// What the sketch holds already stops it as others do.
 CellSet floodedIn(const VoxelCanvas& canvas, const SketchGrid& grid, const CellSet& seeds, const Vector3& gravity,
-                  const FreeOf& freeOf) {
+                  const FreeOf& freeOf, const BarrierOf& barrierOf) {
   const CellSet own = canvas.cells();
   const FreeOf free = [&](const SketchGrid& lattice, const CellSet& cells) {
     CellSet outside = cells;
     outside.remove(own.cells());
     return freeOf(lattice, outside);
   };
-  return flooded(grid, seeds, {}, gravity, free, kMaxStrokeCells);
+  return flooded(grid, seeds, {}, gravity, free, kMaxStrokeCells, barrierOf);
 }
 
 }  // namespace
 
 VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf,
-                   const Vector3& gravity, const MatterBeside& matter) {
+                   const Vector3& gravity, const MatterBeside& matter, const BarrierOf& barrierOf) {
   VoxelShape out = shape;
   if (out.spacing != spacing) out.origin = Vector3::Constant(spacing / 2);
   out.spacing = spacing;
@@ -43,7 +43,8 @@ VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf
     const StrokeEdits edits = replayStroke(*brush, stroke, grid, within);
     canvas.erase(edits.removed);
     canvas.paint(freeOf(grid, edits.added), stroke.palette);
-    if (!edits.filled.empty()) canvas.paint(floodedIn(canvas, grid, edits.filled, gravity, freeOf), stroke.palette);
+    if (!edits.filled.empty())
+      canvas.paint(floodedIn(canvas, grid, edits.filled, gravity, freeOf, barrierOf), stroke.palette);
     const Smoothed smooth = edits.smoothed.empty() ? Smoothed{} : smoothed(canvas, edits.smoothed);
     canvas.erase(smooth.emptied);
     for (const auto& [palette, cells] : smooth.filled) canvas.paint(freeOf(grid, cells), palette);

@@ -21,9 +21,11 @@ using MatterBeside = std::function<SeenMatter(const VoxelShape& soFar, const Vec
 /// A sketch drawn again from its strokes alone, without hidden ones, in their order, on a lattice of `spacing` m: an
 /// adding stroke fills the cells that are free, an erasing one empties them, one that paints makes those that are
 /// filled of its material, one that smooths rounds what is there by then, and one that fills lets hollows run full
-/// under `gravity` (m/s2). What cells it had and no stroke explains is gone. Without `matter` brushes see none. Throws
-/// InputError where a brush is missing, or a stroke cannot be drawn.
+/// under `gravity` (m/s2). What cells it had and no stroke explains is gone. Without `matter` brushes see none, and
+/// without `barrierOf` open hollows run full as well. Throws InputError where a brush is missing, or a stroke cannot be
+/// drawn.
 VoxelShape redrawn(const VoxelShape& shape, double spacing, const FreeOf& freeOf, const BrushOf& brushOf,
-                   const Vector3& gravity = {0, -9.81, 0}, const MatterBeside& matter = {});
+                   const Vector3& gravity = {0, -9.81, 0}, const MatterBeside& matter = {},
+                   const BarrierOf& barrierOf = {});
 
 }  // namespace ps

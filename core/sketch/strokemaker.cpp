@@ -69,13 +69,17 @@ StrokeEdits& StrokeMaker::ask() {
 CellSet StrokeMaker::floodedFrom(const CellSet& seeds) {
   const ProgressScope filling(&m_filling);
   const Environment& environment = m_scene.environment;
-  return flooded(m_setup.grid, seeds, m_cells, environment.gravity, [&](const SketchGrid& grid, const CellSet& cells) {
+  const FreeOf freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
     std::vector<api::Cell> free;
     std::copy_if(cells.cells().begin(), cells.cells().end(), std::back_inserter(free), [&](const api::Cell& cell) {
       return isInScene(environment, grid, cell) && m_scene.isFree(grid.centreOf(cell));
     });
     return CellSet(free);
-  });
+  };
+  const BarrierOf barrierOf = [&](const SketchGrid& grid, const api::Cell& cell) {
+    return barrierIn(environment, grid, cell);
+  };
+  return flooded(m_setup.grid, seeds, m_cells, environment.gravity, freeOf, kMostFlooded, barrierOf);
 }
 
 }  // namespace ps

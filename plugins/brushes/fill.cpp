@@ -12,7 +12,7 @@ FillBrush::FillBrush()
           {"Fill",
            "Lets a hollow run full, up to where you point: all free places that are reached from there and lie no "
            "higher. Point at the inside of its wall to fill it further. It goes by the matter as it was when the "
-           "stroke began, and refuses what would run out of an open mould. Ctrl erases.",
+           "stroke began, and refuses what would run out over a rim or through a gap. Ctrl erases.",
            {}}) {}
 
 void FillBrush::stroke(const ps::api::StrokeContext& context, ps::api::EditKind kind,

@@ -17,10 +17,12 @@
 #include "ui/window/brushbar.h"
 #include "ui/window/dock.h"
 #include "ui/window/libraryactions.h"
+#include "ui/window/statusline.h"
 #include "ui/window/windowlayout.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
@@ -455,6 +457,58 @@ class TestBrushBar : public SampleWindowTest {
     QVERIFY(!document().body(cup));
     document().undoStack().undo();
     QCOMPARE(shapeOf(cup).strokes.size(), size_t{1});
+  }
+
+  /// At its row, with the way to that of the spacing, and in the status line: there once, until they stand otherwise.
+  void whatIsTooCoarseIsSaid() {
+    Toolbox& tools = m_window->tools();
+    tools.activate(kBrushTool);
+    of("shape", "sphere")->click();
+    const BrushSettings before = tools.brush();
+    auto* panel = m_window->findChild<BrushPanel*>();
+    const auto noteOf = [&](const char* key) {
+      const ParameterRow* row = panel->row(QString::fromLatin1(key));
+      const auto* label = row ? row->findChild<QLabel*>(QStringLiteral("psLimit")) : nullptr;
+      return label ? label->text() : QString();
+    };
+    const auto isSaid = [&] { return m_window->statusLine()->state().note.contains(QStringLiteral("particles wide")); };
+    const auto draw = [&](int across) {
+      const int steps = document().undoStack().index();
+      stroke(QPoint(view()->width() / 2 + across, view()->height() / 2), {30, 0}, true);
+      QTRY_COMPARE_WITH_TIMEOUT(document().undoStack().index(), steps + 1, kLong);
+    };
+    BrushSettings brush = before;
+    brush.radius = 1.5 * tools.spacing();
+    tools.setBrush(brush);
+    QCOMPARE(noteOf("radius"), QString());
+    brush.radius = 1.2 * tools.spacing();
+    tools.setBrush(brush);
+    QVERIFY2(noteOf("radius").contains(QStringLiteral("2.4 particles wide")), qPrintable(noteOf("radius")));
+    QVERIFY2(noteOf("radius").contains(lengthText(tools.spacing())), qPrintable(noteOf("radius")));
+    QVERIFY(!isSaid());
+    draw(-60);
+    QVERIFY2(isSaid(), qPrintable(m_window->statusLine()->state().note));
+    m_window->statusLine()->say({});
+    draw(40);
+    QVERIFY(!isSaid());
+    Q_EMIT panel->linkActivated(QStringLiteral("radius"), QString::fromLatin1(BrushPanel::kSpacing));
+    const auto rows = m_window->findChildren<ParameterRow*>();
+    QTRY_VERIFY(std::any_of(rows.begin(), rows.end(), [](const ParameterRow* row) {
+      return row->key() == QLatin1String(BrushPanel::kSpacing) && row->isVisible();
+    }));
+    of("shape", "tube")->click();
+    brush = tools.brush();
+    brush.parameters["tube"].values["wall"] = 1.0;
+    tools.setBrush(brush);
+    QVERIFY2(noteOf("brush/wall").contains(QStringLiteral("one particle thick")), qPrintable(noteOf("brush/wall")));
+    brush.parameters["tube"].values["wall"] = 2.0;
+    brush.radius = 4 * tools.spacing();
+    tools.setBrush(brush);
+    QCOMPARE(noteOf("brush/wall"), QString());
+    QCOMPARE(noteOf("radius"), QString());
+    tools.takeBrush(before.shape);
+    tools.setBrush(before);
+    m_window->layoutOfDocks().showPage(QStringLiteral("Brush"));
   }
 
   /// By hand, by keys and as text; the brush's own rows follow, and the swatch follows them.

@@ -12,6 +12,7 @@
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/noticebar.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
@@ -19,9 +20,12 @@
 #include <QtGui/QPointingDevice>
 #include <QtGui/QTabletEvent>
 #include <QtWidgets/QDialog>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
+#include <QtWidgets/QToolButton>
 
 #include <algorithm>
 #include <cmath>
@@ -227,8 +231,14 @@ class TestBrushWindow : public SampleWindowTest {
       QVERIFY2(found != all.end() && (*found)->isEnabled(), text);
       (*found)->click();
     };
+    const auto said = [&] {
+      const auto* label = form->findChild<QLabel*>(QStringLiteral("psDone"));
+      return label->isVisible() ? label->text() : QString();
+    };
+    QCOMPARE(said(), QString());
     click("Keep this brush");
     QCOMPARE(list->count(), 1);
+    QVERIFY2(said().contains(QStringLiteral("is kept")), qPrintable(said()));
     auto* field = list->findChild<QLineEdit*>();
     QVERIFY(field);
     field->setText(QStringLiteral(" my <b>chalk</b> "));
@@ -241,10 +251,12 @@ class TestBrushWindow : public SampleWindowTest {
     const QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("mine.json"));
     hands::answerDialog(path);
-    click("Export");
+    QCOMPARE(list->selectedItems().size(), 1);
+    click("Export all");
     QVERIFY(QFile::exists(path));
-    list->item(0)->setSelected(true);
+    QCOMPARE(said(), QStringLiteral("“%1” is in the file %2.").arg(name, QDir::toNativeSeparators(path)));
     click("Forget");
+    QCOMPARE(said(), QString());
     QVERIFY(favourites.all().empty() && list->count() == 0);
     click("Bring back");
     QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
@@ -252,6 +264,7 @@ class TestBrushWindow : public SampleWindowTest {
     hands::answerDialog(path);
     click("Import");
     QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
+    QVERIFY2(said().contains(QStringLiteral("from the file")), qPrintable(said()));
     QCOMPARE(favourites.importFrom(path), QString());  // the same one again
     QCOMPARE(favourites.all().size(), size_t{1});
     QVERIFY(favourites.importFrom(kSample).contains(QStringLiteral("holds no brushes")));
@@ -264,7 +277,31 @@ class TestBrushWindow : public SampleWindowTest {
     QCOMPARE(favourites.rename(favourites.all()[1], QStringLiteral("wide")), QString());
     QCOMPARE(favourites.all()[1].name, QStringLiteral("wide"));
     form->close();
+    m_window->action(QStringLiteral("sketch.brushes"))->trigger();  // one is chosen, and what is exported counts
+    form = m_window->findChildren<QDialog*>(QStringLiteral("psBrushes")).back();
+    list = form->findChild<QListWidget*>();
+    QVERIFY(list->count() == 2 && list->item(0)->isSelected() && !list->item(1)->isSelected());
+    hands::answerDialog(folder.filePath(QStringLiteral("one.json")));
+    click("Export 1");
+    QVERIFY2(said().startsWith(QStringLiteral("“%1” is in").arg(name)), qPrintable(said()));
+    form->close();
     preferences::setFavouriteBrushes({});
+  }
+
+  /// The pointer is elsewhere by the time that the menu of favourites closes.
+  void theStarGoesOutWithItsMenu() {
+    take("sphere");
+    QMenu* menu = m_window->favourites().menu();
+    const auto buttons = m_window->findChildren<QToolButton*>();
+    const auto star =
+        std::find_if(buttons.begin(), buttons.end(), [&](const QToolButton* one) { return one->menu() == menu; });
+    QVERIFY(star != buttons.end());
+    QTest::mouseMove(view(), view()->rect().center());
+    (*star)->setAttribute(Qt::WA_UnderMouse, true);
+    (*star)->setDown(true);
+    menu->popup((*star)->mapToGlobal(QPoint(0, (*star)->height())));
+    menu->close();
+    QTRY_VERIFY(!(*star)->underMouse() && !(*star)->isDown());
   }
 
   /// Commands of rows that Ctrl+K has are for those of the brush, too; what these are not asked for is refused.

@@ -245,6 +245,34 @@ class TestGoingOn : public ToolTest {
     QCOMPARE(static_cast<int>(ofBody(ids[0])), cellCount(ids[0]));
   }
 
+  /// Where particles stand twice as far apart as the cells that were drawn, each takes all of its cells along.
+  void coarseMatterTakesItsCellsAlong() {
+    const std::string bar = drawBar();
+    eraseMiddle(bar);
+    m_document->setParameter({Owner::Solver, "", "particle_spacing"}, 2 * kSpacing);
+    m_link->reset();
+    const auto found = pieces(bar);
+    QCOMPARE(found.size(), size_t{2});
+    const auto beyond = [this](const std::string& id, bool right) {
+      const auto& voxels = std::get<VoxelShape>(m_document->body(id)->shape);
+      int cells = 0;
+      for (const VoxelShape::Run& run : voxels.runs) {
+        for (int x = run.x; x < run.x + run.length; ++x)
+          cells += (voxels.origin.x() + x * voxels.spacing > 0.03) == right ? 1 : 0;
+      }
+      return cells;
+    };
+    const int left = beyond(bar, false), right = beyond(bar, true);
+    QVERIFY(left > 100 && right > 100);
+    const auto ids = m_document->partBody(bar, {found[1]});
+    QCOMPARE(ids.size(), size_t{1});
+    // All but what stands for no particle at the faces, where a cell of two may be missing along each axis.
+    const bool isRight = beyond(ids[0], true) > 0;
+    QCOMPARE(beyond(ids[0], !isRight), 0);
+    const int taken = beyond(ids[0], isRight), all = isRight ? right : left;
+    QVERIFY2(taken > 0.4 * all, qPrintable(QStringLiteral("%1 of %2").arg(taken).arg(all)));
+  }
+
   /// The same in another run, where nobody knows particles by their ids: by what they were made of.
   void partingIsRedoneInAnotherRun() {
     const std::string bar = drawBar();

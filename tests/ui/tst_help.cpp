@@ -15,8 +15,12 @@
 
 #include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
+#include <QtGui/QTextCursor>
+#include <QtGui/QTextDocument>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPushButton>
+#include <QtWidgets/QScrollArea>
 #include <QtWidgets/QTextBrowser>
 
 using namespace ps;
@@ -142,6 +146,50 @@ class TestHelp : public SampleWindowTest {
     QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
   }
 
+  /// At the line that tells of it, whichever way one comes.
+  void aBrushHasItsPlaceOnThePage() {
+    const auto sketching = std::find_if(writtenHelp().begin(), writtenHelp().end(),
+                                        [](const HelpPage& page) { return page.id == QLatin1String("sketching"); });
+    QVERIFY(sketching != writtenHelp().end() && !sketching->text.contains(QStringLiteral("{#")));
+    for (const std::string& brush : session().plugins()->ids(PluginKind::Brush))
+      QVERIFY2(sketching->sections.contains(QString::fromStdString(brush)), brush.c_str());
+    m_window->help().open(QStringLiteral("sketching"));
+    QApplication::setActiveWindow(m_window.get());
+    auto* text = dialog()->findChild<QTextBrowser*>();
+    const auto topOf = [&](const char* words) {
+      QTextCursor found = text->document()->find(QString::fromLatin1(words), 0, QTextDocument::FindCaseSensitively);
+      found.setPosition(found.selectionStart());
+      return text->cursorRect(found).top();
+    };
+    QVERIFY(topOf("Heat and cool:") > text->viewport()->height());
+    m_window->tools().activate("brush");
+    m_window->tools().takeBrush("cool");
+    Dock* bar = m_window->layoutOfDocks().dock(QStringLiteral("dock.brushes"));
+    QTRY_VERIFY(bar->isVisible());
+    const auto buttons = bar->findChildren<QAbstractButton*>();
+    const auto of = [&](const char* shape) {
+      return *std::find_if(buttons.begin(), buttons.end(), [&](const QAbstractButton* button) {
+        return button->property("shape").toString() == QLatin1String(shape);
+      });
+    };
+    for (QScrollArea* area : bar->findChildren<QScrollArea*>()) area->ensureWidgetVisible(of("paint"));
+    QTest::mouseMove(of("paint"), of("paint")->rect().center());
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
+    const auto isOnTop = [&](const char* words) { return topOf(words) > -8 && topOf(words) < 40; };  // px
+    QVERIFY2(isOnTop("Paint:"), qPrintable(QString::number(topOf("Paint:"))));
+    // Of the brush in hand where none is pointed at; from the page of the tool as well.
+    QTest::mouseMove(bar, QPoint(bar->width() / 2, bar->height() - 8));
+    f1();
+    QVERIFY2(isOnTop("Heat and cool:"), qPrintable(QString::number(topOf("Heat and cool:"))));
+    QCOMPARE(m_window->tools().brush().shape, std::string("cool"));
+    m_window->help().open(QStringLiteral("tool/brush"));
+    QVERIFY(text->toHtml().contains(QStringLiteral("help:sketching#cool")));
+    Q_EMIT text->anchorClicked(QUrl(QStringLiteral("help:sketching#cool")));
+    QVERIFY(isOnTop("Heat and cool:"));
+    m_window->tools().activate("select");
+  }
+
   void allValuesAreListed() {
     m_window->help().open(QStringLiteral("values"));
     QVERIFY(dialog()->text().contains(QStringLiteral("Conductivity")));
@@ -187,6 +235,22 @@ class TestHelp : public SampleWindowTest {
     m_window->startTour();
     QTest::keyClick(view(), Qt::Key_Escape);
     QVERIFY(!tour.running());
+  }
+
+  /// In a low view, too, where it comes up to the axes instead.
+  void theTourLeavesTheHintsInSight() {
+    constexpr int kHints = 42;  // px above the lower edge of the view at which they begin
+    const QSize size = m_window->size();
+    QWidget* card = m_window->findChild<QWidget*>(QStringLiteral("psTourCard"));
+    for (const int height : {800, 640}) {
+      m_window->resize(1280, height);
+      m_window->startTour();
+      const auto bottom = [&] { return view()->mapTo(m_window.get(), view()->rect().bottomLeft()).y(); };
+      QTRY_VERIFY2(card->isVisible() && card->geometry().bottom() < bottom() - kHints,
+                   qPrintable(QStringLiteral("%1: %2 of %3").arg(height).arg(card->geometry().bottom()).arg(bottom())));
+      m_window->tour().end();
+    }
+    m_window->resize(size);
   }
 
   /// By Return too, wherever the focus came from; over the library and the plugins the scene comes back.

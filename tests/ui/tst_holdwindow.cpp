@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is sketched is held in the air until it is made real, while all else in the window goes on.
+#include "core/scene/pose.h"
 #include "samplewindow.h"
 #include "ui/tools/tooltable.h"
 
@@ -115,6 +116,26 @@ class TestHoldWindow : public SampleWindowTest {
     separate->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
     QCOMPARE(document().project().bodies.size(), before + 1);
+  }
+
+  /// Matter that was made before its sketch was scaled has none of the cells that the sketch has now: Home first.
+  void aSketchOfAnotherSizeIsSeparatedAfterHome() {
+    const std::string id = document().addBody(twoLumps(260));
+    const size_t before = document().project().bodies.size();
+    playOn(0.1);
+    Placement larger;
+    larger.bodies.push_back(scaled(*document().body(id), Vector3::Constant(1.5)));
+    document().place(larger, QStringLiteral("scaling"));
+    QAction* separate = m_window->action(QStringLiteral("sketch.separate"));
+    QSignalSpy refused(&m_window->tools(), &Toolbox::refused);
+    m_window->tools().selection().selectBody(id);
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
+    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("Home")), qPrintable(refused[0][1].toString()));
+    QCOMPARE(document().project().bodies.size(), before);
+    toTheStart();
+    separate->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
   }
 
   /// What flows is left alone where nobody has chosen it.

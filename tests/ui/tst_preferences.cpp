@@ -331,6 +331,10 @@ class TestPreferences : public SampleWindowTest {
       QVERIFY2(!help->text().contains(QLatin1Char('{')), qPrintable(page.id));
     }
     m_window->tools().activate("brush");
+    chooseMouse(QStringLiteral("PhaseSketch"));
+    QVERIFY2(hinted().contains(QStringLiteral("Middle-drag orbit")), qPrintable(hinted()));
+    m_window->help().open(QStringLiteral("sketching"));
+    QVERIFY(help->text().contains(QStringLiteral("Middle-drag or Alt+Drag turns the view")));
     chooseMouse(QStringLiteral("CAD, like SolidWorks"));
     QVERIFY2(hinted().contains(QStringLiteral("Middle-drag orbit")), qPrintable(hinted()));
     bool listed = false;

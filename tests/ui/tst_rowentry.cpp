@@ -29,6 +29,7 @@ class TestRowEntry : public QObject {
   void mixedRowsScale();
   void mixedRowsSayDash_data();
   void mixedRowsSayDash();
+  void longLabelsStandInTwoLines();
   void derivedRowsLeadToTheirSource();
   void curvesAskForTheirEditor();
   void curvesAreScaledAndReplaced();
@@ -204,6 +205,33 @@ void TestRowEntry::mixedRowsSayDash_data() {
   QTest::addColumn<QByteArray>("key");
   for (const char* key : {"plate_temperature", "conductivity", "substeps", "gravity_on", "kernel"})
     QTest::newRow(key) << QByteArray(key);
+}
+
+/// Above one another where one line would be cut; the row is as high as others.
+void TestRowEntry::longLabelsStandInTwoLines() {
+  RowModel wordy = model("conductivity");
+  wordy.declaration.label = "Air drag of drops and solids";
+  ParameterRow row(wordy);
+  show(row);
+  const auto label = [&row] {
+    QList<PaintedText> lines;
+    for (const PaintedText& painted : paintedBy(row)) {
+      if (painted.at.x() < row.labelRect().right() &&
+          QStringLiteral("Air drag of drops and solids").contains(painted.text))
+        lines << painted;
+    }
+    return lines;
+  };
+  const int height = row.height();
+  row.resize(460, height);
+  QCOMPARE(label().size(), 1);
+  row.resize(300, height);
+  const QList<PaintedText> lines = label();
+  QCOMPARE(lines.size(), 2);
+  QCOMPARE(lines[0].text + QLatin1Char(' ') + lines[1].text, QStringLiteral("Air drag of drops and solids"));
+  QVERIFY(lines[0].place.bottom() <= lines[1].place.top() + 4 && lines[1].at.y() < row.height());  // px
+  for (const PaintedText& line : lines) QVERIFY(line.place.right() <= row.labelRect().right() + 2);
+  QCOMPARE(row.height(), height);
 }
 
 /// "—" is what stands there, no value and nothing that is chosen, until one is set for all.

@@ -77,6 +77,27 @@ class GreedyBrush final : public api::BrushPlugin {
   api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
 };
 
+/// Lets a hollow run full from each sample.
+class SeedBrush final : public api::BrushPlugin {
+ public:
+  const char* label() const override { return "Seed"; }
+  const char* help() const override { return ""; }
+  api::ParameterList parameters() const override { return {}; }
+  void stroke(const api::StrokeContext& c, EditKind, const api::List<StrokeSample>& samples,
+              api::EditSink& sink) const override {
+    const SketchGrid grid{{c.origin.x, c.origin.y, c.origin.z}, c.spacing};
+    for (size_t k = 0; k < samples.count; ++k) {
+      const api::Double3 place = samples.at(k).position;
+      const Cell cell = grid.cellAt({place.x, place.y, place.z});
+      sink.submit(EditKind::Fill, {&cell, 1});
+    }
+  }
+  api::Double3 extent(const api::StrokeContext&) const noexcept override { return {}; }
+  const void* extension(const char* name) const noexcept override {
+    return std::string_view(name) == api::kFillsHollows ? this : nullptr;
+  }
+};
+
 StrokeSample at(double x, double y, double z, double pressure = 1, double time = 0) {
   return {{x, y, z}, pressure, time, {}};
 }
@@ -565,6 +586,88 @@ class TestSketch : public QObject {
     for (const Cell& c : left.cells()) {  // of its own arm all that lies as low
       if (c.x < 2 && turned.centreOf(c).y() < level) QVERIFY(oblique.contains(c));
     }
+  }
+
+  /// A cup of 5 x 5 cells and 6 high, in a scene that ends openly beyond its floor or at walls. It fills as high as its
+  /// rim and no higher, with a hole as high as that: what would run out is refused. A box fills, and so does a tray.
+  void whatIsOpenIsRefused_data() {
+    QTest::addColumn<QString>("vessel");
+    QTest::addColumn<bool>("room");  // walls around it
+    QTest::addColumn<int>("seed");   // as high, in cells
+    QTest::addColumn<int>("full");   // cells; -1: refused
+    for (const bool room : {false, true}) {
+      const auto row = [&](const char* vessel, int seed, int full) {
+        QTest::addRow("%s, from %d%s", vessel, seed, room ? ", in a room" : "")
+            << QString(vessel) << room << seed << full;
+      };
+      row("cup", 3, 25 * 3);
+      row("cup", 6, 25 * 6);
+      row("cup", 7, -1);
+      row("holed", 2, 25 * 2);
+      row("holed", 3, -1);
+      row("holed", 6, -1);
+      row("ring", 3, 25 * 4);  // on the floor, without a bottom
+      row("box", 5, 25 * 5);
+      row("box", 6, 25 * 6);
+      row("floor", 0, room ? 20 * 20 : -1);
+      row("floor", 4, room ? 20 * 20 * 5 : -1);
+      row("cup, drowned", 16, room ? 20 * 20 * 17 - (7 * 7 * 7 - 25 * 6) : -1);
+    }
+  }
+  void whatIsOpenIsRefused() {
+    QFETCH(QString, vessel);
+    QFETCH(bool, room);
+    QFETCH(int, seed);
+    QFETCH(int, full);
+    Environment scene;
+    scene.boundsMinimum = {-10, 0, -10}, scene.boundsMaximum = {10, 30, 10};
+    const auto wall = [&](const Vector3& point, const Vector3& normal) {
+      SceneWall& one = scene.walls.emplace_back();
+      one.point = point, one.normal = normal;
+    };
+    wall({0, 0, 0}, {0, 1, 0});
+    if (room) wall({-10, 0, 0}, {1, 0, 0}), wall({10, 0, 0}, {-1, 0, 0});
+    if (room) wall({0, 0, -10}, {0, 0, 1}), wall({0, 0, 10}, {0, 0, -1});
+    const auto isMatter = [&](const Cell& c) {
+      const bool lid = c.y == 7 && vessel == "box", hole = vessel == "holed" && c.x == 3 && c.y == 3 && c.z == 0;
+      if (vessel == "floor" || c.y > (lid ? 7 : 6) || std::max(std::abs(c.x), std::abs(c.z)) > 3 || hole) return false;
+      return (c.y == 0 && vessel != "ring") || lid || std::max(std::abs(c.x), std::abs(c.z)) == 3;
+    };
+    const FreeOf freeOf = [&](const SketchGrid& grid, const CellSet& cells) {
+      std::vector<Cell> free;
+      for (const Cell& c : cells.cells()) {
+        if (isInScene(scene, grid, c) && !isMatter(c)) free.push_back(c);
+      }
+      return CellSet(free);
+    };
+    const BarrierOf barrierOf = [&](const SketchGrid& grid, const Cell& cell) { return barrierIn(scene, grid, cell); };
+    const SketchGrid grid{{0.5, 0.5, 0.5}, 1};
+    const auto fill = [&](const Cell& from) {
+      return flooded(grid, cellsOf({from}), {}, scene.gravity, freeOf, kMostFlooded, barrierOf);
+    };
+    for (const Cell& from : {Cell{0, seed, 0}, Cell{-2, seed, 2}}) {
+      if (full < 0) {
+        QVERIFY_EXCEPTION_THROWN(fill(from), InputError);
+        if (vessel == "cup") QVERIFY_EXCEPTION_THROWN(fill({3, seed, 0}), InputError);  // on its rim
+      } else {
+        const CellSet wet = fill(from);
+        QCOMPARE(static_cast<int>(wet.size()), full);
+        for (const Cell& c : wet.cells()) QVERIFY(c.y <= seed);
+      }
+    }
+    // So it is when it is drawn again.
+    const SeedBrush brush;
+    const BrushOf brushOf = [&](const std::string&) { return &brush; };
+    VoxelShape sketch;
+    sketch.origin = grid.origin, sketch.spacing = grid.spacing;
+    VoxelShape::Stroke stroke;
+    stroke.samples = {{0.5, seed + 0.5, 0.5, 1, 0, 0, 0, 0}};
+    sketch.strokes = {stroke};
+    const auto again = [&] { return redrawn(sketch, 1, freeOf, brushOf, scene.gravity, {}, barrierOf); };
+    if (full < 0)
+      QVERIFY_EXCEPTION_THROWN(again(), InputError);
+    else
+      QCOMPARE(static_cast<int>(VoxelCanvas(again().runs).size()), full);
   }
 
   /// What is filled becomes of the material, each cell as warm as it is; what is free stays free.

@@ -74,7 +74,11 @@ VoxelShape redrawnIn(const Project& project, const std::string& body, const Voxe
     return CellSet(free);
   };
   const auto brushOf = [&](const std::string& id) { return plugins.brush(id); };
-  return redrawn(sketch, spacing, freeOf, brushOf, project.environment.gravity, matterBeside(project, body, spacing));
+  const auto barrierOf = [&](const SketchGrid& grid, const api::Cell& cell) {
+    return barrierIn(project.environment, grid, cell);
+  };
+  return redrawn(sketch, spacing, freeOf, brushOf, project.environment.gravity, matterBeside(project, body, spacing),
+                 barrierOf);
 }
 
 size_t cellCount(const VoxelShape& sketch) {

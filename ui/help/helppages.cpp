@@ -2,6 +2,7 @@
 #include "ui/help/helppages.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QRegularExpression>
 
 // Q_INIT_RESOURCE cannot stand in a namespace; the call keeps the linker from dropping a static library's resources.
 static void initHelpResources() { Q_INIT_RESOURCE(help); }
@@ -16,8 +17,16 @@ constexpr const char* kPages[] = {"first-steps", "scene", "sketching", "tuning",
 HelpPage readPage(const QString& id) {
   QFile file(QStringLiteral(":/help/") + id);
   if (!file.open(QIODevice::ReadOnly)) return {id, id, {}};
-  const QString text = QString::fromUtf8(file.readAll());
-  return {id, text.section(QLatin1Char('\n'), 0, 0).mid(2), text};
+  QString text = QString::fromUtf8(file.readAll());
+  static const QRegularExpression mark(QStringLiteral("\\{#([^}]+)\\}\\*\\*([^*]+)\\*\\*")),
+      only(QStringLiteral("\\{#[^}]+\\}"));
+  QMap<QString, QString> sections;
+  for (auto found = mark.globalMatch(text); found.hasNext();) {
+    const QRegularExpressionMatch match = found.next();
+    for (const QString& about : match.captured(1).split(QLatin1Char(' '))) sections[about] = match.captured(2);
+  }
+  text.remove(only);
+  return {id, text.section(QLatin1Char('\n'), 0, 0).mid(2), text, false, sections};
 }
 
 }  // namespace

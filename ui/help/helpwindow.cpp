@@ -7,6 +7,8 @@
 #include <QtCore/QEvent>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QUrl>
+#include <QtGui/QTextBlock>
+#include <QtGui/QTextCursor>
 #include <QtGui/QTextDocument>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QTextBrowser>
@@ -23,6 +25,9 @@ class Browser : public QTextBrowser {
  public:
   QVariant loadResource(int, const QUrl&) override { return {}; }
 };
+
+QString pageOf(const QString& id) { return id.section(QLatin1Char('#'), 0, 0); }
+QString sectionOf(const QString& id) { return id.section(QLatin1Char('#'), 1); }
 
 /// Markdown as HTML that follows the sheet: without the margins that Qt writes into each paragraph, and as bold as the
 /// interface's font is.
@@ -78,14 +83,15 @@ HelpWindow::HelpWindow(Library library, QWidget* parent)
   connect(m_forward, &QToolButton::clicked, this, [this] { go(m_place + 1); });
   connect(contents, &QToolButton::clicked, this, [this] { open(QStringLiteral("first-steps")); });
   connect(m_text, &QTextBrowser::anchorClicked, this, [this](const QUrl& link) {
-    if (link.scheme() == QLatin1String("help")) open(link.path());
+    const QString section = link.hasFragment() ? QLatin1Char('#') + link.fragment() : QString();
+    if (link.scheme() == QLatin1String("help")) open(link.path() + section);
     if (link.scheme() == QLatin1String("action")) Q_EMIT actionWanted(link.path());
   });
   resize(460, 620);
 }
 
 void HelpWindow::open(const QString& id) {
-  if (!m_library(id)) return;
+  if (!m_library(pageOf(id))) return;
   m_way = m_way.mid(0, m_place + 1);
   if (m_way.isEmpty() || m_way.back() != id) m_way << id;
   go(static_cast<int>(m_way.size()) - 1);
@@ -96,18 +102,30 @@ void HelpWindow::go(int place) {
   m_place = place;
   m_back->setEnabled(place > 0);
   m_forward->setEnabled(place + 1 < m_way.size());
-  if (const auto page = m_library(m_way[place])) showPage(*page);
+  if (const auto page = m_library(pageOf(m_way[place]))) showPage(*page, sectionOf(m_way[place]));
 }
 
-void HelpWindow::showPage(const HelpPage& page) {
+/// The line of the section stands on top: it is given an anchor, which markdown has none of.
+void HelpWindow::showPage(const HelpPage& page, const QString& section) {
   setWindowTitle(page.title + QStringLiteral(" – Help"));
   m_text->document()->setDefaultStyleSheet(sheet());
   m_text->setHtml(page.html ? page.text : htmlOf(page.text));
+  const QString words = page.sections.value(section);
+  for (QTextBlock line = m_text->document()->begin(); line.isValid() && !words.isEmpty(); line = line.next()) {
+    if (!line.text().startsWith(words)) continue;
+    QTextCursor first(line);
+    first.movePosition(QTextCursor::NextCharacter, QTextCursor::KeepAnchor);
+    QTextCharFormat anchor;
+    anchor.setAnchor(true);
+    anchor.setAnchorNames({section});
+    first.mergeCharFormat(anchor);
+    return m_text->scrollToAnchor(section);
+  }
 }
 
 void HelpWindow::refresh() { go(m_place); }
 
-QString HelpWindow::current() const { return m_place < 0 ? QString() : m_way[m_place]; }
+QString HelpWindow::current() const { return m_place < 0 ? QString() : pageOf(m_way[m_place]); }
 QString HelpWindow::text() const { return m_text->toPlainText(); }
 
 void HelpWindow::changeEvent(QEvent* event) {

@@ -19,10 +19,10 @@ class HelpWindow : public QDialog {
   /// The page of an id; nothing where there is none.
   using Library = std::function<std::optional<HelpPage>(const QString& id)>;
   HelpWindow(Library library, QWidget* parent);
-  void open(const QString& id);
-  void refresh();           ///< asks for the page again
-  QString current() const;  ///< id of the page that is shown; "" before the first
-  QString text() const;     ///< of it, as read
+  void open(const QString& id);  ///< of a page, or of a section of one: "sketching#fill"
+  void refresh();                ///< asks for the page again
+  QString current() const;       ///< id of the page that is shown, without its section; "" before the first
+  QString text() const;          ///< of it, as read
 
  Q_SIGNALS:
   void actionWanted(const QString& name);
@@ -32,7 +32,7 @@ class HelpWindow : public QDialog {
 
  private:
   void go(int place);
-  void showPage(const HelpPage& page);
+  void showPage(const HelpPage& page, const QString& section);
   Library m_library;
   QTextBrowser* m_text;
   QToolButton *m_back, *m_forward;

@@ -8,12 +8,14 @@
 #include "ui/session/selection.h"
 #include "ui/theme/paint.h"
 #include "ui/tools/becoming.h"
+#include "ui/tools/coarsebrush.h"
 #include "ui/tools/toolbox.h"
 
 #include <QtWidgets/QBoxLayout>
 
 #include <array>
 #include <iterator>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -61,6 +63,8 @@ BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent)
   connect(&tools, &Toolbox::brushChanged, this, &BrushPanel::refresh);
   connect(&tools.document(), &Document::changed, this, [this](const ChangeEvent& event) {
     if (std::holds_alternative<ProjectOpened>(event)) refresh();
+    const auto* parameter = std::get_if<ParameterChanged>(&event);
+    if (parameter && parameter->address.text() == kSpacing) showCoarse();
     if (std::holds_alternative<MaterialsChanged>(event) || m_tools.stampsShape()) showMaterial();
   });
   if (tools.document().plugins()) refresh();  // made later than they came
@@ -153,6 +157,20 @@ void BrushPanel::refresh() {
   }
   showColour();
   showMaterial();
+  showCoarse();
+}
+
+void BrushPanel::showCoarse() {
+  const PluginRegistry* plugins = m_tools.document().plugins();
+  if (!plugins) return;
+  QStringList keys;
+  for (const Coarseness& coarse : coarsenessOf(m_tools.brush(), *plugins, m_tools.spacing())) {
+    keys << (coarse.own ? kOwn : QString()) + coarse.row;
+    setLimit(keys.back(), asNote(coarse.text) + QStringLiteral(" [Show the spacing](%1)").arg(QLatin1String(kSpacing)));
+  }
+  for (const QString& key : std::exchange(m_coarse, keys)) {
+    if (!keys.contains(key)) setLimit(key, {});
+  }
 }
 
 /// It is disabled where its parts do not act, as their rows are.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/strokelistedits.h"
 
+#include "core/base/error.h"
 #include "core/plugin_host/registry.h"
 #include "core/sketch/cellset.h"
 #include "ui/document/document.h"
@@ -17,6 +18,20 @@
 #include <utility>
 
 namespace ps {
+namespace {
+
+/// Cells of a sketch that none of its strokes explains. What cannot be drawn as it was explains nobody knows what: an
+/// open hollow, or a brush that has gone.
+size_t lostOf(const Project& project, const std::string& body, const VoxelShape& sketch,
+              const PluginRegistry& plugins) {
+  try {
+    return cellsBeyond(sketch, redrawnIn(project, body, sketch, sketch.spacing, plugins));
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
+}  // namespace
 
 StrokeListEdits::StrokeListEdits(Session& session, QObject* parent) : QObject(parent), m_session(session) {}
 
@@ -122,8 +137,8 @@ void StrokeListEdits::redraw(const Body& body, VoxelShape wanted, const QString&
                                     wanted = std::move(wanted)] {
     Drawn drawn;
     try {
-      drawn.lost = cellsBeyond(before, redrawnIn(project, id, before, before.spacing, *plugins));
       drawn.sketch = redrawnIn(project, id, wanted, wanted.spacing, *plugins);
+      drawn.lost = lostOf(project, id, before, *plugins);
     } catch (const std::exception& error) {
       drawn.problem = QString::fromUtf8(error.what());
     }

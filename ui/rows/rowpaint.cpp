@@ -37,6 +37,26 @@ void hatch(QPainter& painter, const QRectF& rect, const QColor& colour) {
   painter.restore();
 }
 
+/// A label that is too long for its column stands in two smaller lines where these are whole: rows stay as high.
+void paintLabel(QPainter& painter, const QRectF& rect, const QString& label, const QColor& colour) {
+  const QFont normal = Theme::font(TextRole::Normal), small = Theme::font(TextRole::Small);
+  const QLatin1Char gap(' ');
+  const bool fits = textWidth(label, normal) <= rect.width() + 0.5;
+  double least = rect.width();
+  qsizetype at = -1;
+  for (qsizetype space = fits ? -1 : label.indexOf(gap); space > 0; space = label.indexOf(gap, space + 1)) {
+    const double widest = std::max(textWidth(label.left(space), small), textWidth(label.mid(space + 1), small));
+    if (widest > least) continue;
+    least = widest;
+    at = space;
+  }
+  if (at < 0) return paintText(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, label, normal, colour);
+  const QRectF line(rect.left(), rect.top(), rect.width(), rect.height() / 2);
+  paintText(painter, line, Qt::AlignLeft | Qt::AlignVCenter, label.left(at), small, colour);
+  paintText(painter, line.translated(0, line.height()), Qt::AlignLeft | Qt::AlignVCenter, label.mid(at + 1), small,
+            colour);
+}
+
 /// Of several of which some are on: no knob.
 void paintMixedSwitch(QPainter& painter, const QRectF& rect, bool enabled) {
   const Theme& theme = Theme::current();
@@ -142,8 +162,7 @@ void ParameterRow::Private::paintLeft(QPainter& painter) const {
   const bool changed = q->isChanged() && !disabled;
   if (changed) paintBox(painter, QRectF(5, (kRowHeight - 14) / 2.0, 3, 14), theme[Token::Accent], QColor(), 1);
   const Token token = disabled ? Token::Disabled : changed || (hover && isEditable()) ? Token::Text : Token::Text2;
-  paintText(painter, q->labelRect(), Qt::AlignLeft | Qt::AlignVCenter, QString::fromUtf8(declaration().label),
-            Theme::font(TextRole::Normal), theme[token]);
+  paintLabel(painter, q->labelRect(), QString::fromUtf8(declaration().label), theme[token]);
   const double source = textWidth(model.derivedFrom, Theme::font(TextRole::Normal));
   if (drawsSymbol() && q->fieldRect().left() - 1 - source > q->sliderRect().left() - 6) {
     paintSymbol(painter, QRectF(q->sliderRect().left() - symbolRoom(), 0, symbolRoom(), kRowHeight),

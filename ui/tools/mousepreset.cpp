@@ -22,13 +22,14 @@ struct Row {
 
 constexpr auto kLeft = Qt::LeftButton, kMiddle = Qt::MiddleButton, kRight = Qt::RightButton;
 
-/// Drawing takes the left button; Alt with it stays the view's.
+/// Drawing takes the left button; Alt with it stays the view's, where no window manager takes it to move the window:
+/// what needs no key comes first.
 const std::array kRows{
     Row{PhaseSketch, While::Looking, {Orbit, kLeft, {}}},
     Row{PhaseSketch, While::Looking, {Pan, kLeft, Qt::ShiftModifier}},
     Row{PhaseSketch, While::Looking, {Pan, kMiddle, {}}},
-    Row{PhaseSketch, While::Drawing, {Orbit, kLeft, Qt::AltModifier}},
     Row{PhaseSketch, While::Drawing, {Orbit, kMiddle, {}}},
+    Row{PhaseSketch, While::Drawing, {Orbit, kLeft, Qt::AltModifier}},
     Row{PhaseSketch, While::Drawing, {Pan, kMiddle, Qt::ShiftModifier}},
     Row{PhaseSketch, While::Always, {Dolly, kRight, {}}},
     Row{Blender, While::Always, {Orbit, kMiddle, {}}},
@@ -110,6 +111,13 @@ QString howToLook(MousePreset preset) {
       .arg(keysOf(preset, false, Orbit), keysOf(preset, false, Pan));
 }
 
-QString turningKeys(MousePreset preset) { return keysOf(preset, true, Orbit); }
+/// All of them, "Middle-drag or Alt+Drag": not every mouse has the one, nor every desktop leaves the other.
+QString turningKeys(MousePreset preset) {
+  QStringList keys;
+  for (const MouseBinding& binding : bindings(preset, true)) {
+    if (binding.motion == Orbit) keys << binding.text();
+  }
+  return keys.join(QStringLiteral(" or "));
+}
 
 }  // namespace ps

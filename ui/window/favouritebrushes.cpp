@@ -15,6 +15,7 @@
 #include "ui/window/filenames.h"
 #include "ui/window/notices.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QEvent>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QSaveFile>
@@ -45,6 +46,10 @@ QIcon iconOf(const std::string& shape) {
   return icon(iconNames().contains(name) ? name : QStringLiteral("brush"));
 }
 
+QString keptText(const QString& name) {
+  return QStringLiteral("“%1” is kept here and behind the star, for all projects.").arg(name);
+}
+
 /// Their names in a list, and what is done with those that are chosen.
 class BrushForm : public QDialog {
  public:
@@ -65,18 +70,23 @@ class BrushForm : public QDialog {
   void bringBack();
   void chooseExport();
   void chooseImport();
-  void tell(const QString& problem);
+  void tell(const QString& problem, const QString& done = {});
 
   FavouriteBrushes& m_brushes;
   Session& m_session;
   std::vector<FavouriteBrush> m_shown, m_gone;
   QListWidget* m_list;
-  QLabel* m_problem;
+  QLabel *m_problem, *m_done;
   QPushButton *m_take = nullptr, *m_rename = nullptr, *m_remove = nullptr, *m_back = nullptr, *m_export = nullptr;
 };
 
 BrushForm::BrushForm(FavouriteBrushes& brushes, Session& session, QWidget* window)
-    : QDialog(window), m_brushes(brushes), m_session(session), m_list(new QListWidget), m_problem(new QLabel) {
+    : QDialog(window),
+      m_brushes(brushes),
+      m_session(session),
+      m_list(new QListWidget),
+      m_problem(new QLabel),
+      m_done(new QLabel) {
   setWindowTitle(kWhere);
   setAttribute(Qt::WA_DeleteOnClose);
   auto* column = new QVBoxLayout(this);
@@ -86,11 +96,14 @@ BrushForm::BrushForm(FavouriteBrushes& brushes, Session& session, QWidget* windo
   m_list->setSelectionMode(QAbstractItemView::ExtendedSelection);
   m_list->setEditTriggers(QAbstractItemView::EditKeyPressed);
   column->addWidget(m_list, 1);
-  m_problem->setTextFormat(Qt::PlainText);
-  m_problem->setProperty("role", "error");
-  m_problem->setWordWrap(true);
-  m_problem->hide();
-  column->addWidget(m_problem);
+  for (const auto& [label, role] : {std::pair{m_problem, "error"}, {m_done, "muted"}}) {
+    label->setTextFormat(Qt::PlainText);
+    label->setProperty("role", role);
+    label->setWordWrap(true);
+    label->hide();
+    column->addWidget(label);
+  }
+  m_done->setObjectName(QStringLiteral("psDone"));
   makeButtons(*column);
   connect(m_list, &QListWidget::itemSelectionChanged, this, &BrushForm::showButtons);
   connect(m_list, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) { takeName(*item); });
@@ -114,8 +127,8 @@ void BrushForm::makeButtons(QVBoxLayout& column) {
                [this] { bringBack(); });
   add(*second, QStringLiteral("Import…"), QStringLiteral("Brushes out of a file, beside those that are here"),
       [this] { chooseImport(); });
-  m_export = add(*second, QStringLiteral("Export…"), QStringLiteral("Those that are chosen, or all, into a file"),
-                 [this] { chooseExport(); });
+  m_export = add(*second, QStringLiteral("Export…"),
+                 QStringLiteral("Those that are chosen, or all (Ctrl+A), into a file"), [this] { chooseExport(); });
   column.addLayout(first);
   column.addLayout(second);
 }
@@ -139,14 +152,17 @@ void BrushForm::changeEvent(QEvent* event) {
   if (event->type() == QEvent::ActivationChange && m_shown != m_brushes.all()) fill();
 }
 
+/// One is chosen where there are any, so that the buttons have something to act on.
 void BrushForm::fill() {
   m_shown = m_brushes.all();
   const QSignalBlocker silent(m_list);
+  const int row = m_list->currentRow();
   m_list->clear();
   for (const FavouriteBrush& favourite : m_shown) {
     auto* item = new QListWidgetItem(iconOf(favourite.brush.shape), favourite.name, m_list);
     item->setFlags(item->flags() | Qt::ItemIsEditable);
   }
+  m_list->setCurrentRow(std::min(std::max(row, 0), m_list->count() - 1));
   showButtons();
 }
 
@@ -157,6 +173,8 @@ void BrushForm::showButtons() {
   m_remove->setEnabled(count > 0);
   m_back->setEnabled(!m_gone.empty());
   m_export->setEnabled(!m_shown.empty());
+  const bool some = count > 0 && count < m_list->count();
+  m_export->setText(some ? QStringLiteral("Export %1…").arg(count) : QStringLiteral("Export all…"));
 }
 
 std::vector<FavouriteBrush> BrushForm::chosen() const {
@@ -171,6 +189,7 @@ void BrushForm::keep() {
   if (!m_brushes.keep()) return tell(QStringLiteral("The brush in hand is kept already."));
   fill();
   m_list->setCurrentRow(m_list->count() - 1);
+  tell({}, keptText(m_list->currentItem()->text()));
   m_list->editItem(m_list->currentItem());
 }
 
@@ -181,7 +200,7 @@ void BrushForm::takeName(QListWidgetItem& item) {
   const QSignalBlocker silent(m_list);
   item.setText(problem.isEmpty() ? name : named.name);
   m_shown = m_brushes.all();
-  tell(problem);
+  tell(problem, keptText(item.text()));
 }
 
 void BrushForm::remove() {
@@ -201,21 +220,32 @@ void BrushForm::chooseExport() {
   const std::vector<FavouriteBrush> some = chosen();
   const QString path = fileToWrite(this, QStringLiteral("Export brushes"),
                                    folderBeside(m_session) + QStringLiteral("/brushes.json"), kFiles);
-  if (!path.isEmpty()) tell(FavouriteBrushes::exportTo(some.empty() ? m_shown : some, path));
+  if (path.isEmpty()) return;
+  const std::vector<FavouriteBrush>& all = some.empty() ? m_shown : some;
+  const QString what =
+      all.size() == 1 ? QStringLiteral("“%1” is").arg(all[0].name) : QStringLiteral("%1 brushes are").arg(all.size());
+  tell(FavouriteBrushes::exportTo(all, path),
+       QStringLiteral("%1 in the file %2.").arg(what, QDir::toNativeSeparators(path)));
 }
 
 void BrushForm::chooseImport() {
   const QString path = fileToRead(this, QStringLiteral("Import brushes"), folderBeside(m_session),
                                   kFiles + QStringLiteral(";;All files (*)"));
   if (path.isEmpty()) return;
+  const size_t before = m_shown.size();
   const QString problem = m_brushes.importFrom(path);
   fill();
-  tell(problem);
+  tell(problem, QStringLiteral("%1 new from the file %2.")
+                    .arg(m_shown.size() > before ? QString::number(m_shown.size() - before) : QStringLiteral("Nothing"),
+                         QDir::toNativeSeparators(path)));
 }
 
-void BrushForm::tell(const QString& problem) {
+/// What went wrong, or else what was done.
+void BrushForm::tell(const QString& problem, const QString& done) {
   m_problem->setText(problem);
   m_problem->setVisible(!problem.isEmpty());
+  m_done->setText(done);
+  m_done->setVisible(problem.isEmpty() && !done.isEmpty());
 }
 
 }  // namespace

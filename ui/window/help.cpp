@@ -21,6 +21,7 @@
 
 #include <QtGui/QAction>
 #include <QtGui/QCursor>
+#include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QMenu>
 
@@ -45,6 +46,15 @@ const char* pageOf(const Dock& dock) {
     if (dock.objectName() == QLatin1String(row.dock) && dock.currentPage() == QLatin1String(row.title)) return row.help;
   }
   return kUsualPage;
+}
+
+/// Where a page tells of a brush, if it does: "sketching#fill".
+QString placeOf(const QString& page, const std::string& brush) {
+  const QString section = QString::fromStdString(brush);
+  for (const HelpPage& written : writtenHelp()) {
+    if (written.id == page && written.sections.contains(section)) return page + QLatin1Char('#') + section;
+  }
+  return page;
 }
 
 /// Pages name the drags that move a view as {look} and {turn}, and that of the brush's size {size}: which those are is
@@ -91,6 +101,10 @@ void Help::open(const QString& id) {
 
 void Help::openHere() { open(idHere()); }
 
+std::string Help::brushInHand() const {
+  return m_window.tools().active() == kEraseTool ? kEraseTool : m_window.tools().brush().shape;
+}
+
 QString Help::idHere() const {
   QWidget* pointed = QApplication::widgetAt(QCursor::pos());
   if (pointed && pointed->window() != &m_window) pointed = nullptr;
@@ -101,7 +115,10 @@ QString Help::idHere() const {
   for (QWidget* widget : {pointed, focused}) {
     if (around<Viewport>(widget) || around<ViewportPane>(widget))
       return kTool + QString::fromStdString(m_window.tools().active());
-    if (const auto* dock = around<Dock>(widget)) return QString::fromLatin1(pageOf(*dock));
+    const auto* button = around<QAbstractButton>(widget);
+    const std::string shape = button ? button->property("shape").toString().toStdString() : std::string();
+    if (const auto* dock = around<Dock>(widget))
+      return placeOf(QString::fromLatin1(pageOf(*dock)), shape.empty() ? brushInHand() : shape);
   }
   return QString::fromLatin1(kUsualPage);
 }
@@ -140,9 +157,11 @@ HelpPage Help::toolPage(const QString& id) const {
   };
   add(tool.gestures());
   add(viewGestures(tool));
+  const QString sketching = QStringLiteral("sketching");
   html += QStringLiteral(
-      "</table><p>More: <a href='help:sketching'>Sketching</a>, "
-      "<a href='help:first-steps'>First steps</a>.</p>");
+              "</table><p>More: <a href='help:%1'>Sketching</a>, "
+              "<a href='help:first-steps'>First steps</a>.</p>")
+              .arg(tool.usesBrush() ? placeOf(sketching, brushInHand()) : sketching);
   return {kTool + id, QString::fromLatin1(row->name), html, true};
 }
 

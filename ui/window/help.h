@@ -5,6 +5,7 @@
 #include <QtCore/QObject>
 
 #include <optional>
+#include <string>
 
 class QMenu;
 
@@ -15,14 +16,15 @@ class HelpWindow;
 class MainWindow;
 class ParameterRow;
 
-/// The menu Help's pages and F1: a row explains its value, a panel and a tool have a page each.
+/// The menu Help's pages and F1: a row explains its value, a panel and a tool have a page each, a brush its place on
+/// one.
 class Help : public QObject {
   Q_OBJECT
  public:
   Help(MainWindow& window, const Actions& actions);
   void makeMenu(QMenu* menu);
   void open(const QString& id);
-  /// Of the row under the pointer or with the focus, or else of the panel or the tool there.
+  /// Of the row under the pointer or with the focus, or else of the brush, the panel or the tool there.
   void openHere();
   HelpWindow* dialog() const;  ///< nullptr before it was opened
 
@@ -31,6 +33,7 @@ class Help : public QObject {
   HelpPage toolPage(const QString& id) const;
   HelpPage valuesPage() const;
   QString idHere() const;
+  std::string brushInHand() const;  ///< id of its plugin, or "erase"
   MainWindow& m_window;
   const Actions& m_actions;
 };

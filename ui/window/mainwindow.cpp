@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/fitting/fitpanel.h"
 #include "ui/graphs/graphspanel.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/messagespage.h"
@@ -28,6 +29,7 @@
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/coarsenote.h"
 #include "ui/window/dock.h"
 #include "ui/window/droppedfiles.h"
 #include "ui/window/editactions.h"
@@ -400,14 +402,18 @@ void MainWindow::connectPanels() {
   connect(m_layout, &WindowLayout::themeChanged, m_inspector, &Inspector::rebuild);
   connect(m_layout, &WindowLayout::themeChanged, outliner(), &Outliner::rebuild);
   connect(outliner(), &Outliner::menuRequested, this, [this](const QPoint& global) { m_edit->openItemMenu(global); });
+  connect(findChild<BrushPanel*>(), &ParameterPanel::linkActivated, this, [this](const QString&, const QString& link) {
+    if (const auto address = Address::parse(link.toStdString())) revealParameter(*address);
+  });
   connect(m_plugins, &PluginPage::closeRequested, this, [this] { m_centre->setCurrentWidget(m_pane); });
 }
 
 /// What is said, and where it leads.
 void MainWindow::connectMessages() {
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
-  connect(m_status, &StatusLine::noteClicked, this, [this](const QString& parameter) {
-    const auto address = Address::parse(parameter.toStdString());
+  const auto* coarse = new CoarseNote(*m_tools, *m_status, this);
+  connect(m_status, &StatusLine::noteClicked, this, [this, coarse](const QString& parameter) {
+    const auto address = Address::parse(coarse->leadsTo(parameter).toStdString());
     if (!address || !revealParameter(*address)) openPage(QStringLiteral("Messages"));
   });
   connect(&m_session->log(), &MessageLog::changed, this, [this] {

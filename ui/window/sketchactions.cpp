@@ -101,6 +101,11 @@ void SketchActions::addHolding(QMenu* menu) {
   menu->addSeparator();
   connect(&m_tools, &Toolbox::brushChanged, this, &SketchActions::showHeld);
   connect(&m_session.document(), &Document::changed, this, &SketchActions::showHeld);
+  connect(&m_session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    const auto* body = std::get_if<BodyChanged>(&event);
+    if (body && body->resized) noteSize(body->id, body->resized->factor);
+    if (std::holds_alternative<ProjectOpened>(event)) m_resized.clear();
+  });
   showHeld();
 }
 
@@ -164,32 +169,51 @@ void SketchActions::letGo() {
   m_session.document().setParameters(values, QStringLiteral("make it real"));
 }
 
+void SketchActions::noteSize(const std::string& body, double factor) {
+  if (!m_session.newest()) return;
+  Resized& known = m_resized[body];
+  const uint64_t revision = m_session.newest()->revision;
+  known = {revision, known.revision == revision ? known.factor * factor : factor};
+}
+
+bool SketchActions::hasOtherCells(const std::string& body) const {
+  constexpr double kSame = 1e-9;  // of a size that was taken back
+  const auto found = m_resized.find(body);
+  return found != m_resized.end() && m_session.newest() && found->second.revision == m_session.newest()->revision &&
+         std::abs(found->second.factor - 1) > kSame;
+}
+
 /// What is held in place has no pieces that would go anywhere. Drops part and meet all the time: those of what flows
 /// are told apart where somebody has chosen it.
 void SketchActions::separate() {
   const Document& document = m_session.document();
   const std::vector<std::string> chosen = m_tools.selection().bodies();
   std::vector<Pieces> bodies;
+  QString resized;
   for (const Body& body : document.project().bodies) {
     const bool wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), body.id) != chosen.end();
     const bool stands = toggleOf(body.parameters, bodyParameters(), "fixed");
-    if (wanted && !stands && !body.locked && std::holds_alternative<VoxelShape>(body.shape))
+    if (!wanted || stands || body.locked || !std::holds_alternative<VoxelShape>(body.shape)) continue;
+    if (hasOtherCells(body.id))
+      resized = QString::fromStdString(shownName(body));
+    else
       bodies.push_back({body, {}});
   }
-  if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({});
+  if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({}, resized);
   // The engine's thread may come to it when the window has gone.
-  m_session.engine()->ask([self = QPointer(this), bodies, all = chosen.empty()](const Engine& engine) mutable {
+  m_session.engine()->ask([self = QPointer(this), bodies, resized, all = chosen.empty()](const Engine& engine) mutable {
     for (Pieces& one : bodies) {
       if (!all || isSolid(engine, one.body.id)) one.cells = piecesOf(engine, one.body);
     }
-    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, bodies = std::move(bodies)] {
-      if (self) self->part(bodies);
+    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, resized, bodies = std::move(bodies)] {
+      if (self) self->part(bodies, resized);
     });
   });
 }
 
 /// One step. Those that have been drawn on meanwhile stay whole, and those of a state that knows no cells of theirs.
-void SketchActions::part(const std::vector<Pieces>& bodies) {
+/// `resized`: the name of one that is left out, because its matter is of other cells.
+void SketchActions::part(const std::vector<Pieces>& bodies, const QString& resized) {
   Document& document = m_session.document();
   const auto isParted = [&](const Pieces& one) {
     const Body* now = document.body(one.body.id);
@@ -204,7 +228,12 @@ void SketchActions::part(const std::vector<Pieces>& bodies) {
     if (isParted(one)) any = !document.partBody(one.body.id, {one.cells.begin() + 1, one.cells.end()}).empty() || any;
   }
   if (parted > 1) document.undoStack().endMacro();
-  if (!any)
+  if (!any && !resized.isEmpty())
+    m_tools.refuse(QStringLiteral("Nothing was separated."),
+                   QStringLiteral("“%1” has another size since the start, and its matter is still of the cells from "
+                                  "before. Press Home first, or undo that.")
+                       .arg(resized));
+  else if (!any)
     m_tools.refuse(QStringLiteral("Nothing was separated."),
                    QStringLiteral("No sketched body that is meant has come apart."));
 }

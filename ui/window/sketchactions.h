@@ -7,6 +7,8 @@
 #include <QtCore/QString>
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,9 @@ class SketchActions : public QObject {
     Body body;  ///< as it was asked for
     std::vector<std::vector<std::array<int, 3>>> cells;
   };
-  void part(const std::vector<Pieces>& bodies);
+  void part(const std::vector<Pieces>& bodies, const QString& resized);
+  void noteSize(const std::string& body, double factor);
+  bool hasOtherCells(const std::string& body) const;  ///< than its matter was made of
   void turnGravity();
   QList<QKeySequence> keysOf(const std::string& brush) const;
 
@@ -61,6 +65,11 @@ class SketchActions : public QObject {
   const Actions& m_actions;
   QMenu* m_shapes = nullptr;
   QAction *m_hold = nullptr, *m_makeReal = nullptr, *m_gravity = nullptr;
+  struct Resized {
+    uint64_t revision = 0;  ///< of the scene as it was made
+    double factor = 1;      ///< by which a sketch has become larger since
+  };
+  std::map<std::string, Resized> m_resized;  ///< by Body::id
   double m_before = 0;  ///< m/s^2, the gravity before there was none; 0: it was not taken away here
 };
 

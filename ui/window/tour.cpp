@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kWidth = 300, kGap = 12;
 constexpr int kDown = 9 * kGap;  // from the upper edge of the view, whose axes stand there
+constexpr int kUp = 5 * kGap;    // from its lower edge, where hints stand
 
 class TourCard : public QWidget {
  public:
@@ -139,7 +140,7 @@ void Tour::place() {
   const QRect of = target(), first = target(0), all = rect().adjusted(kGap, kGap, -kGap, -kGap);
   const QSize size = m_card->size();
   const QPoint home(first.right() - kGap - size.width() + 1,
-                    std::max(first.top() + kGap, std::min(first.top() + kDown, first.bottom() - kGap - size.height())));
+                    std::max(first.top() + kGap, std::min(first.top() + kDown, first.bottom() - kUp - size.height())));
   const QPoint places[] = {home,
                            {of.left() - size.width() - kGap, of.top() + kGap},
                            {of.right() + kGap, of.top() + kGap},

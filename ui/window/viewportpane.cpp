@@ -12,6 +12,7 @@
 #include "ui/window/handleactions.h"
 #include "ui/window/noticebar.h"
 
+#include <QtGui/QCursor>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QPainter>
@@ -51,6 +52,16 @@ QToolButton* checkable(const QString& iconName, const QString& tip) {
   button->setCheckable(true);
   button->setFocusPolicy(Qt::TabFocus);
   return button;
+}
+
+/// While a menu is open its button is not told that the pointer leaves it, and would stay lit.
+void goOutWith(QMenu* menu, QToolButton* button) {
+  const auto look = [button] {
+    button->setDown(false);
+    button->setAttribute(Qt::WA_UnderMouse, button->rect().contains(button->mapFromGlobal(QCursor::pos())));
+    button->update();
+  };
+  QObject::connect(menu, &QMenu::aboutToHide, button, look, Qt::QueuedConnection);
 }
 
 }  // namespace
@@ -224,6 +235,7 @@ void ViewportPane::showFavourites(QMenu* favourites) {
   button->setPopupMode(QToolButton::InstantPopup);
   button->setFocusPolicy(Qt::TabFocus);
   button->setMenu(favourites);
+  goOutWith(favourites, button);
   m_brushBar->layout()->addWidget(button);
 }
 
@@ -261,6 +273,8 @@ void ViewportPane::showHandles(const HandleActions& handles) {
   steps->setAccessibleName(steps->toolTip());
   steps->setPopupMode(QToolButton::InstantPopup);
   steps->setMenu(handles.snapping());
+  goOutWith(handles.pivots(), pivot);
+  goOutWith(handles.snapping(), steps);
   for (QToolButton* button : {pivot, snap, steps}) {
     button->setFocusPolicy(Qt::TabFocus);
     row->addWidget(button);

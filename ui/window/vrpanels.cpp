@@ -3,6 +3,7 @@
 
 #include "ui/curves/curvetarget.h"
 #include "ui/curves/responselist.h"
+#include "ui/panels/brushpanel.h"
 #include "ui/panels/inspector.h"
 #include "ui/session/session.h"
 #include "ui/theme/icon.h"
@@ -196,6 +197,13 @@ void VrPanels::connectPage(QWidget& page) {
       m_parts.curves.chooseTrack(address);
       showCurve();
     });
+  }
+  if (const auto* brush = page.findChild<BrushPanel*>()) {
+    const auto follow = [this](const QString&, const QString& row) {
+      showPage(QStringLiteral("Solver"));
+      m_inspector->solverPanel()->reveal(row, false);
+    };
+    connect(brush, &ParameterPanel::linkActivated, this, follow, Qt::QueuedConnection);
   }
   if (const auto* list = qobject_cast<ResponseList*>(&page))
     connect(list, &ResponseList::chosen, this, &VrPanels::showCurve, Qt::QueuedConnection);
