@@ -850,11 +850,13 @@ void VrHandsTest::whatIsLetGoInMotionFliesOn() {
     nextFrame();
   }
   vr::HeadsetView told;
+  told.matter = session().newest();
   hands.describe(told);
-  QVERIFY(told.keeps[vr::kRight]);
+  QVERIFY(told.keeps[vr::kRight] && told.felt[vr::kRight].frequency == 80 && told.felt[vr::kRight].strength > 0);
+  QVERIFY(told.felt[vr::kLeft].strength == 0);
   acts(from + (time() - began) * speed, false);
   hands.describe(told);
-  QVERIFY(!told.keeps[vr::kRight]);
+  QVERIFY(!told.keeps[vr::kRight] && told.felt[vr::kRight].strength == 0);
   for (int frame = 0; frame < 3; ++frame) nextFrame();
   const Motion thrown = motionOf(id);
   session().pause();
@@ -1031,7 +1033,7 @@ void VrHandsTest::aTriggerMovesMatter_data() {
   QTest::newRow("stirred") << QStringLiteral("stir");
 }
 
-/// By the hand in the headset, while the scene runs; none of it is a step.
+/// By the hand in the headset, while the scene runs, and felt there; none of it is a step.
 void VrHandsTest::aTriggerMovesMatter() {
   QFETCH(QString, brush);
   const bool stirs = brush == QStringLiteral("stir");
@@ -1058,6 +1060,10 @@ void VrHandsTest::aTriggerMovesMatter() {
   session().pause();
   QCOMPARE(steps(), before);
   QVERIFY(run.lines("violation").empty());
+  const auto felt = run.lines("haptic");
+  QVERIFY(std::any_of(felt.begin(), felt.end(), [](const auto& line) {
+    return line.value("frequency", 0.0) == 80 && line.value("amplitude", 0.0) > 0.02;
+  }));
 }
 
 /// A wand in either hand, with the brush about its tip, where the hands are: the picture is another one there than
