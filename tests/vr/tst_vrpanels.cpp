@@ -60,6 +60,7 @@ class VrPanelsTest : public PanelsTest {
   void aGripCarriesABoardByItsHeader();
   void aTipCarriesABoardByItsHeader();
   void aBeamAtAnEdgeKeepsWhatItLeft();
+  void aBeamThatTremblesKeepsItsRow();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
   void aBeamIsSeenToWhatItPointsAt();
@@ -356,6 +357,36 @@ void VrPanelsTest::aBeamAtAnEdgeKeepsWhatItLeft() {
   click(vr::kPalette, *play);
   at(vr::kPalette, *undo, QRectF(undo->rect()).center(), false);
   QVERIFY(!isUnder(play) && isUnder(undo));
+}
+
+/// By 0.4 degrees, either way.
+void VrPanelsTest::aBeamThatTremblesKeepsItsRow() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  painted();
+  const auto isWhole = [](const QWidget* one) { return one->visibleRegion().boundingRect() == one->rect(); };
+  ParameterRow *upper = nullptr, *lower = nullptr;
+  const auto rows = panels().widget(vr::kBoard)->findChildren<ParameterRow*>();
+  for (ParameterRow* one : rows)
+    for (ParameterRow* next : rows) {
+      const bool isNext = one->parentWidget() == next->parentWidget() && next->y() == one->y() + one->height();
+      const bool areFree = one->focusPolicy() != Qt::NoFocus && next->focusPolicy() != Qt::NoFocus;
+      if (!upper && isNext && areFree && isWhole(one) && isWhole(next)) upper = one, lower = next;
+    }
+  QVERIFY(upper && lower);
+  const auto under = [&](const QWidget* one) { return one->testAttribute(Qt::WA_UnderMouse); };
+  const double edge = upper->height();
+  const auto points = [&](double y) { at(vr::kBoard, *upper, {30, y}, false); };
+  points(edge / 2);
+  QVERIFY(under(upper) && !under(lower));
+  points(edge + 2);
+  QVERIFY(under(upper) && !under(lower));
+  points(edge + 8);
+  QVERIFY(!under(upper) && under(lower));
+  points(edge - 2);
+  QVERIFY(!under(upper) && under(lower));
+  points(edge - 8);
+  QVERIFY(under(upper) && !under(lower));
 }
 
 void VrPanelsTest::beamsPressAndKeepWhatTheyPress() {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kTwice = 0.4;                   // s within which a second press makes it a double click
 constexpr double kTwiceReach = 8, kSticks = 15;  // px; the latter are 1.5 degrees
+constexpr double kTrembles = 4;                  // px, 0.4 degrees: a row is 26 high
 constexpr double kPushed = 0.7, kScroll = 0.1;   // of a stick's way; s between notches
 constexpr int kNotch = 120;
 
@@ -33,6 +34,18 @@ const QPointingDevice& handDevice() {
 
 bool takesPresses(const QWidget& widget) {
   return widget.isEnabled() && (widget.focusPolicy() != Qt::NoFocus || widget.inherits("QAbstractButton"));
+}
+
+/// px beyond the edge of what a hand was on within which it is meant still, where the hand comes upon something else:
+/// as it presses a button, beside anything that takes presses, and on the next row of several.
+double sticksBeside(const QWidget& last, const QWidget& other, bool pressed) {
+  const bool isButton = qobject_cast<const QAbstractButton*>(&last) != nullptr;
+  if (pressed) return isButton && &other != &last ? kSticks : 0;
+  if (!isButton && !takesPresses(last)) return 0;
+  const bool isBetween = !takesPresses(other) && !qobject_cast<const QAbstractScrollArea*>(other.parentWidget());
+  if (isBetween && (isButton || other.isAncestorOf(&last))) return kSticks;
+  const bool isNext = last.parentWidget() == other.parentWidget() && last.metaObject() == other.metaObject();
+  return isNext && !isButton ? kTrembles : 0;
 }
 
 }  // namespace
@@ -71,18 +84,15 @@ void VrPanels::leave(Pointer& pointer) {
   pointer.on = nullptr;
 }
 
-/// What is there. Where that takes no press, a button that the hand has just left is meant still, at its edge; so is
-/// one that it presses.
+/// What is there, or what the hand has just left, at its edge.
 QWidget* VrPanels::aimedAt(Pointer& pointer) {
   QWidget* child = pointer.on->childAt(pointer.at.toPoint());
   if (!child) child = pointer.on;
-  auto* last = qobject_cast<QAbstractButton*>(pointer.grabs ? pointer.grabs.data() : pointer.under.data());
-  const bool elsewhere = pointer.grabs
-                             ? child != last
-                             : !takesPresses(*child) && !qobject_cast<QAbstractScrollArea*>(child->parentWidget());
-  if (last && elsewhere && pointer.on->isAncestorOf(last)) {
+  QWidget* last = pointer.grabs ? pointer.grabs.data() : pointer.under.data();
+  const double sticks = last ? sticksBeside(*last, *child, pointer.grabs) : 0;
+  if (sticks > 0 && last != child && pointer.on->isAncestorOf(last)) {
     const QRectF own(last->mapTo(pointer.on, QPoint(0, 0)), last->size());
-    if (own.adjusted(-kSticks, -kSticks, kSticks, kSticks).contains(pointer.at)) {
+    if (own.adjusted(-sticks, -sticks, sticks, sticks).contains(pointer.at)) {
       pointer.at = {std::clamp(pointer.at.x(), own.left(), own.right() - 1),
                     std::clamp(pointer.at.y(), own.top(), own.bottom() - 1)};
       return last;
