@@ -431,6 +431,7 @@ SnapshotPtr Engine::snapshot() const {
   snapshot->flags = m->lastReport.flags;
   snapshot->knowsStart = !m->start.empty();
   snapshot->tools = m->tools.contacts(*m->bodyIds);
+  for (ToolContact& hand : m->named.contacts()) snapshot->tools.push_back(std::move(hand));
   snapshot->erasedOrPainted = m->named.erasedOrPainted();
   snapshot->keptForUndo = m->named.bytes();
   snapshot->bodyIds = m->bodyIds;

@@ -21,6 +21,21 @@ constexpr double kFollows = 0.5;
 constexpr double kFastest = 20;  // m/s, at which held matter follows a hand that leaps
 constexpr size_t kMarks = 3;     // moves of a hand over which the velocity is taken of what it lets go
 constexpr double kThrown = 0.1;  // s of simulated time after the last one in which it throws
+constexpr double kFelt = 0.1;    // s over which its effort is smoothed: what is held shakes from frame to frame
+
+/// kg m/s that some changes of velocity give.
+Vector3 impulseOf(const ParticleStore& store, const std::vector<Vector3>& change) {
+  Vector3 sum(0, 0, 0);
+  for (size_t row = 0; row < change.size(); ++row) sum += double{store.mass()[row]} * change[row];
+  return sum;
+}
+
+/// Likewise, whichever way.
+double effortOf(const ParticleStore& store, const std::vector<Vector3>& change) {
+  double sum = 0;
+  for (size_t row = 0; row < change.size(); ++row) sum += double{store.mass()[row]} * change[row].norm();
+  return sum;
+}
 
 bool heats(const api::Touch& touch) { return touch.kind == api::TouchKind::Heat; }
 
@@ -149,21 +164,34 @@ void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
   const Reachable among = reachableBy(api::TouchKind::Push, engine, isSpared);
   const auto holds = [](const api::Touch& touch) { return touch.kind == api::TouchKind::Hold; };
   const bool moved = std::exchange(m_moved, false);
-  if (among.rows.empty() && m_letGo.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return;
-  const double dt = compileSettings(engine.project()).dt;
+  const SolverSettings settings = compileSettings(engine.project());
+  const double dt = settings.dt;
+  if (among.rows.empty() && m_letGo.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return feel({}, dt);
   std::vector<Vector3> change(engine.particles().size(), Vector3(0, 0, 0));
   forEach([&](const api::Touch& touch, double share) {
     if (touch.kind == api::TouchKind::Push) addPush(engine, touch, dt * share, among, change);
   });
+  Effort effort;
+  effort.push = effortOf(engine.particles(), change) / dt;
+  const Vector3 pushed = impulseOf(engine.particles(), change);
   for (size_t k = 0; k < m_still.size(); ++k) {
     if (!holds(m_still[k])) continue;
     if (!m_held[k]) m_held[k] = take(engine, m_first[k], isSpared);
     if (moved) note(engine, vectorOf(m_still[k].centre), *m_held[k]);
     m_held[k]->force = m_still[k].force;
     hold(engine, m_still[k], *m_held[k], change);
+    effort.pull += meanOf(engine, *m_held[k], vectorOf(m_still[k].centre)).mass * vectorOf(settings.gravity);
   }
+  effort.pull += (impulseOf(engine.particles(), change) - pushed) / dt;
+  feel(effort, dt);
   for (const Grip& grip : std::exchange(m_letGo, {})) throwOn(engine, grip, change);
   engine.addVelocities(change);
+}
+
+void Hand::feel(const Effort& now, double seconds) {
+  const double share = 1 - std::exp(-seconds / kFelt);
+  m_effort.pull += share * (now.pull - m_effort.pull);
+  m_effort.push += share * (now.push - m_effort.push);
 }
 
 Hand::Grip Hand::take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared) {

@@ -35,6 +35,9 @@ class Hand {
   /// It has let go, and all that it did is done.
   bool isGone() const { return m_path.empty() && m_still.empty() && m_letGo.empty(); }
   bool hasLetGo() const { return m_still.empty(); }
+  /// N, how hard it works, over the last tenth of a second: what pulls at what it holds, without its weight, and how it
+  /// pushes and stirs, whichever way.
+  double effort() const { return m_effort.pull.norm() + m_effort.push; }
 
  private:
   struct Path {
@@ -74,6 +77,11 @@ class Hand {
   static Mean meanOf(const Engine& engine, const Grip& grip, const Vector3& near);
   static void note(const Engine& engine, const Vector3& centre, Grip& grip);
   static void throwOn(const Engine& engine, const Grip& grip, std::vector<Vector3>& change);
+  struct Effort {
+    Vector3 pull{0, 0, 0};  ///< N
+    double push = 0;        ///< N
+  };
+  void feel(const Effort& now, double seconds);
 
   std::vector<Path> m_path;  ///< one after the other, of about as long
   std::vector<api::Touch> m_still;
@@ -82,6 +90,7 @@ class Hand {
   std::vector<std::optional<Grip>> m_held;  ///< by the touches of m_still; nothing: not yet
   std::vector<Grip> m_letGo;                ///< since the last frame
   bool m_moved = false;                     ///< since then
+  Effort m_effort;
 };
 
 /// Gives particles heat by their ids, or takes it; those that are gone are left out. What each got.

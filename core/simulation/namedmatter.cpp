@@ -118,6 +118,17 @@ std::vector<MatterKey> NamedMatter::hands() const {
   return keys;
 }
 
+std::vector<ToolContact> NamedMatter::contacts() const {
+  std::vector<ToolContact> list;
+  for (const auto& [key, entry] : m_entries) {
+    if (!entry.hand || entry.hand->effort() == 0) continue;
+    ToolContact& contact = list.emplace_back();
+    contact.body = contactOf(key);
+    contact.force = {entry.hand->effort(), 0, 0};
+  }
+  return list;
+}
+
 void NamedMatter::act(Engine& engine) {
   for (auto& [key, entry] : m_entries) {
     if (entry.hand) act(engine, entry);

@@ -46,6 +46,8 @@ Vector3 offsetOf(const ParticleStore& store, size_t row, const api::Double3& cen
   return vectorOf(offset);
 }
 
+std::string contactOf(uint64_t key) { return "hand " + std::to_string(key); }
+
 bool canBe(const api::Touch& touch) {
   const bool place = isFinite(touch.centre) && std::isfinite(touch.radius) && touch.radius > 0 && touch.falloff >= 0 &&
                      touch.falloff <= 1;

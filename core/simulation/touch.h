@@ -16,6 +16,9 @@ namespace ps {
 class Engine;
 class ParticleStore;
 
+/// What the contact of a hand in matter is called among those of tools (ToolContact::body), by the key of its commands.
+/// No body is called so. Its force, N, is along x: how hard the hand works has no direction.
+std::string contactOf(uint64_t key);
 /// Whether its numbers can be done.
 bool canBe(const api::Touch& touch);
 

@@ -253,7 +253,7 @@ class Editor {
   void setPanels(vr::HeadsetView& view) const {
     view.panels[vr::kPalette] = m_showsPanels ? m_palette : vr::PanelView{};
     view.panels[vr::kBoard] = m_showsPanels ? m_board : vr::PanelView{};
-    view.brought = 1;
+    view.brought[0] = 1;
   }
 
   PluginRegistry m_plugins;

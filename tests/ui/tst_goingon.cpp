@@ -370,6 +370,32 @@ class TestGoingOn : public ToolTest {
     QVERIFY(redrawnIn(m_document->project(), ids[0], second, kSpacing, *m_plugins).runs == second.runs);
   }
 
+  /// By the mouse as by a hand: with the body goes what was being drawn on it, and undo brings back the body alone.
+  void aBodyThatGoesTakesWhatIsDrawnOnIt() {
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() && m_engine->snapshot()->bodyIds; }, 20000));
+    const size_t without = count();
+    const std::string bar = drawBar();
+    const size_t whole = count();
+    const std::string before = writeProject(m_document->project());
+    brush("cube", kIce);
+    LiveStroke stroke(*m_tools);
+    QCOMPARE(stroke.begin(false, *now(), {0, 0.42, 0}, {0, 1, 0}, 1.0), QString());
+    stroke.move({0, 0.6, 0}, 0.1, 1.0);
+    QTRY_VERIFY(count() > whole);
+    QCOMPARE(m_document->removeBody(bar), QString());
+    QCOMPARE(count(), without);
+    stroke.move({0, 0.7, 0}, 0.2, 1.0);
+    QVERIFY(stroke.finish().contains(QStringLiteral("was deleted meanwhile")));
+    QVERIFY(!stroke.active() && !stroke.kept());
+    QVERIFY(m_document->project().bodies.empty());
+    QCOMPARE(count(), without);
+    m_document->undoStack().undo();
+    QCOMPARE(writeProject(m_document->project()), before);
+    QCOMPARE(count(), whole);
+    m_link->reset();
+    QCOMPARE(count(), whole);
+  }
+
  private:
   static Project empty() {
     Project project = scenes::iceOnPlate(5, 420, 2500);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/vr/faults.h"
 #include "tests/vr/scriptedrun.h"
 #include "tests/vr/stay.h"
 #include "tests/vr/windowcontext.h"
@@ -24,6 +25,8 @@ class HeadsetX11Test : public QObject {
   void windowsContextIsShared();
   void validationIsSilent_data();
   void validationIsSilent();
+  void validationIsSilentOfFaults_data() { ps::addFaultRows(); }
+  void validationIsSilentOfFaults();
 
  private:
   Stay enter(const ps::StayPlan& plan = {}) {
@@ -81,6 +84,21 @@ void HeadsetX11Test::validationIsSilent() {
   misuse();  // it does listen
   QVERIFY(run.said().contains("VUID-XrSystemGetInfo-type-type"));
   run.forgive();
+}
+
+/// What fails is put away as the specification has it, wherever it failed.
+void HeadsetX11Test::validationIsSilentOfFaults() {
+  QFETCH(QString, script);
+  QFETCH(QString, sentence);
+  const ScriptedRun run(script.toStdString());
+  ps::StayPlan plan;
+  plan.leaveAfter = 60;
+  const Stay stay = enter(plan);
+  QVERIFY(stay.ending.has_value());
+  QCOMPARE(stay.ending->failed, !sentence.isEmpty());
+  QVERIFY2(stay.ending->sentence.find(sentence.toStdString()) != std::string::npos, stay.ending->sentence.c_str());
+  QCOMPARE(run.said(), QByteArray());
+  QVERIFY(run.lines("violation").empty());
 }
 
 QTEST_MAIN(HeadsetX11Test)

@@ -362,6 +362,7 @@ void VrHandsTest::strokesEndWhereBodiesPartAndGo() {
   acts(from, 0);
   for (int k = 0; k < 5; ++k) acts(from + Vector3(0, 0, 0.02 * k), 1);
   QCOMPARE(steps(), begun);
+  QTRY_VERIFY_WITH_TIMEOUT(idsNow(session()).size() > all, kLong);
   if (edit == QStringLiteral("part")) {
     QCOMPARE(document().partBody(id, {{{2, 30, 0}, {3, 30, 0}, {4, 30, 0}}}).size(), size_t{1});
   } else if (edit == QStringLiteral("remove")) {
@@ -384,7 +385,7 @@ void VrHandsTest::strokesEndWhereBodiesPartAndGo() {
   }
   document().undoStack().undo();
   QCOMPARE(writeProject(document().project()), before);
-  if (kept) QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
+  QTRY_COMPARE_WITH_TIMEOUT(idsNow(session()).size(), all, kLong);
 }
 
 /// The left one with its grip held: it draws then, as the right one erases.
@@ -850,11 +851,13 @@ void VrHandsTest::whatIsLetGoInMotionFliesOn() {
     nextFrame();
   }
   vr::HeadsetView told;
+  told.matter = session().newest();
   hands.describe(told);
-  QVERIFY(told.keeps[vr::kRight]);
+  QVERIFY(told.keeps[vr::kRight] && told.felt[vr::kRight].frequency == 80 && told.felt[vr::kRight].strength > 0);
+  QVERIFY(told.felt[vr::kLeft].strength == 0);
   acts(from + (time() - began) * speed, false);
   hands.describe(told);
-  QVERIFY(!told.keeps[vr::kRight]);
+  QVERIFY(!told.keeps[vr::kRight] && told.felt[vr::kRight].strength == 0);
   for (int frame = 0; frame < 3; ++frame) nextFrame();
   const Motion thrown = motionOf(id);
   session().pause();
@@ -1031,7 +1034,7 @@ void VrHandsTest::aTriggerMovesMatter_data() {
   QTest::newRow("stirred") << QStringLiteral("stir");
 }
 
-/// By the hand in the headset, while the scene runs; none of it is a step.
+/// By the hand in the headset, while the scene runs, and felt there; none of it is a step.
 void VrHandsTest::aTriggerMovesMatter() {
   QFETCH(QString, brush);
   const bool stirs = brush == QStringLiteral("stir");
@@ -1058,6 +1061,10 @@ void VrHandsTest::aTriggerMovesMatter() {
   session().pause();
   QCOMPARE(steps(), before);
   QVERIFY(run.lines("violation").empty());
+  const auto felt = run.lines("haptic");
+  QVERIFY(std::any_of(felt.begin(), felt.end(), [](const auto& line) {
+    return line.value("frequency", 0.0) == 80 && line.value("amplitude", 0.0) > 0.02;
+  }));
 }
 
 /// A wand in either hand, with the brush about its tip, where the hands are: the picture is another one there than

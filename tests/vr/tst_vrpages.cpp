@@ -4,6 +4,7 @@
 #include "tests/ui/recordhands.h"
 #include "tests/vr/panelhands.h"
 #include "ui/curves/responselist.h"
+#include "ui/graphs/graphspanel.h"
 #include "ui/graphs/graphview.h"
 #include "ui/panels/outliner.h"
 #include "ui/panels/wayout.h"
@@ -29,6 +30,7 @@ using namespace ps;
 namespace {
 
 constexpr uint64_t kFrames = 12, kFrom = 2, kTo = 8;
+constexpr size_t kOnRight = vr::kBoard + 1, kOnLeft = vr::kBoard + 2;  // panels beside the board
 constexpr double kDuration = 0.4;  // s: a frame is then some fifteen pixels of the board wide
 
 }  // namespace
@@ -56,6 +58,10 @@ class VrPagesTest : public PanelsTest {
   void aGraphIsZoomed_data();
   void aGraphIsZoomed();
   void onePageLeadsToAnother();
+  void pagesAreSetBeside();
+  void panelsAreWorkedOnAtOnce();
+  void whatIsPressedOfAPageThatGoesBeside();
+  void aPanelIsCarriedAndPutAway();
   void rowsReachTheWearer();
 
  private:
@@ -63,6 +69,13 @@ class VrPagesTest : public PanelsTest {
     QTest::addColumn<bool>("byTip");
     QTest::newRow("by a beam") << false;
     QTest::newRow("by a fingertip") << true;
+  }
+  void setBeside(const QString& page) {
+    panels().showPage(page);
+    painted();
+    QToolButton* beside = button(vr::kBoard, "Set this page beside");
+    QVERIFY(beside);
+    click(vr::kBoard, *beside);
   }
   uint64_t shownFrame() { return session().snapshot()->stats.frame; }
   Transport* transport() {
@@ -352,7 +365,7 @@ void VrPagesTest::aGraphIsZoomed() {
   QCOMPARE(document().undoStack().index(), 0);  // as with the mouse, no step
 }
 
-/// A board has no other pages beside the one that it shows: what opens there comes before its wearer.
+/// What opens on the board comes in the place of what it shows.
 void VrPagesTest::onePageLeadsToAnother() {
   enterWithout();
   CurveTarget& curves = m_window->curves();
@@ -395,6 +408,129 @@ void VrPagesTest::onePageLeadsToAnother() {
   m_window->tools().refuse(QStringLiteral("Nothing was drawn."), QStringLiteral("There is no room."));
   QVERIFY(noted(said));
   QTRY_VERIFY_WITH_TIMEOUT(!noted(said), kLong);
+}
+
+/// On panels of their own: two at most, and put away they are the board's again.
+void VrPagesTest::pagesAreSetBeside() {
+  enterWithout();
+  setBeside(QStringLiteral("Graphs"));
+  QVERIFY(!panels().widget(vr::kBoard) && panels().widget(kOnRight) && !panels().widget(kOnLeft));
+  setBeside(QStringLiteral("Transport"));
+  QVERIFY(!panels().widget(vr::kBoard) && panels().widget(kOnLeft));
+  const auto* graphs = panels().widget(kOnRight)->findChild<GraphsPanel*>();
+  const auto* bar = panels().widget(kOnLeft)->findChild<Transport*>();
+  QVERIFY(graphs && graphs->isVisible() && bar && bar->isVisible());
+  setBeside(QStringLiteral("Scene"));
+  QVERIFY(panels().widget(vr::kBoard) && noted(QStringLiteral("The page stays here. ")));
+  panels().showPage(QStringLiteral("Scene"));
+  QVERIFY(!noted(QStringLiteral("The page stays here. ")));
+  // A page that has a panel comes there, also from out of sight.
+  vr::HandsSeen seen;
+  seen.boardAhead[1] = false;
+  vr::HeadsetView before, after;
+  panels().act(seen);
+  panels().describe(before);
+  panels().showPage(QStringLiteral("Graphs"));
+  panels().describe(after);
+  QVERIFY(panels().widget(vr::kBoard)->findChild<ParameterPanel*>() && graphs->window() == panels().widget(kOnRight));
+  QCOMPARE(after.brought[0], before.brought[0]);
+  QCOMPARE(after.brought[1], before.brought[1] + 1);
+  QToolButton* away = button(kOnRight, "Put this panel away");
+  QVERIFY(away);
+  click(kOnRight, *away);
+  QVERIFY(!panels().widget(kOnRight) && panels().widget(kOnLeft));
+  panels().showPage(QStringLiteral("Graphs"));
+  QVERIFY(graphs->isVisible() && graphs->window() == panels().widget(vr::kBoard));
+}
+
+void VrPagesTest::panelsAreWorkedOnAtOnce() {
+  for (int frame = 0; frame < 3; ++frame) hands::stepKept(session());
+  QTRY_COMPARE_WITH_TIMEOUT(shownFrame(), uint64_t{3}, kLong);
+  const std::string body = document().project().bodies.front().id;
+  m_window->selection().selectBody(body);
+  enterWithout();
+  setBeside(QStringLiteral("Graphs"));
+  setBeside(QStringLiteral("Transport"));
+  panels().showPage(QStringLiteral("Body"));
+  painted();
+  auto* graph = panels().widget(kOnRight)->findChild<GraphView*>();
+  auto* bar = panels().widget(kOnLeft)->findChild<Transport*>();
+  ParameterRow* row = rowOf(QStringLiteral("body/%1/temperature").arg(QString::fromStdString(body)));
+  QVERIFY(graph && bar && row);
+  const auto range = [&] { return graph->range().second - graph->range().first; };
+  const double whole = range();
+  at(kOnRight, *graph, graph->plotRect().center(), false, 1);
+  QTRY_VERIFY(range() < 0.95 * whole);
+  const int steps = document().undoStack().index();
+  const QRectF track = row->sliderRect();
+  for (const double share : {0.2, 0.4, 0.6})
+    at(vr::kBoard, *row, {track.left() + share * track.width(), track.center().y()}, true);
+  at(vr::kBoard, *row, {track.left() + 0.6 * track.width(), track.center().y()}, false);
+  QCOMPARE(document().undoStack().index(), steps + 1);
+  document().undoStack().undo();
+  bar->setDuration(kDuration);
+  for (const bool pressed : {false, true, false}) at(kOnLeft, *bar, bar->placeOf(1.0 / 60), pressed);
+  QTRY_VERIFY_WITH_TIMEOUT(session().recorded().isActive(), kLong);
+  session().recorded().showNewest();
+}
+
+/// It is let go, and not clicked.
+void VrPagesTest::whatIsPressedOfAPageThatGoesBeside() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Transport"));
+  painted();
+  const QToolButton* beside = button(vr::kBoard, "Set this page beside");
+  QVERIFY(transport() && beside);
+  const QAbstractButton& loop = *transport()->loopButton();
+  const QPointF held = middleOf(vr::kBoard, loop), on = middleOf(vr::kBoard, *beside);
+  for (const bool pressed : {false, true, false}) {
+    vr::HandsSeen seen;
+    seen.seconds = m_seconds += 1;
+    seen.hands[vr::kLeft].panel = vr::PanelPoint{vr::kBoard, held.x(), held.y(), 1, false, true};
+    seen.hands[vr::kRight].panel = vr::PanelPoint{vr::kBoard, on.x(), on.y(), 1, false, pressed};
+    panels().act(seen);
+    if (pressed) QVERIFY(loop.isDown());
+  }
+  QVERIFY(panels().widget(kOnRight) && !loop.isDown() && !session().recorded().loops());
+}
+
+/// By the hand that the headset has: its grip takes a panel by the header, and it is pressed where that was put.
+void VrPagesTest::aPanelIsCarriedAndPutAway() {
+  ScriptedRun run(vrScript({}, kHandsAway));
+  enter();
+  setBeside(QStringLiteral("Scene"));
+  QVERIFY(panels().widget(kOnRight));
+  const vr::HeadsetView view = painted();
+  vr::Panels geometry;
+  geometry.follow(frameOf({}, {}), view);
+  QVERIFY(geometry.place(kOnRight));
+  const Vector3 from(0.3, 1.15, 0.1), header = geometry.place(kOnRight)->at(0.3, 0.04);
+  const vr::HandPose takes = pointing(from, header), puts = pointing(from, header + Vector3(0.2, 0.3, 0.1));
+  for (const auto& [pose, held] :
+       {std::pair(takes, 0.0), std::pair(takes, 1.0), std::pair(puts, 1.0), std::pair(puts, 0.0)}) {
+    vr::HeadsetFrame frame = frameOf({}, pose);
+    frame.hands[vr::kRight].hold = held;
+    geometry.follow(frame, view);
+  }
+  const QToolButton* away = button(kOnRight, "Put this panel away");
+  QVERIFY(away);
+  const QPointF middle = middleOf(kOnRight, *away);
+  const vr::HandPose presses = pointing(from, geometry.place(kOnRight)->at(middle.x(), middle.y()));
+  run.goOn(vrScript(QStringLiteral(R"(, "pictures": [15, 64])"),
+                    key(0, "right", takes) + key(20, "right", takes) + key(25, "right", takes, kHolds) +
+                        key(55, "right", puts, kHolds) + key(65, "right", puts, kHolds) +
+                        key(70, "right", puts, kHoldsNothing) + key(90, "right", presses, trigger(0)) +
+                        key(110, "right", presses, trigger(0)) + key(115, "right", presses, trigger(1)) +
+                        key(125, "right", presses, trigger(0))));
+  QTRY_VERIFY_WITH_TIMEOUT(!panels().widget(kOnRight), kLong);
+  QTRY_COMPARE_WITH_TIMEOUT(run.lines("picture").size(), size_t{4}, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
+  QCOMPARE(document().undoStack().index(), 0);  // nothing was drawn, nor led
+  const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
+  const auto names = run.texts("picture");
+  for (size_t eye = 0; !folder.isEmpty() && eye < names.size(); ++eye)
+    QImage(QString::fromStdString(names[eye])).save(folder + QStringLiteral("/vr-beside-%1.png").arg(eye));
 }
 
 /// What rows of the board cannot do by themselves: the board and the window say what is refused, a way out is followed,

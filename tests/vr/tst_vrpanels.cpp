@@ -56,7 +56,11 @@ class VrPanelsTest : public PanelsTest {
   void aMenuPinsThePalette();
   void theBoardStandsBeforeTheWearer();
   void theBoardComesFromOutOfSight();
+  void panelsStandSideBySide();
+  void aGripCarriesABoardByItsHeader();
+  void aTipCarriesABoardByItsHeader();
   void aBeamAtAnEdgeKeepsWhatItLeft();
+  void aBeamThatTremblesKeepsItsRow();
   void beamsPressAndKeepWhatTheyPress();
   void tipsPressWhatTheyGoThrough();
   void aBeamIsSeenToWhatItPointsAt();
@@ -217,7 +221,7 @@ void VrPanelsTest::theBoardStandsBeforeTheWearer() {
   panels.follow(turned, view);
   QCOMPARE(panels.place(vr::kBoard)->pose.position, stands);
   QVERIFY(panels.isBoardAhead(scriptHead()) && !panels.isBoardAhead(turned.head));
-  ++view.brought;
+  ++view.brought[0];
   panels.follow(turned, view);
   QVERIFY(panels.place(vr::kBoard)->pose.position.x() < scriptHead().position.x() - 0.7);
   QVERIFY(panels.isBoardAhead(turned.head));
@@ -229,13 +233,13 @@ void VrPanelsTest::theBoardComesFromOutOfSight() {
   panels().showPage(QStringLiteral("Brush"));
   const auto brought = [&](bool ahead, const std::function<void()>& asks) {
     vr::HandsSeen seen;
-    seen.boardAhead = ahead;
+    seen.boardAhead[0] = ahead;
     vr::HeadsetView before, after;
     panels().describe(before);
     panels().act(seen);
     asks();
     panels().describe(after);
-    return after.brought - before.brought;
+    return after.brought[0] - before.brought[0];
   };
   QCOMPARE(brought(false, [&] { panels().toggleBoard(); }), uint64_t{1});
   QVERIFY(panels().widget(vr::kBoard));
@@ -243,6 +247,95 @@ void VrPanelsTest::theBoardComesFromOutOfSight() {
   QCOMPARE(brought(true, [&] { panels().showPage(QStringLiteral("Brush")); }), uint64_t{0});
   QCOMPARE(brought(true, [&] { panels().toggleBoard(); }), uint64_t{0});
   QVERIFY(!panels().widget(vr::kBoard));
+}
+
+/// As far from the eyes, turned to them, and none before another.
+void VrPanelsTest::panelsStandSideBySide() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  for (size_t board = 1; board < vr::kBoards; ++board) view.panels[vr::kBoard + board] = view.panels[vr::kBoard];
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard), right = *panels.place(vr::kBoard + 1),
+                          left = *panels.place(vr::kBoard + 2);
+  const Vector3 eyes = scriptHead().position;
+  for (const vr::Panels::Place& one : {board, right, left}) {
+    const Vector3 way = eyes - one.pose.position;
+    QVERIFY(std::abs(way.norm() - 0.75) < 1e-9);
+    QVERIFY((one.pose.orientation * Vector3::UnitZ()).dot(way.normalized()) > 1 - 1e-9);
+  }
+  const auto heading = [&](const Vector3& place) {
+    const Vector3 way = place - eyes;
+    return std::atan2(way.x(), -way.z());
+  };
+  for (const double y : {0.0, 1.0}) {
+    QVERIFY(heading(left.at(1, y)) < heading(board.at(0, y)));
+    QVERIFY(heading(board.at(1, y)) < heading(right.at(0, y)));
+  }
+  view.panels[vr::kBoard].image = nullptr;
+  panels.follow(frameOf({}, {}), view);
+  QVERIFY(!panels.place(vr::kBoard) && panels.place(vr::kBoard + 1) && panels.place(vr::kBoard + 2));
+}
+
+/// At the end of the beam, turned to the wearer, until the grip is let go; no other part of it is taken.
+void VrPanelsTest::aGripCarriesABoardByItsHeader() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  view.panels[vr::kBoard].header = 0.09;
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard);
+  const Vector3 hand(0.3, 1.1, 0), eyes = scriptHead().position;
+  const vr::HandPose middle = pointing(hand, board.at(0.5, 0.5)), header = pointing(hand, board.at(0.3, 0.04)),
+                     away = pointing({0.2, 1.3, 0.1}, {-0.6, 1.2, -0.3});
+  const auto hold = [&](const vr::HandPose& pose, double held, bool busy = false) {
+    vr::HeadsetFrame frame = frameOf({}, pose);
+    frame.hands[vr::kRight].hold = held;
+    panels.follow(frame, view, busy);
+    return *panels.place(vr::kBoard);
+  };
+  for (const double held : {0.0, 1.0}) hold(middle, held);
+  QCOMPARE(hold(away, 1).pose.position, board.pose.position);
+  hold(header, 1);  // it was pressed elsewhere
+  QVERIFY(!panels.carries(vr::kRight));
+  hold(header, 0);
+  hold(header, 1, true);  // it carries the scene
+  QVERIFY(!panels.carries(vr::kRight));
+  for (const double held : {0.0, 1.0}) hold(header, held);
+  QVERIFY(panels.carries(vr::kRight));
+  const vr::Panels::Place carried = hold(away, 1);
+  const Vector3 end = away.position + (board.at(0.3, 0.04) - hand).norm() * (away.orientation * Vector3(0, 0, -1));
+  QVERIFY((carried.at(0.3, 0.04) - end).norm() < 1e-6);
+  QVERIFY((carried.pose.orientation * Vector3::UnitZ()).dot((eyes - end).normalized()) > 1 - 1e-9);
+  const auto& point = panels.pointed(vr::kRight);
+  QVERIFY(point && point->panel == vr::kBoard && !point->pressed && std::abs(point->y - 0.04) < 1e-6);
+  hold(away, 0);
+  QVERIFY(!panels.carries(vr::kRight));
+  QCOMPARE(hold(middle, 0).pose.position, carried.pose.position);
+  ++view.brought[0];
+  QCOMPARE(hold(middle, 0).pose.position, board.pose.position);
+}
+
+/// Where its tip is, which presses nothing on the way.
+void VrPanelsTest::aTipCarriesABoardByItsHeader() {
+  vr::Panels panels;
+  vr::HeadsetView view = emptyView();
+  view.panels[vr::kBoard].header = 0.09;
+  panels.follow(frameOf({}, {}), view);
+  const vr::Panels::Place board = *panels.place(vr::kBoard);
+  const Vector3 front = board.pose.orientation * Vector3::UnitZ(), to = board.at(0.7, 0.05);
+  vr::HandPose hand = pointing(to + (0.02 + vr::kTip) * front, to);
+  const Vector3 before = hand.position + hand.orientation * Vector3(0, 0, -vr::kTip);
+  const auto hold = [&](double held) {
+    vr::HeadsetFrame frame = frameOf({}, hand);
+    frame.hands[vr::kRight].hold = held;
+    panels.follow(frame, view);
+  };
+  for (const double held : {0.0, 1.0}) hold(held);
+  QVERIFY(panels.carries(vr::kRight) && panels.pointed(vr::kRight)->tip);
+  hand.position += Vector3(0.1, 0.2, 0.05);
+  hold(1);
+  const Vector3 after = hand.position + hand.orientation * Vector3(0, 0, -vr::kTip);
+  QVERIFY((panels.place(vr::kBoard)->own(after) - board.own(before)).norm() < 1e-6);
+  QVERIFY(panels.pointed(vr::kRight) && !panels.pointed(vr::kRight)->pressed);
 }
 
 /// A gap is no target: what a hand has just been on stays meant within 1.5 degrees of its edge.
@@ -264,6 +357,36 @@ void VrPanelsTest::aBeamAtAnEdgeKeepsWhatItLeft() {
   click(vr::kPalette, *play);
   at(vr::kPalette, *undo, QRectF(undo->rect()).center(), false);
   QVERIFY(!isUnder(play) && isUnder(undo));
+}
+
+/// By 0.4 degrees, either way.
+void VrPanelsTest::aBeamThatTremblesKeepsItsRow() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  painted();
+  const auto isWhole = [](const QWidget* one) { return one->visibleRegion().boundingRect() == one->rect(); };
+  ParameterRow *upper = nullptr, *lower = nullptr;
+  const auto rows = panels().widget(vr::kBoard)->findChildren<ParameterRow*>();
+  for (ParameterRow* one : rows)
+    for (ParameterRow* next : rows) {
+      const bool isNext = one->parentWidget() == next->parentWidget() && next->y() == one->y() + one->height();
+      const bool areFree = one->focusPolicy() != Qt::NoFocus && next->focusPolicy() != Qt::NoFocus;
+      if (!upper && isNext && areFree && isWhole(one) && isWhole(next)) upper = one, lower = next;
+    }
+  QVERIFY(upper && lower);
+  const auto under = [&](const QWidget* one) { return one->testAttribute(Qt::WA_UnderMouse); };
+  const double edge = upper->height();
+  const auto points = [&](double y) { at(vr::kBoard, *upper, {30, y}, false); };
+  points(edge / 2);
+  QVERIFY(under(upper) && !under(lower));
+  points(edge + 2);
+  QVERIFY(under(upper) && !under(lower));
+  points(edge + 8);
+  QVERIFY(!under(upper) && under(lower));
+  points(edge - 2);
+  QVERIFY(!under(upper) && under(lower));
+  points(edge - 8);
+  QVERIFY(under(upper) && !under(lower));
 }
 
 void VrPanelsTest::beamsPressAndKeepWhatTheyPress() {

@@ -214,7 +214,10 @@ void SceneLink::onBody(const BodyChanged& event) {
     m_engine.apply(MoveBody{std::make_shared<const Body>(*body), *event.move, event.led && runs()});
     return;
   }
-  if (event.matter && !body) m_engine.apply(TakeBody{event.id, keyOf(event.matter)});
+  if (event.matter && !body) {
+    takeDrawn(event.id);
+    m_engine.apply(TakeBody{event.id, keyOf(event.matter)});
+  }
   pushProject();
   if (!event.matter || !body) return;
   std::vector<NameMatter> named = namedMatter();
@@ -420,17 +423,28 @@ void SceneLink::hear(const EngineEvent& event) {
 }
 
 bool SceneLink::any(const Strokes& strokes) {
-  return std::any_of(strokes.begin(), strokes.end(), [](const auto& stroke) { return !stroke.expired(); });
+  return std::any_of(strokes.begin(), strokes.end(), [](const Drawn& stroke) { return !stroke.matter.expired(); });
 }
 
 bool SceneLink::drop(Strokes& strokes, const MatterRef& stroke) {
-  return std::erase_if(strokes, [&](const auto& one) { return one.lock() == stroke; }) > 0;
+  return std::erase_if(strokes, [&](const Drawn& one) { return one.matter.lock() == stroke; }) > 0;
 }
 
 MatterKey SceneLink::draws(const StrokeRecord& stroke) {
   drop(m_drawn, stroke.matter);
-  m_drawn.push_back(stroke.matter);
+  m_drawn.push_back({stroke.matter, stroke.erase ? std::string() : stroke.body});
   return keyOf(stroke.matter);
+}
+
+/// What hands have drawn on a body that goes is none of what comes back with it: the document knows nothing of it.
+/// Where that is undone in the middle of a stroke, which goes on then, the start is made anew with all of it.
+void SceneLink::takeDrawn(const std::string& body) {
+  for (const Drawn& drawn : m_drawn) {
+    const MatterRef matter = drawn.matter.lock();
+    if (!matter || drawn.on != body) continue;
+    m_engine.apply(TakeMatter{keyOf(matter)});
+    m_cutOff.push_back(drawn);
+  }
 }
 
 void SceneLink::paint(const StrokeRecord& stroke, std::shared_ptr<const Body> body,

@@ -69,6 +69,7 @@ class SceneLink : public QObject {
   void onChanged(const ChangeEvent& event);
   void remember(const StrokeChanged& event);
   MatterKey draws(const StrokeRecord& stroke);  ///< the key of a piece of it
+  void takeDrawn(const std::string& body);
   void onStroke(const StrokeChanged& event);
   void undoStroke(const std::shared_ptr<StrokeRecord>& stroke);
   void redoStroke(const std::shared_ptr<StrokeRecord>& stroke);
@@ -93,7 +94,11 @@ class SceneLink : public QObject {
   QTimer m_soon;
   bool m_waits = false;    ///< a reset, for the last value of a drag
   bool m_givenUp = false;  ///< the scene was not made as the last values have it
-  using Strokes = std::vector<std::weak_ptr<const MatterKey>>;
+  struct Drawn {
+    std::weak_ptr<const MatterKey> matter;
+    std::string on;  ///< the body to which it adds; "": it erases or paints
+  };
+  using Strokes = std::vector<Drawn>;
   static bool any(const Strokes& strokes);
   static bool drop(Strokes& strokes, const MatterRef& stroke);  ///< whether it was among them
   Strokes m_drawn;                                              ///< by hands, which the document does not know yet

@@ -36,9 +36,10 @@ class HandBrush {
   bool finishes() const { return m_finishes; }  ///< what changes in the document is the end of its stroke
   void cancel();  ///< gives up what it does; it begins again when its trigger is pressed anew
   bool active() const { return m_stroke.active() || m_touch.active(); }
-  bool stands() const { return m_stroke.stands(); }  ///< LiveStroke::stands()
-  bool heats() const { return m_touch.heats(); }     ///< or cools, now
-  uint64_t begun() const { return m_begun; }         ///< strokes so far
+  bool stands() const { return m_stroke.stands(); }                             ///< LiveStroke::stands()
+  bool heats() const { return m_touch.heats(); }                                ///< or cools, now
+  double effort(const Snapshot& scene) const { return m_touch.effort(scene); }  ///< N, of a hand in matter there
+  uint64_t begun() const { return m_begun; }                                    ///< strokes so far
 
  private:
   void begin(const HandInScene& hand, const SnapshotPtr& scene);

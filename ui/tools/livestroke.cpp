@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/livestroke.h"
 
+#include "core/base/error.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/group.h"
 #include "core/scene/pose.h"
@@ -285,6 +286,7 @@ bool LiveStroke::stands() const {
 
 /// Cells that have come go to the engine.
 void LiveStroke::take() {
+  if (!stands()) throw Error("The body that it goes on with, or its material, was deleted meanwhile.");
   const std::vector<api::Cell> fresh = m_thread->take();
   if (fresh.empty()) return;
   m_cells.add(fresh);
@@ -359,8 +361,12 @@ QString LiveStroke::finish() {
   if (m_record && !m_problem.isEmpty()) forgetBeyond(m_thread->places());
   m_thread.reset();
   m_sight.show(nullptr);
-  m_kept = m_record && !m_cells.empty();
-  if (m_record) keep();  // what came so far stays, unless the brush failed
+  const bool isLost = !stands();
+  m_kept = m_record && !isLost && !m_cells.empty();
+  if (isLost)
+    cancel();
+  else if (m_record)
+    keep();  // what came so far stays, unless the brush failed
   return std::exchange(m_problem, {});
 }
 

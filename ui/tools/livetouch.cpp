@@ -2,6 +2,7 @@
 #include "ui/tools/livetouch.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/simulation/touch.h"
 #include "core/sketch/matterbrush.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -147,6 +148,14 @@ void LiveTouch::watch() {
   const bool isLost = m_call.valid() && ++m_looked > kBrushLooks * (kBrushLook / kLook);
   const QString problem = isLost ? fail(kNotBack) : goOn(std::chrono::milliseconds(0));
   if (!problem.isEmpty()) m_onTrouble(problem);
+}
+
+double LiveTouch::effort(const Snapshot& scene) const {
+  if (!m_record) return 0;
+  const std::string name = contactOf(*m_record->matter);
+  const auto found =
+      std::find_if(scene.tools.begin(), scene.tools.end(), [&](const ToolContact& one) { return one.body == name; });
+  return found == scene.tools.end() ? 0 : found->force.norm();
 }
 
 void LiveTouch::lift() {

@@ -44,6 +44,7 @@ class LiveTouch {
   bool active() const { return m_record != nullptr; }
   bool heats() const { return active() && m_heats; }  ///< or cools
   bool holds() const { return m_holds; }              ///< it carries what it has taken hold of
+  double effort(const Snapshot& scene) const;         ///< N, how hard it worked there
 
  private:
   /// What the brush does along a way, and where the hand is at its end.

@@ -26,14 +26,16 @@ struct BrushVolume {
   std::shared_ptr<const StampForm> form{};  ///< what it fills of it; nullptr: the box or the ball
 };
 
+inline constexpr size_t kBoards = 3;  ///< the first bears what is asked for, the others what is set beside it
 /// Panels of the interface: the later ones lie over the earlier ones.
-enum PanelIndex : size_t { kPalette, kBoard, kPopup, kPanels };
+enum PanelIndex : size_t { kPalette, kBoard, kPopup = kBoard + kBoards, kPanels };
 
 struct PanelView {
   std::shared_ptr<const PanelImage> image;  ///< nullptr: it is not there
   double width = 0, height = 0;             ///< m
   size_t on = kBoard;                       ///< of a popup: that it came from
   double right = 0, down = 0;               ///< m, of a popup: of its middle from that of the other
+  double header = 0;                        ///< share of its height, from its upper edge, by which a grip takes it
 };
 
 /// Where a hand points at a panel.
@@ -57,9 +59,9 @@ struct HandsSeen {
   };
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
-  bool carries = false;    ///< both grips carry the scene
-  bool boardAhead = true;  ///< the board is before the wearer's eyes, or put away
-  HandRoles roles;         ///< as the view had them
+  bool carries = false;                                    ///< both grips carry the scene
+  std::array<bool, kBoards> boardAhead{true, true, true};  ///< a board is before the wearer's eyes, or put away
+  HandRoles roles;                                         ///< as the view had them
 };
 
 /// What a hand feels for as long as it does.
@@ -82,8 +84,8 @@ struct HeadsetView {
   std::array<bool, 2> keeps{};         ///< what they have in them: a body that they lead, or matter that they carry
   double vibration = 1;                ///< share of what can be felt that its wearer wants
   std::array<PanelView, kPanels> panels;
-  std::array<PanelView, 2> labels;  ///< of what the hands hold, beside them
-  uint64_t brought = 0;             ///< with another one the board is set before its wearer anew
+  std::array<PanelView, 2> labels;          ///< of what the hands hold, beside them
+  std::array<uint64_t, kBoards> brought{};  ///< with another one a board is set before its wearer anew
   HandRoles roles;
   double raised = 0;              ///< m, by which the scene stands lower than before one who sits
   int64_t turns = 0;              ///< by 30 degrees that were asked for so far, to the right less those to the left

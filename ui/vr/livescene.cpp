@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace ps::vr {
 namespace {
@@ -33,8 +34,10 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& s
     hold = m_holds[hand] ? 1 : 0;
   }
   take(m_link->shown(), frame);
-  m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.goes()), m_view->keeps);
-  m_panels.follow(frame, *m_view);
+  std::array<bool, 2> keeps = m_view->keeps;
+  for (const size_t hand : {kLeft, kRight}) keeps[hand] = keeps[hand] || m_panels.carries(hand);
+  m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.goes()), keeps);
+  m_panels.follow(frame, *m_view, m_moving.carries());
   tellHands(frame);
   showHands(frame);
   prepareMatter(frame);
@@ -60,14 +63,14 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
   seen.carries = m_moving.carries();
-  seen.boardAhead = m_panels.isBoardAhead(frame.head);
+  for (size_t board = 0; board < kBoards; ++board) seen.boardAhead[board] = m_panels.isBoardAhead(frame.head, board);
   seen.roles = m_view->roles;
   for (const size_t hand : {kLeft, kRight}) {
     const HandInput& input = frame.hands[hand];
     HandsSeen::Hand& told = seen.hands[hand];
     told.input = input;
     told.input.joints.reset();  // they are for the eye alone
-    told.holds = input.hold > kHeld && !m_moving.usesGrip(hand);
+    told.holds = input.hold > kHeld && !m_moving.usesGrip(hand) && !m_panels.carries(hand);
     told.panel = m_moving.carries() ? std::nullopt : m_panels.pointed(hand);
     if (m_moving.carries() || m_moving.takes(hand) || m_panels.takes(hand)) told.input.draw = 0;
     if (m_moving.steers(hand, input) && !told.panel) told.input.steerX = told.input.steerY = 0;
@@ -115,7 +118,8 @@ void LiveScene::showHands(const HeadsetFrame& frame) {
   m_moving.addTo(m_props, frame, m_view->accent);
 }
 
-/// A tick for each stroke that began, and for what is pointed at on panels; a rumble for as long as matter is felt.
+/// A tick for each stroke that began, for what is pointed at on panels, and for a panel that is taken; a rumble for as
+/// long as matter is felt.
 std::array<std::optional<Vibration>, 2> LiveScene::feel() {
   std::array<std::optional<Vibration>, 2> felt;
   for (const size_t hand : {kLeft, kRight}) {
@@ -124,7 +128,9 @@ std::array<std::optional<Vibration>, 2> LiveScene::feel() {
     if (strength > kLeast) felt[hand] = Vibration{strength, frequency, kFrames};
     Vibration tick;
     tick.amplitude *= m_view->vibration;
-    if (m_view->ticks[hand] > m_felt[hand] && tick.amplitude > 0) felt[hand] = tick;
+    const bool carried = std::exchange(m_carries[hand], m_panels.carries(hand));
+    const bool ticks = m_view->ticks[hand] > m_felt[hand] || (m_carries[hand] && !carried);
+    if (ticks && tick.amplitude > 0) felt[hand] = tick;
     m_felt[hand] = m_view->ticks[hand];
   }
   return felt;

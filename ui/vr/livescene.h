@@ -22,6 +22,7 @@ class LiveScene : public HeadsetScene {
   void draw(size_t eye, const Eye& view, const RenderTarget& target) override;
   /// m along where a hand would point from a place in the room, to the first panel of the last frame.
   std::optional<double> panelAhead(const HandPose& aim) const { return m_panels.ahead(aim); }
+  bool carriesPanel(size_t hand) const { return m_panels.carries(hand); }
   bool hasDepth() const override { return true; }
   void drawDepth(size_t eye, const Eye& view, const RenderTarget& target) override;
   /// As Renderer::timePasses().
@@ -44,6 +45,7 @@ class LiveScene : public HeadsetScene {
   Moving m_moving;
   std::array<uint64_t, 2> m_felt{};  ///< ticks
   std::array<bool, 2> m_holds{};     ///< their grips are pressed
+  std::array<bool, 2> m_carries{};   ///< panels, as was felt
   Panels m_panels;
   Props m_props;             ///< kept for its memory
   size_t m_panelsThere = 0;  ///< of those in it: the others are before the eye

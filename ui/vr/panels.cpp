@@ -16,8 +16,9 @@ constexpr double kHandAway = 0.5;                         // m, of a hand from t
 constexpr double kFacing = 0.55, kStillFacing = 0.4;      // cosine between the palm and the way to the eyes
 constexpr double kAway = 0.75, kBelow = 15 * kDegree;     // of the board: m from the eyes, and from their level
 constexpr double kFarBoard = 1.5, kAhead = 0.6;           // m, and cosine of an angle: it is out of sight beyond
-constexpr double kBesideHand = 0.05;                      // m, of labels
-constexpr double kBeforePanel = 0.006;                    // m, of a popup
+constexpr std::array<double, kBoards> kAside{0, -44 * kDegree, 44 * kDegree};  // to the left: a board is 41 wide
+constexpr double kBesideHand = 0.05;                                           // m, of labels
+constexpr double kBeforePanel = 0.006;                                         // m, of a popup
 constexpr double kEdge = 0.026;  // tangent of 1.5 degrees, by which a beam may leave what it is on
 constexpr double kAnywhere = 3;  // likewise, while it presses; of a tip, m
 constexpr double kNear = 0.03, kThrough = 0.002, kBack = 0.01;  // m of a tip from a panel
@@ -28,6 +29,12 @@ constexpr double kPull = 0.5, kLetGo = 0.3;                     // of a trigger'
 Quaternion facing(const Vector3& from, const Vector3& to, double tilt) {
   const double heading = std::atan2(to.x() - from.x(), to.z() - from.z());
   return Quaternion(Eigen::AngleAxisd(heading, Vector3::UnitY()) * Eigen::AngleAxisd(-tilt, Vector3::UnitX()));
+}
+
+/// Likewise, and leaning as far as that is above or below it.
+Quaternion turnedTo(const Vector3& from, const Vector3& to) {
+  const Vector3 way = to - from;
+  return facing(from, to, std::atan2(way.y(), std::hypot(way.x(), way.z())));
 }
 
 }  // namespace
@@ -42,11 +49,12 @@ bool Panels::Place::holds(const Vector3& own, double edge) const {
   return std::abs(own.x()) < width / 2 + edge && std::abs(own.y()) < height / 2 + edge;
 }
 
-void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view) {
+void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view, bool busy) {
   m_head = frame.head.position;
   if (std::exchange(m_roles, view.roles) != view.roles) m_pinned.reset();
   placePalette(frame, view.panels[kPalette]);
-  placeBoard(frame, view);
+  for (size_t board = 0; board < kBoards; ++board) placeBoard(board, frame, view);
+  for (const size_t hand : {kLeft, kRight}) carry(hand, frame.hands[hand], view, busy);
   placePopup(view);
   for (const size_t hand : {kLeft, kRight}) {
     point(hand, frame.hands[hand]);
@@ -103,28 +111,57 @@ HandPose Panels::atWrist(const HandPose& palm) const {
   return {middle, facing(middle, m_head, kTilt)};
 }
 
-bool Panels::isBoardAhead(const HandPose& head) const {
-  const std::optional<Place>& board = m_places[kBoard];
-  if (!board) return true;
-  const Vector3 way = board->pose.position - head.position;
+bool Panels::isBoardAhead(const HandPose& head, size_t board) const {
+  const std::optional<Place>& place = m_places.at(kBoard + board);
+  if (!place) return true;
+  const Vector3 way = place->pose.position - head.position;
   return way.norm() < kFarBoard && way.normalized().dot(head.orientation * Vector3(0, 0, -1)) > kAhead;
 }
 
-/// It stays where it was brought.
-void Panels::placeBoard(const HeadsetFrame& frame, const HeadsetView& view) {
-  const PanelView& board = view.panels[kBoard];
-  m_places[kBoard].reset();
-  if (!board.image) return;
-  if (!m_board || m_brought != view.brought) {
-    m_brought = view.brought;
+/// It stays where it was brought, or put down.
+void Panels::placeBoard(size_t board, const HeadsetFrame& frame, const HeadsetView& view) {
+  const PanelView& shown = view.panels[kBoard + board];
+  std::optional<HandPose>& stands = m_boards[board];
+  m_places[kBoard + board].reset();
+  if (!shown.image) return;
+  if (!stands || m_brought[board] != view.brought[board]) {
+    m_brought[board] = view.brought[board];
     const Vector3 looks = frame.head.orientation * Vector3(0, 0, -1);
-    const double heading = std::atan2(-looks.x(), -looks.z()), level = kAway * std::cos(kBelow);
+    const double heading = std::atan2(-looks.x(), -looks.z()) + kAside[board], level = kAway * std::cos(kBelow);
     HandPose pose;
     pose.position = m_head + Vector3(-level * std::sin(heading), -kAway * std::sin(kBelow), -level * std::cos(heading));
     pose.orientation = facing(pose.position, m_head, kBelow);
-    m_board = pose;
+    stands = pose;
   }
-  m_places[kBoard] = Place{*m_board, board.width, board.height};
+  m_places[kBoard + board] = Place{*stands, shown.width, shown.height};
+}
+
+/// Where a board that it carries is put away meanwhile, nothing else is taken before the grip is let go.
+void Panels::carry(size_t hand, const HandInput& input, const HeadsetView& view, bool busy) {
+  const bool held = std::exchange(m_holds[hand], input.hold > kPull);
+  std::optional<Carried>& carried = m_carried[hand];
+  if (!m_holds[hand]) return carried.reset();
+  if (busy || !input.aim) return;
+  if (!held) takeBoard(hand, *input.aim, view);
+  if (!carried || !m_places[carried->panel]) return;
+  const Vector3 at = input.aim->position + input.aim->orientation * Vector3(0, 0, -carried->along);
+  HandPose& pose = *m_boards[carried->panel - kBoard];
+  pose.orientation = turnedTo(at, m_head);
+  pose.position = at - pose.orientation * carried->own;
+  m_places[carried->panel]->pose = pose;
+}
+
+/// Of a header that it points at and does not press.
+void Panels::takeBoard(size_t hand, const HandPose& aim, const HeadsetView& view) {
+  const std::optional<PanelPoint>& point = m_pointed[hand];
+  if (!point || point->pressed || !m_places[point->panel]) return;
+  const double header = view.panels[point->panel].header;
+  if (header <= 0 || point->y > header) return;
+  const std::optional<Carried>& other = m_carried[1 - hand];
+  if (other && other->panel == point->panel) return;
+  const double along = point->tip ? kTip : point->depth;
+  const Vector3 at = aim.position + aim.orientation * Vector3(0, 0, -along);
+  m_carried[hand] = Carried{point->panel, m_places[point->panel]->own(at), along};
 }
 
 void Panels::placePopup(const HeadsetView& view) {
@@ -143,8 +180,8 @@ void Panels::placePopup(const HeadsetView& view) {
 void Panels::placeLabels(size_t hand, const HandInput& input, const PanelView& labels) {
   m_labels[hand].reset();
   if (!input.grip || !labels.image) return;
-  const Vector3 at = input.grip->position, toEyes = m_head - at;
-  const Quaternion front = facing(at, m_head, std::atan2(toEyes.y(), std::hypot(toEyes.x(), toEyes.z())));
+  const Vector3 at = input.grip->position;
+  const Quaternion front = turnedTo(at, m_head);
   const double aside = (hand == kLeft ? -1 : 1) * (kBesideHand + labels.width / 2);
   m_labels[hand] = Place{{at + front * Vector3(aside, 0, 0), front}, labels.width, labels.height};
 }

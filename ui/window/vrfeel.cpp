@@ -23,8 +23,6 @@ constexpr double kFlat = 1e-3;  // spread of matter along an axis, of that along
 
 double felt(double much, double clear) { return 1 - std::exp(-std::abs(much) / clear); }
 
-vr::Feeling stronger(const vr::Feeling& a, const vr::Feeling& b) { return b.strength > a.strength ? b : a; }
-
 /// Calls use(offset from the place in m, volume, index) for what is there.
 template <class Use>
 void each(const Snapshot& scene, const Vector3& place, double radius, Use use) {
@@ -74,8 +72,12 @@ double changingAt(const Snapshot& scene, const Vector3& place, double radius) {
   return all > 0 ? changing / all : 0;
 }
 
+vr::Feeling stronger(const vr::Feeling& a, const vr::Feeling& b) { return b.strength > a.strength ? b : a; }
+
+vr::Feeling feelingOfEffort(double effort) { return {felt(effort, kFirm), kForceTone}; }
+
 vr::Feeling feelingOf(const ToolContact& contact) {
-  const vr::Feeling force{felt(contact.force.norm(), kFirm), kForceTone};
+  const vr::Feeling force = feelingOfEffort(contact.force.norm());
   const vr::Feeling heat{felt(contact.gradient, kSteep), kHeatTone}, latent{felt(contact.latent, kTaken), kLatentTone};
   return stronger(stronger(force, heat), latent);
 }

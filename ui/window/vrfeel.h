@@ -10,6 +10,11 @@ namespace ps {
 /// apart.
 vr::Feeling feelingOf(const ToolContact& contact);
 
+/// What a hand feels that carries, pushes or stirs matter so hard, N.
+vr::Feeling feelingOfEffort(double effort);
+
+vr::Feeling stronger(const vr::Feeling& a, const vr::Feeling& b);
+
 /// What a hand that heats or cools feels of the matter within `radius` m of a place: how steeply its temperature
 /// changes from place to place, or how much of it takes up latent heat, or gives it, whichever is stronger.
 ///

@@ -218,7 +218,8 @@ std::array<float, 3> VrHands::colour(size_t hand, const vr::HandRoles& roles, co
   return channels(theme[Token::Accent]);
 }
 
-/// Of the body that it leads, or of the matter that it heats or cools.
+/// Of the body that it leads, or of the matter that it heats or cools, carries, pushes or stirs. While no time passes
+/// nothing pulls at a hand.
 vr::Feeling VrHands::feeling(size_t hand, const Snapshot* scene) const {
   if (!scene) return {};
   if (m_held[hand].active()) {
@@ -228,7 +229,10 @@ vr::Feeling VrHands::feeling(size_t hand, const Snapshot* scene) const {
     return found == scene->tools.end() ? vr::Feeling{} : feelingOf(*found);
   }
   const std::optional<Vector3>& tip = m_seen.hands[hand].tip;
-  return tip && m_brushes[hand].heats() ? feelingOf(*scene, *tip, m_tools.brush().radius) : vr::Feeling{};
+  const double effort = m_brushes[hand].effort(*scene) + m_grabs[hand].effort(*scene);
+  const vr::Feeling force = m_session.playing() ? feelingOfEffort(effort) : vr::Feeling{};
+  const bool heats = tip && m_brushes[hand].heats();
+  return heats ? stronger(feelingOf(*scene, *tip, m_tools.brush().radius), force) : force;
 }
 
 void VrHands::describe(vr::HeadsetView& view) {

@@ -14,8 +14,6 @@
 #include <optional>
 
 class QEvent;
-class QLabel;
-class QStackedWidget;
 class QWidget;
 
 namespace ps {
@@ -26,12 +24,14 @@ class Inspector;
 class Session;
 class Toolbox;
 class Viewport;
+class VrBoard;
 class VrLabels;
 class VrPalette;
 struct PanelContext;
 
-/// The interface in the headset: the palette, and the window's own pages on a board, painted where no screen shows
-/// them. Hands that point at them act as a mouse does; a menu that opens there comes along.
+/// The interface in the headset: the palette, and the window's own pages on a board, or on panels of their own beside
+/// it, painted where no screen shows them. Hands that point at them act as a mouse does; a menu that opens there comes
+/// along.
 class VrPanels : public QObject {
   Q_OBJECT
  public:
@@ -49,6 +49,7 @@ class VrPanels : public QObject {
   void letGo();
   /// Sets the board before the wearer, or puts it away where they have it before them.
   void toggleBoard();
+  /// On the panel of its own that it may have, or on the board.
   void showPage(const QString& title);
   /// What the controllers' parts do: of themselves for the first two minutes, then where they are asked for.
   void showLabels(bool shown);
@@ -73,6 +74,7 @@ class VrPanels : public QObject {
     QPointF pressedAt;
     uint64_t ticks = 0;
   };
+  // vrpanelhands.cpp
   void follow(Pointer& pointer, const std::optional<vr::PanelPoint>& point, double seconds);
   QWidget* aimedAt(Pointer& pointer);
   void enter(Pointer& pointer, QWidget* under);
@@ -83,24 +85,31 @@ class VrPanels : public QObject {
   void leave(Pointer& pointer);
   void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button);
   void deliver(QWidget& target, QEvent& event);
+  // vrpanels.cpp
   QWidget* makePage(const QString& title);
   void makeInspector();
   void connectPage(QWidget& page);
+  void makeBoards();
+  size_t boardOf(const QWidget& page) const;
+  void setBeside();
+  void putBack(size_t board);
+  void move(QWidget& page, size_t board);
+  size_t panelOf(const QWidget& widget) const;
   void note(const QString& title, const QString& why);
   void refuse(const QString& title, const QString& why);
   void showCurve();
   void findPopup();
+  bool mayWait(size_t panel) const;
+  void measure(size_t panel, const QWidget& shown);
   bool paintLabels();
 
   const Parts m_parts;
   std::unique_ptr<Inspector> m_inspector;  ///< of the board alone, once a page is asked for
   std::unique_ptr<VrPalette> m_palette;
-  std::unique_ptr<QWidget> m_board;
-  QLabel *m_title = nullptr, *m_note = nullptr;
-  QStackedWidget* m_pages = nullptr;
+  std::array<std::unique_ptr<VrBoard>, vr::kBoards> m_boards;
   std::map<QString, QWidget*> m_made;
-  bool m_boardShown = false, m_boardAhead = true;
-  uint64_t m_brought = 0;
+  std::array<bool, vr::kBoards> m_shown{}, m_ahead{true, true, true};
+  std::array<uint64_t, vr::kBoards> m_brought{};
   int64_t m_turns = 0;  ///< of the wearer, to the right, that were asked for
   std::array<Pointer, 2> m_pointers;
   std::array<vr::PanelView, vr::kPanels> m_painted;
@@ -109,11 +118,12 @@ class VrPanels : public QObject {
   bool m_labelsShown = true;
   QTimer m_labelsEnd;  ///< of the first two minutes
   QTimer m_noteEnds;
-  QElapsedTimer m_sincePaint;
-  bool m_touched = true;      ///< something was pressed or pointed at since it was painted
-  bool m_ticked = false;      ///< something is to be felt
-  QPointer<QWidget> m_popup;  ///< that came of what hands do here
-  int m_delivering = 0;       ///< events: a menu may wait in one until it closes
+  QElapsedTimer m_sincePaint, m_sinceRest;  ///< the latter: of panels that nobody points at
+  bool m_touched = true;                    ///< something was pressed or pointed at since it was painted
+  bool m_ticked = false;                    ///< something is to be felt
+  QPointer<QWidget> m_popup;                ///< that came of what hands do here
+  size_t m_popupOn = vr::kBoard;
+  int m_delivering = 0;  ///< events: a menu may wait in one until it closes
   uint64_t m_acts = 0;
 };
 

@@ -84,7 +84,8 @@ void VrWithout::paintGL() {
   useKeys(std::min(m_time - before, 0.1));
   const auto pixels = [&](int side) { return std::max(1, static_cast<int>(std::lround(side * devicePixelRatioF()))); };
   try {
-    m_room.keepBefore(m_scene->panelAhead(m_room.pointer(aspect())));
+    // One that it carries stays as far away.
+    if (!m_scene->carriesPanel(m_room.used())) m_room.keepBefore(m_scene->panelAhead(m_room.pointer(aspect())));
     m_scene->prepare(m_room.frame(m_time, aspect()));
     m_scene->draw(0, m_room.eye(aspect()), {defaultFramebufferObject(), 0, 0, {pixels(width()), pixels(height())}});
   } catch (const std::exception& error) {
