@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/particles/cellgrid.h"
 
+#include "core/base/parallelarrays.h"
+
 #include <atomic>
 
 namespace ps {
@@ -8,25 +10,6 @@ namespace {
 
 /// Places from which on several threads sort them: below that, sharing the work costs more than it saves.
 constexpr size_t kMany = 1 << 16;
-
-/// Each number becomes the sum of all up to it; `sums` is room for one of each chunk.
-void sumUp(std::vector<uint32_t>& numbers, std::vector<uint32_t>& sums) {
-  const size_t count = numbers.size();
-  sums.assign(chunkCount(count, grain::kNumbers), 0);
-  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first + 1; k < last; ++k) numbers[k] += numbers[k - 1];
-    sums[first / grain::kNumbers] = numbers[last - 1];
-  });
-  uint32_t before = 0;
-  for (uint32_t& sum : sums) {
-    const uint32_t own = sum;
-    sum = before;
-    before += own;
-  }
-  forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t k = first; k < last; ++k) numbers[k] += sums[first / grain::kNumbers];
-  });
-}
 
 uint32_t next(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
 

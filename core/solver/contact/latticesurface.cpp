@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/latticesurface.h"
 
+#include "core/base/parallelarrays.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ constexpr uint32_t kFlattest = 64;
 }  // namespace
 
 void LatticeSurface::clear(size_t particles) {
-  m_slot.assign(particles, kNone);
+  assignAll(m_slot, particles, kNone);
   m_who.clear();
   m_own.clear();
 }

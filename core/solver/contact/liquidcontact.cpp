@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/liquidcontact.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/contact/nearneighbours.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace ps {
@@ -36,7 +37,7 @@ void LiquidContact::refresh(const ParticleStore& store, const Neighbours& neighb
   }
   if (m_contacts.empty()) return;
   addSolidsOfLiquids(store.size());
-  m_touching.assign(store.size(), 0);
+  assignAll(m_touching, store.size(), uint8_t{0});
   m_moves.resize(m_contacts.size());
 }
 
@@ -58,22 +59,36 @@ void LiquidContact::findLiquids(const ParticleStore& store, const Neighbours& ne
 
 /// The same pairs as the liquid sees them.
 void LiquidContact::addSolidsOfLiquids(size_t particles) {
-  m_next.assign(particles, 0);
-  for (const uint32_t j : m_partner) ++m_next[j];
-  const size_t solids = m_contacts.size();
-  auto end = static_cast<uint32_t>(m_partner.size());
-  m_partner.resize(2 * m_partner.size());
-  for (uint32_t j = 0; j < particles; ++j) {
-    if (m_next[j] == 0) continue;
-    const uint32_t begin = end;
-    end += m_next[j];
-    m_contacts.push_back({j, begin, end});
-    m_next[j] = begin;
-  }
-  for (size_t k = 0; k < solids; ++k) {
-    const Contact& contact = m_contacts[k];
-    for (uint32_t q = contact.begin; q < contact.end; ++q) m_partner[m_next[m_partner[q]]++] = contact.who;
-  }
+  const auto addOne = [](uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); };
+  const size_t solids = m_contacts.size(), pairs = m_partner.size();
+  assignAll(m_next, particles, 0u);
+  forChunks(pairs, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t q = first; q < last; ++q) addOne(m_next[m_partner[q]]);
+  });
+  findIndices(particles, m_liquids, [&](size_t j) { return m_next[j] != 0; });
+  sumUp(m_next, m_sums);
+  m_contacts.resize(solids + m_liquids.size());
+  forChunks(m_liquids.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t j = m_liquids[k], before = k > 0 ? m_next[m_liquids[k - 1]] : 0;
+      m_contacts[solids + k] = {j, static_cast<uint32_t>(pairs) + before, static_cast<uint32_t>(pairs) + m_next[j]};
+    }
+  });
+  forChunks(m_liquids.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_next[m_liquids[k]] = m_contacts[solids + k].begin;
+  });
+  m_partner.resize(2 * pairs);
+  forChunks(solids, grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const Contact& contact = m_contacts[k];
+      for (uint32_t q = contact.begin; q < contact.end; ++q) m_partner[addOne(m_next[m_partner[q]])] = contact.who;
+    }
+  });
+  // Threads have come in any order.
+  forChunks(m_liquids.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    for (size_t k = solids + first; k < solids + last; ++k)
+      std::sort(m_partner.data() + m_contacts[k].begin, m_partner.data() + m_contacts[k].end);
+  });
 }
 
 /// m. Books what partners that do not move have moved.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/solidcontact.h"
 
+#include "core/base/parallelarrays.h"
+
 #include "core/solver/contact/handover.h"
 #include "core/solver/contact/nearneighbours.h"
 
@@ -81,9 +83,9 @@ void SolidContact::refresh(const ParticleStore& store, const Neighbours& neighbo
   forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) m_loose[i] = graph.isFree(static_cast<uint32_t>(i)) ? 1 : 0;
   });
-  m_couple.assign(store.size(), {0, 0, 0, 0});
+  assignAll(m_couple, store.size(), api::Float4{0, 0, 0, 0});
   m_squeezedShare = static_cast<double>(squeezed) / static_cast<double>(m_solids.size());
-  m_contacts.assign(store.size() + 1, 1);
+  assignAll(m_contacts, store.size() + 1, uint8_t{1});
 }
 
 /// Particles of one piece are round to each other.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/fluid/density.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/room.h"
 
 #include <algorithm>
@@ -134,13 +134,13 @@ void DensityStage::weigh(const ParticleStore& store) {
 void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours) {
   const size_t n = store.size();
   const api::NeighbourView view = neighbours.view();
-  m_touched.assign(n + kSpare, 0);
+  assignAll(m_touched, n + kSpare, uint8_t{0});
   m_wet.clear();
   m_watched.clear();
   m_touchesFixed = false;
   m_nearKnown = false;
   m_walls.refresh(neighbours.built());
-  m_isFluid.assign(n, 0);
+  assignAll(m_isFluid, n, uint8_t{0});
   forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) m_isFluid[m_fluid[k]] = 1;
   });
@@ -286,8 +286,7 @@ void DensityStage::move(ParticleStore& store, const PairLists& pairs, size_t fir
 
 /// For fluids, whose near lists are yet to be found, and wet solids; both are `m_some` from now on.
 void DensityStage::startNear(const ParticleStore& store, const PairLists& pairs) {
-  m_some.assign(m_fluid.begin(), m_fluid.end());
-  m_some.insert(m_some.end(), m_wet.begin(), m_wet.end());
+  assignBoth<uint32_t>(m_some, m_fluid, m_wet);
   m_near.start(pairs, store.size());
   m_near.find(pairs, m_points.data(), m_wet);
   m_nearKnown = true;

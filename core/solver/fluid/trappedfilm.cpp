@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/fluid/trappedfilm.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/math/kernels.h"
 
 #include <algorithm>
@@ -80,10 +80,10 @@ double TrappedFilm::boundaryBelow(const ParticleStore& store, const Neighbours& 
 void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint32_t> solids) {
   m_liquids.clear();
   if (solids.empty() || m_up.isZero()) return;
-  m_yield.assign(store.size(), 0);
-  m_depth.assign(store.size(), kUnknown);
+  assignAll(m_yield, store.size(), 0.0f);
+  assignAll(m_depth, store.size(), kUnknown);
   m_below.resize(store.size());
-  m_gap.assign(store.size(), HUGE_VAL);
+  assignAll(m_gap, store.size(), double{HUGE_VAL});
   m_inside.resize(solids.size());
   forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
@@ -98,7 +98,7 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   if (m_liquids.empty()) return;
   std::sort(m_liquids.begin(), m_liquids.end());
   const api::NeighbourView view = neighbours.view();
-  m_concerned.assign(store.size(), 0);
+  assignAll(m_concerned, store.size(), uint8_t{0});
   for (const uint32_t i : m_liquids) {
     m_concerned[i] = 1;
     for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {

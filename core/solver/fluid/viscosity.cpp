@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/fluid/viscosity.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 
 #include <algorithm>
 #include <atomic>
@@ -86,7 +86,7 @@ double ViscosityStage::viscosityOf(const ParticleStore& store, size_t i) const {
 
 void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
   const size_t n = store.size();
-  m_coefficient.assign(n + kSpare, -1.0f);  // the dummy counts as no fluid
+  assignAll(m_coefficient, n + kSpare, -1.0f);  // the dummy counts as no fluid
   const double reach = filterReach(), suffices = filterSuffices();
   const ViscosityModel model = m_settings.viscosityModel;
   const float least = static_cast<float>(calming());
@@ -188,8 +188,7 @@ void ViscosityStage::addYieldStress(const ParticleStore& store) {
 
 void ViscosityStage::filter(ParticleStore& store, const Neighbours& neighbours, const DensityStage& density) {
   const std::span<const uint32_t> fluid = density.fluid(), wet = density.wetSolids();
-  m_which.assign(fluid.begin(), fluid.end());
-  m_which.insert(m_which.end(), wet.begin(), wet.end());
+  assignBoth(m_which, fluid, wet);
   m_change.resize(m_which.size());
   const PairLists near = density.nearLists(store, neighbours);
   const float scale = static_cast<float>(density.kernelScale());

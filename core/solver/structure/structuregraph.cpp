@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/parallelarrays.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <numeric>
 #include <span>
 
 namespace ps {
@@ -58,7 +60,7 @@ class Forest {
 const StructureGraph& ConstraintSystem::graph(size_t particles) {
   if (m_graphValid && m_graph.begin.size() == particles + 1) return m_graph;
   std::vector<uint32_t>& begin = m_graph.begin;
-  begin.assign(particles + 1, 0);
+  assignAll(begin, particles + 1, 0u);
   // Constraints of one colour share no particle.
   const auto eachConstraint = [&](const auto& visit) {
     for (const Set& set : m_sets) {
@@ -74,9 +76,10 @@ const StructureGraph& ConstraintSystem::graph(size_t particles) {
   eachConstraint([&](std::span<const uint32_t> tied) {
     for (const uint32_t i : tied) begin[i + size_t{1}] += static_cast<uint32_t>(tied.size()) - 1;
   });
-  for (size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+  static thread_local std::vector<uint32_t> sums;
+  sumUp(begin, sums);
   m_graph.partner.resize(begin[particles]);
-  m_newIndex.assign(begin.begin(), begin.end());
+  assignAll<uint32_t>(m_newIndex, begin);
   eachConstraint([&](std::span<const uint32_t> tied) {
     for (const uint32_t i : tied) {
       for (const uint32_t j : tied) {
@@ -106,7 +109,7 @@ void ConstraintSystem::findPieces(size_t particles, std::vector<uint32_t>& piece
   Forest forest(piece);
   everywhere([&](uint32_t i) { piece[i] = i; });
   m_groupFirst.clear();
-  for (uint32_t i = 0; i < particles; ++i) {
+  for (uint32_t i = 0; i < particles && !ties.group.empty(); ++i) {
     for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
       if (ties.group[k] >= m_groupFirst.size()) m_groupFirst.resize(ties.group[k] + size_t{1}, kNoPiece);
       uint32_t& first = m_groupFirst[ties.group[k]];
@@ -163,11 +166,14 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
     }
     return false;
   };
-  bool anyFixed = false;
-  for (uint32_t i = 0; i < store.size() && !anyFixed; ++i) anyFixed = isFixed(i);
+  const bool anyFixed = anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    bool any = false;
+    for (size_t i = first; i < last && !any; ++i) any = isFixed(static_cast<uint32_t>(i));
+    return any;
+  });
   hanging.clear();
   if (!anyFixed) return;
-  m_hangs.assign(store.size(), gathers() ? 1 : 0);
+  assignAll(m_hangs, store.size(), uint8_t{gathers()});
   m_setHangs.assign(m_sets.size(), 0);
   for (bool grown = true; grown;) {  // a plugin's ties hang where one of them does
     grown = false;
@@ -178,13 +184,15 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
       grown = true;
     }
   }
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (m_hangs[i] != 0 && !isFixed(i)) hanging.push_back(i);
-  }
+  findIndices(store.size(), hanging, [&](size_t i) { return m_hangs[i] != 0 && !isFixed(static_cast<uint32_t>(i)); });
 }
 
 void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
-  graph.groupBegin.assign(particles + 1, 0);
+  assignAll(graph.groupBegin, particles + 1, 0u);
+  graph.group.clear();
+  const bool any =
+      std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.groups && set.groups->count() > 0; });
+  if (!any) return;
   const auto eachMember = [&](auto&& visit) {
     uint32_t serial = 0;
     for (const Set& set : m_sets) {
@@ -194,7 +202,7 @@ void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) cons
     }
   };
   eachMember([&](uint32_t i, uint32_t) { ++graph.groupBegin[i + 1]; });
-  for (size_t i = 0; i < particles; ++i) graph.groupBegin[i + 1] += graph.groupBegin[i];
+  std::partial_sum(graph.groupBegin.begin(), graph.groupBegin.end(), graph.groupBegin.begin());
   graph.group.resize(graph.groupBegin[particles]);
   // Each beginning moves on to that of the next particle, and then back by one place.
   eachMember([&](uint32_t i, uint32_t serial) { graph.group[graph.groupBegin[i]++] = serial; });
