@@ -13,7 +13,11 @@ class Quarantine;
 
 /// From now on crashes inside a plugin's code are recorded. Several registries of one process may call it.
 void watchForCrashes(const Quarantine& quarantine);
-/// Makes the record of one plugin ready.
+/// The program is ending: what crashes from here on does so because what it needs is gone, and accuses nobody.
+void accuseNobody();
+/// Does that at exit(), before what was made until now is taken down.
+void accuseNobodyAtExit();
+/// Makes the record of one plugin ready. One that came with the program has none: it is tried again at the next start.
 void noteForCrashes(const Quarantine& quarantine, const std::string& id, const std::string& path);
 
 /// Writes that record for a plugin that does not come back from a call: whoever ends the program now, it is not loaded
