@@ -234,6 +234,7 @@ class TestGraphsWindow : public SampleWindowTest {
 
   /// Before the first frame matter stands where it began: nothing waits.
   void aBoxOfTheStartActsAtOnceAtTheStart() {
+    toTheStart();
     QVERIFY(session().snapshot()->stats.time == 0 && !session().snapshot()->knowsStart);
     for (const auto& [key, value] : {std::pair<const char*, Value>("in_box", true),
                                      std::pair<const char*, Value>("box_when", std::string(Probe::kAtStart))})
@@ -249,6 +250,7 @@ class TestGraphsWindow : public SampleWindowTest {
 
   /// Later nobody has noted where matter stood at the start, unless a probe asked for it then.
   void aBoxOfTheStartWaitsForTheReset() {
+    toTheStart();
     session().step();
     QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.time > 0, kLong);
     m_window->selection().select(OutlineKind::Probe, "ice_mass");
