@@ -105,8 +105,10 @@ void noteForCrashes(const Quarantine& quarantine, const std::string& id, const s
   }
 }
 
-void putInQuarantine(const std::string& id) {
-  if (const Record* record = recordOf(id.c_str())) writeRecord(*record);
+bool putInQuarantine(const std::string& id) {
+  const Record* record = g_ending ? nullptr : recordOf(id.c_str());
+  if (record) writeRecord(*record);
+  return record != nullptr;
 }
 
 void takeFromQuarantine(const std::string& id) {

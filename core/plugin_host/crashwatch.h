@@ -21,8 +21,9 @@ void accuseNobodyAtExit();
 void noteForCrashes(const Quarantine& quarantine, const std::string& id, const std::string& path);
 
 /// Writes that record for a plugin that does not come back from a call: whoever ends the program now, it is not loaded
-/// at the next start. Nothing happens for one of which there is no record; one that is being loaded has left its lock.
-void putInQuarantine(const std::string& id);
+/// at the next start. False, and nothing happens, for one of which there is no record, and when the program is ending;
+/// one that is being loaded has left its lock.
+bool putInQuarantine(const std::string& id);
 /// It has come back after all.
 void takeFromQuarantine(const std::string& id);
 

@@ -648,7 +648,7 @@ class TestPluginHost : public QObject {
     QVERIFY(!Quarantine(stateDirectory()).why("bonds", path).empty());
     QVERIFY(PluginRegistry(options).has("bonds"));
     QVERIFY(Quarantine(stateDirectory()).why("bonds", path).empty());
-    putInQuarantine("bonds");
+    QVERIFY(!putInQuarantine("bonds"));
     QVERIFY(Quarantine(stateDirectory()).why("bonds", path).empty());
     const QString folder = directory("copy_of_own");
     QVERIFY(QFile::copy(QString::fromStdString(path), folder + "/bonds.so"));
@@ -656,7 +656,7 @@ class TestPluginHost : public QObject {
     {
       const PluginRegistry copied(options);
       QVERIFY(copied.info("bonds") && copied.info("bonds")->path != path);
-      putInQuarantine("bonds");
+      QVERIFY(putInQuarantine("bonds"));
     }
     const PluginRegistry after(options);
     QVERIFY(after.info("bonds") && after.info("bonds")->path == path);

@@ -345,7 +345,8 @@ class TestMendingWindow : public SampleWindowTest {
     QProcess display;
     display.start(QStringLiteral("Xvfb"),
                   {QStringLiteral("-displayfd"), QStringLiteral("1"), QStringLiteral("-screen"), QStringLiteral("0"),
-                   QStringLiteral("1280x800x24"), QStringLiteral("-nolisten"), QStringLiteral("tcp")});
+                   QStringLiteral("1280x800x24"), QStringLiteral("-nolisten"), QStringLiteral("tcp"),
+                   QStringLiteral("-noreset"), QStringLiteral("+extension"), QStringLiteral("GLX")});
     QVERIFY(display.waitForStarted());
     QTRY_VERIFY_WITH_TIMEOUT(display.canReadLine(), kLong);
     saveProject(scene(), folder.filePath(QStringLiteral("scene.json")).toStdString());
