@@ -308,6 +308,7 @@ class TestMendingWindow : public SampleWindowTest {
     Q_EMIT session().happened({0, EngineEvent::Kind::Late, 0, "bonds"});
     QTRY_VERIFY_WITH_TIMEOUT(says(), kLong);
     QVERIFY2(m_window->notice()->text().contains(words), qPrintable(m_window->notice()->text()));
+    QVERIFY(!m_window->notice()->text().contains(QStringLiteral("leaves the plugin out")));  // it is the program's own
     Q_EMIT session().happened({0, EngineEvent::Kind::Settled, 0, {}});
     QTRY_VERIFY_WITH_TIMEOUT(!says(), kLong);
     QVERIFY(m_window->notice()->topic() != QStringLiteral("step"));
