@@ -54,11 +54,13 @@ double patienceOf(const Arguments& arguments) {
 void watchPlugins(const Arguments& arguments) {
   const double patience = patienceOf(arguments);
   static const CallWatch watch(patience, [patience](const std::string& id) {
-    putInQuarantine(id);
-    std::fprintf(stderr,
-                 "phasesketch-cli: the plugin '%s' did not come back within %s s; it is in quarantine from now on. To "
-                 "allow it again: phasesketch-cli plugins --allow %s\n",
-                 id.c_str(), numberText(patience).c_str(), id.c_str());
+    const std::string follows = putInQuarantine(id)
+                                    ? "; it is in quarantine from now on. To allow it again: phasesketch-cli plugins "
+                                      "--allow " +
+                                          id
+                                    : "; --patience lets it take longer";
+    std::fprintf(stderr, "phasesketch-cli: the plugin '%s' did not come back within %s s%s\n", id.c_str(),
+                 numberText(patience).c_str(), follows.c_str());
     std::_Exit(kNoReturn);
   });
 }

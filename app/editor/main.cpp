@@ -5,6 +5,7 @@
 #include "app/editor/picture.h"
 #include "app/editor/quitsignals.h"
 #include "app/editor/quitwatchdog.h"
+#include "app/editor/suddenend.h"
 #include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/registry.h"
 #include "ui/session/settingsformat.h"
@@ -87,6 +88,7 @@ int main(int argc, char** argv) {
   options.exitOnBadProject = picture;
   options.dark = arguments.dark.value_or(true);
   options.themeAsked = arguments.dark.has_value();
+  const ps::SuddenEnd sudden;  // until the window is gone, and the engine's thread with it
   ps::MainWindow window(options);
   if (arguments.size.isValid()) window.resize(arguments.size);
   window.show();

@@ -19,9 +19,9 @@ void quitWithin(std::chrono::milliseconds patience) {
     std::this_thread::sleep_for(patience / 2);
     for (const OngoingCall& call : ongoingCalls()) {
       if (std::find(before.begin(), before.end(), call) == before.end()) continue;  // a frame that is slow, no more
-      putInQuarantine(call.id);
-      std::fprintf(stderr, "phasesketch: the plugin '%s' did not come back from its work; it is in quarantine.\n",
-                   call.id.c_str());
+      const char* follows = putInQuarantine(call.id) ? "; it is in quarantine" : "";
+      std::fprintf(stderr, "phasesketch: the plugin '%s' did not come back from its work%s.\n", call.id.c_str(),
+                   follows);
     }
     std::fputs("phasesketch: its work did not end in time; the program has been ended.\n", stderr);
     std::_Exit(3);

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 
 namespace ps {
@@ -25,6 +26,7 @@ struct Record {
   const Record* older = nullptr;
 };
 std::atomic<const Record*> g_newest{nullptr};
+std::atomic<bool> g_ending{false};
 
 constexpr std::array<int, 5> kSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 std::array<struct sigaction, kSignals.size()> g_before;
@@ -57,7 +59,7 @@ void onCrash(int signal) {
   for (size_t k = 0; k < kSignals.size(); ++k) {
     if (kSignals[k] == signal) ::sigaction(signal, &g_before[k], nullptr);
   }
-  if (const Record* record = t_callee ? recordOf(t_callee) : nullptr) {
+  if (const Record* record = t_callee && !g_ending ? recordOf(t_callee) : nullptr) {
     writeAll(STDERR_FILENO, record->words);
     writeRecord(*record);
   }
@@ -78,6 +80,13 @@ void watchForCrashes(const Quarantine& quarantine) {
   (void)watching;
 }
 
+void accuseNobody() { g_ending = true; }
+
+void accuseNobodyAtExit() {
+  static const bool registered = std::atexit(accuseNobody) == 0;
+  (void)registered;
+}
+
 void noteForCrashes(const Quarantine& quarantine, const std::string& id, const std::string& path) {
   const auto [file, contents] = quarantine.recordFor(id, path);
   for (const Record* known = g_newest.load(); known; known = known->older) {
@@ -96,8 +105,10 @@ void noteForCrashes(const Quarantine& quarantine, const std::string& id, const s
   }
 }
 
-void putInQuarantine(const std::string& id) {
-  if (const Record* record = recordOf(id.c_str())) writeRecord(*record);
+bool putInQuarantine(const std::string& id) {
+  const Record* record = g_ending ? nullptr : recordOf(id.c_str());
+  if (record) writeRecord(*record);
+  return record != nullptr;
 }
 
 void takeFromQuarantine(const std::string& id) {

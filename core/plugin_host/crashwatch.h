@@ -13,12 +13,17 @@ class Quarantine;
 
 /// From now on crashes inside a plugin's code are recorded. Several registries of one process may call it.
 void watchForCrashes(const Quarantine& quarantine);
-/// Makes the record of one plugin ready.
+/// The program is ending: what crashes from here on does so because what it needs is gone, and accuses nobody.
+void accuseNobody();
+/// Does that at exit(), before what was made until now is taken down.
+void accuseNobodyAtExit();
+/// Makes the record of one plugin ready. One that came with the program has none: it is tried again at the next start.
 void noteForCrashes(const Quarantine& quarantine, const std::string& id, const std::string& path);
 
 /// Writes that record for a plugin that does not come back from a call: whoever ends the program now, it is not loaded
-/// at the next start. Nothing happens for one of which there is no record; one that is being loaded has left its lock.
-void putInQuarantine(const std::string& id);
+/// at the next start. False, and nothing happens, for one of which there is no record, and when the program is ending;
+/// one that is being loaded has left its lock.
+bool putInQuarantine(const std::string& id);
 /// It has come back after all.
 void takeFromQuarantine(const std::string& id);
 

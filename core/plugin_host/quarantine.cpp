@@ -170,15 +170,15 @@ std::pair<std::string, std::string> Quarantine::recordFor(const std::string& id,
   return {recordPath(m_directory, entry, kCrashed).toStdString(), written(entry).toStdString()};
 }
 
-bool Quarantine::allow(const std::string& id) {
-  bool any = false;
+bool Quarantine::allow(const std::string& id) { return allow(id, {}); }
+
+bool Quarantine::allow(const std::string& id, const std::string& path) {
+  const auto meant = [&](const Entry& entry) { return entry.id == id && (path.empty() || entry.path == path); };
   for (const Entry& entry : m_entries) {
-    if (entry.id != id) continue;
-    any = true;
+    if (!meant(entry)) continue;
     for (const char* kind : {kCrashed, kSound}) QFile::remove(recordPath(m_directory, entry, kind));
   }
-  std::erase_if(m_entries, [&](const Entry& entry) { return entry.id == id; });
-  return any;
+  return std::erase_if(m_entries, meant) > 0;
 }
 
 LoadingLock::LoadingLock(const std::string& directory, const std::string& id, const std::string& path) {

@@ -41,6 +41,8 @@ class Quarantine {
   const std::string& directory() const { return m_directory; }
   /// Forgets all records of an id; true when there was one.
   bool allow(const std::string& id);
+  /// The same of one file alone.
+  bool allow(const std::string& id, const std::string& path);
 
  private:
   void collectStaleLocks();

@@ -57,6 +57,7 @@ namespace {
 struct Candidate {
   PluginInfo info;
   size_t directory = 0;  ///< index of its directory: higher ones take precedence
+  bool shipped = false;  ///< came with the program
   Material material;     ///< of JSON files
 };
 
@@ -91,12 +92,14 @@ std::string nameOf(const PluginInfo& info) {
 struct PluginRegistry::Impl {
   explicit Impl(const Options& options) : patience(options.patience), state(stateDirectory()), quarantine(state) {
     scan(pluginDirectories(options));
+    forgiveShipped();
     if (options.scans) tryUnknown();
     watchForCrashes(quarantine);
     for (auto& [id, list] : candidates) {
       chooseStandard(list);
       loadBest(list);
     }
+    accuseNobodyAtExit();
     candidates.clear();
     offerMaterials();
     std::sort(found.begin(), found.end(), before);
@@ -110,6 +113,7 @@ struct PluginRegistry::Impl {
 
   void scan(const std::vector<PluginDirectory>& directories);
   void read(const std::string& path, size_t directory, bool own);
+  void forgiveShipped();
   void tryUnknown();
   void note(const PluginInfo& info, const ScanVerdict& verdict);
   void chooseStandard(const std::vector<Candidate>& list);
@@ -178,7 +182,7 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory, bool 
     candidate.info = readLibraryMetadata(path);
   }
   PluginInfo& info = candidate.info;
-  info.own = own && info.id.find('.') == std::string::npos;  // names with a dot are other people's
+  info.own = candidate.shipped = own && info.id.find('.') == std::string::npos;  // a dot: other people's
   if (info.label.empty())
     info.label = info.id.empty() ? QFileInfo(QString::fromStdString(path)).fileName().toStdString() : info.id;
   if (!info.problem.empty()) {
@@ -193,6 +197,16 @@ void PluginRegistry::Impl::read(const std::string& path, size_t directory, bool 
     return;
   }
   same.push_back(std::move(candidate));
+}
+
+/// What came with the program is looked at again at each start: a record of it may be that of an end of the program
+/// which was none of its doing, and without it most scenes do not move.
+void PluginRegistry::Impl::forgiveShipped() {
+  for (const auto& [id, list] : candidates) {
+    for (const Candidate& candidate : list) {
+      if (candidate.shipped) quarantine.allow(id, candidate.info.path);
+    }
+  }
 }
 
 /// Those that are not known to be sound.
@@ -233,7 +247,7 @@ void PluginRegistry::Impl::loadBest(std::vector<Candidate>& list) {
       for (size_t other = 0; other < i; ++other)
         info.note += (other == 0 ? "replaces " : " and ") + nameOf(list[other].info);
       found.push_back(info);
-      if (!info.json) noteForCrashes(quarantine, info.id, info.path);
+      if (!info.json && !list[i].shipped) noteForCrashes(quarantine, info.id, info.path);
       return;
     }
     if (i > 0) info.problem += "; until then " + nameOf(list[i - 1].info) + " takes its place";

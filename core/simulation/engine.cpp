@@ -395,6 +395,7 @@ void Engine::apply(const Command& command) {
     passMatter(*passed);
   } else if (const auto* measured = std::get_if<SetProbes>(&command)) {
     m->project.probes = measured->probes;
+    m->noteStart();
     m->nameProbes();
   } else if (const auto* start = std::get_if<Reset>(&command)) {
     reset();

@@ -36,6 +36,14 @@ double workOf(const Project& project, const PluginRegistry& plugins) {
   return work;
 }
 
+/// Whether a probe sees what stood in its box at the start.
+bool asksForStart(const Project& project) {
+  return std::any_of(project.probes.begin(), project.probes.end(),
+                     [](const Probe& probe) { return probe.region && probe.regionWhen != Probe::kNow; });
+}
+
+constexpr double kNowhere = 1e9;  ///< m, of a particle that has gone
+
 }  // namespace
 
 void Engine::Impl::build() {
@@ -44,8 +52,7 @@ void Engine::Impl::build() {
   requirePeriods(project);
   requireRoom(project, plugins, memoryNow());
   prepare(compileSettings(project).spacing, {});
-  const bool regions = std::any_of(project.probes.begin(), project.probes.end(),
-                                   [](const Probe& probe) { return probe.region && probe.regionWhen != Probe::kNow; });
+  const bool regions = asksForStart(project);
   const Bounds bounds = compileBounds(project);
   OccupiedPlaces occupied(kOverlap * spacing, static_cast<size_t>(count),
                           Period(bounds.minimum, bounds.maximum, bounds.periodic));
@@ -83,6 +90,16 @@ void Engine::Impl::build() {
   for (const Emitter& emitter : project.emitters) bodyIndex(emitter.id);
   recompile({{Owner::Body}});  // what is said of bodies goes by their indices
   bindTracks(solver->time());
+}
+
+void Engine::Impl::noteStart() {
+  if (!start.empty() || solver->time() > 0 || !asksForStart(project)) return;
+  const ParticleStore& store = solver->particles();
+  for (size_t i = 0; i < store.size(); ++i) {
+    const size_t id = store.id()[i];
+    if (id >= start.size()) start.resize(id + 1, Vector3::Constant(kNowhere));
+    start[id] = vectorOf(store.position()[i]);
+  }
 }
 
 void Engine::Impl::nameProbes() {

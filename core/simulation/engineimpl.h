@@ -115,6 +115,8 @@ struct Engine::Impl {
   std::shared_ptr<const std::vector<std::string>> bodyIds = std::make_shared<const std::vector<std::string>>();
   std::vector<uint8_t> fixedBodies;    // 1 for bodies that were born fixed, by the same index
   std::vector<std::string> bodyNames;  // for messages, by the index that particles carry
+  /// Notes where matter stands at the start, for a probe that asks for it before the first frame.
+  void noteStart();
   /// Notes what the project's probes are called.
   void nameProbes();
   std::vector<std::string> probeNames;

@@ -5,9 +5,11 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/matter/material.h"
+#include "core/plugin_host/crashwatch.h"
 #include "core/plugin_host/hostservices.h"
 #include "core/plugin_host/materialjson.h"
 #include "core/plugin_host/pluginmetadata.h"
+#include "core/plugin_host/pluginpaths.h"
 #include "core/plugin_host/pluginscan.h"
 #include "core/plugin_host/quarantine.h"
 #include "core/plugin_host/registry.h"
@@ -29,6 +31,7 @@
 #include <atomic>
 #include <clocale>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 using namespace ps;
@@ -633,6 +636,48 @@ class TestPluginHost : public QObject {
     QVERIFY(Quarantine(state).why("dead", plugin).empty());
   }
 
+  /// A record of what came with the program is not believed at the next start, and its crash leaves none; a copy of it
+  /// in another folder is somebody else's, and gives way to it.
+  void whatCameWithTheProgramIsTriedAgain() {
+    PluginRegistry::Options options;
+    const PluginRegistry before(options);
+    const PluginInfo* first = before.info("bonds");
+    QVERIFY(first && first->own);
+    const std::string path = first->path;
+    Quarantine(stateDirectory()).accuse("bonds", path, "it crashed");
+    QVERIFY(!Quarantine(stateDirectory()).why("bonds", path).empty());
+    QVERIFY(PluginRegistry(options).has("bonds"));
+    QVERIFY(Quarantine(stateDirectory()).why("bonds", path).empty());
+    QVERIFY(!putInQuarantine("bonds"));
+    QVERIFY(Quarantine(stateDirectory()).why("bonds", path).empty());
+    const QString folder = directory("copy_of_own");
+    QVERIFY(QFile::copy(QString::fromStdString(path), folder + "/bonds.so"));
+    options.extraPaths = {folder.toStdString()};
+    {
+      const PluginRegistry copied(options);
+      QVERIFY(copied.info("bonds") && copied.info("bonds")->path != path);
+      QVERIFY(putInQuarantine("bonds"));
+    }
+    const PluginRegistry after(options);
+    QVERIFY(after.info("bonds") && after.info("bonds")->path == path);
+    QCOMPARE(withState(after, PluginInfo::State::Quarantined).size(), size_t(1));
+  }
+
+  /// What crashes when the program is ending has lost what it needs.
+  void aCrashAtTheEndAccusesNobody_data() {
+    QTest::addColumn<QString>("how");
+    QTest::addColumn<bool>("accused");
+    QTest::newRow("while it runs") << "--crash" << true;
+    QTest::newRow("at its end") << "--crash-at-end" << false;
+  }
+  void aCrashAtTheEndAccusesNobody() {
+    QFETCH(QString, how);
+    QFETCH(bool, accused);
+    const QString path = withSoundPlugins(QStringLiteral("at_end") + how);
+    QCOMPARE(loadInChild(path, how), QString("crashed"));
+    QCOMPARE(loadInChild(path).contains("fixture.brush quarantined"), accused);
+  }
+
   void concurrentStartsDoNotQuarantineAnything() {
     const QString path = withSoundPlugins("concurrent");
     std::vector<std::unique_ptr<QProcess>> children;
@@ -1169,12 +1214,22 @@ int loadAndTell(const char* path, bool scans) {
   return 0;
 }
 
+/// As a plugin that runs wild in a step.
+int crash(const char* path, bool ending) {
+  const PluginRegistry registry(only({path}));
+  const CalleeScope callee("fixture.brush");
+  if (ending) accuseNobody();
+  return std::raise(SIGSEGV);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   servePluginScans(argc, argv);
   if (argc == 3 && std::string_view(argv[1]) == "--load") return loadAndTell(argv[2], true);
   if (argc == 3 && std::string_view(argv[1]) == "--load-untried") return loadAndTell(argv[2], false);
+  if (argc == 3 && std::string_view(argv[1]) == "--crash") return crash(argv[2], false);
+  if (argc == 3 && std::string_view(argv[1]) == "--crash-at-end") return crash(argv[2], true);
   QCoreApplication app(argc, argv);
   TestPluginHost test;
   return QTest::qExec(&test, argc, argv);

@@ -171,10 +171,37 @@ class TestContent : public QObject {
     QVERIFY(ofTap() >= poured);
   }
 
-  /// A file with a probe on a body that is gone still opens.
-  void aDeletedBodyLeavesAFileThatOpens() {
+  /// What animates it and what measures it alone goes with a body, in one step; probes of more stay.
+  void aDeletedBodyTakesAlongWhatIsItsOwn() {
+    for (const char* body : {"ice", "second", ""}) {
+      Probe probe;
+      probe.id = probe.name = std::string("of ") + (*body ? body : "all");
+      probe.quantity = "temperature";
+      probe.body = body;
+      m_document->addProbe(probe);
+    }
+    const Address power{Owner::Body, "ice", "heating_power"}, floor{Owner::Wall, "floor", "temperature"};
+    QCOMPARE(m_document->putKey(power, 0, 100), QString());
+    QCOMPARE(m_document->putKey(floor, 0, 350), QString());
+    const std::string before = text();
+    const int steps = m_document->undoStack().count();
     QCOMPARE(m_document->removeBody("ice"), QString());
-    const LoadedProject loaded = parseProject(text(), "scene.json", *m_plugins);
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    QCOMPARE(m_document->project().tracks.size(), size_t{1});
+    QVERIFY(m_document->track(floor));
+    for (const Probe& probe : m_document->project().probes) QVERIFY(probe.body != "ice");
+    QVERIFY(!m_document->probe("of ice") && m_document->probe("of second") && m_document->probe("of all"));
+    m_document->undoStack().undo();
+    QCOMPARE(text(), before);
+    m_document->undoStack().redo();
+    QVERIFY(!m_document->track(power) && !m_document->probe("of ice"));
+  }
+
+  /// A file with a probe on a body that is gone still opens.
+  void aFileWithoutTheBodyOfAProbeOpens() {
+    Project without = m_document->project();
+    std::erase_if(without.bodies, [](const Body& body) { return body.id == "ice"; });
+    const LoadedProject loaded = parseProject(writeProject(without), "scene.json", *m_plugins);
     QCOMPARE(loaded.project.bodies.size(), size_t{1});
     QCOMPARE(loaded.warnings.size(), size_t{1});
     QVERIFY(loaded.warnings[0].text.find("measures nothing") != std::string::npos);

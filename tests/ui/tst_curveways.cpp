@@ -104,6 +104,21 @@ class TestCurveWays : public CurveWindowTest {
   }
 
   /// Slopes that lead where the property cannot be are refused with a sentence, and the last ones stay.
+  /// A point that is typed out of sight is in sight at once, and one in sight leaves the view as it is.
+  void aTypedValueStaysInSight() {
+    threePoints();
+    curves().choosePoint(1);
+    auto* panel = m_window->findChild<CurvePanel*>();
+    const QPoint first = place(0);
+    type(panel->valueField(), QStringLiteral("*1.1"));
+    QVERIFY(std::abs(response().points[1].y - 0.0011) < 1e-9);
+    QCOMPARE(place(0), first);
+    type(panel->valueField(), QStringLiteral("*10000"));
+    QVERIFY(std::abs(response().points[1].y - 11) < 1e-6);
+    QVERIFY(place(0) != first);
+    for (const size_t k : {size_t{0}, size_t{1}, size_t{2}}) QVERIFY(curve().plot().contains(place(k)));
+  }
+
   void slopesThatOvershootAreRefused() {
     curves().choose({Owner::Material, "water", "yield_stress"});
     QVERIFY(curves().set(curveThrough({{260, 1}, {310, 1}}), QStringLiteral("Points")));

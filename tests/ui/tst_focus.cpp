@@ -8,6 +8,7 @@
 #include "ui/window/dock.h"
 #include "ui/window/windowlayout.h"
 
+#include <QtCore/QRegularExpression>
 #include <QtGui/QAction>
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QAbstractItemView>
@@ -62,6 +63,7 @@ class TestFocus : public SampleWindowTest {
   void aRenamedRowLeavesTheKeysInTheOutliner() {
     QFETCH(int, key);
     QFETCH(bool, byHand);
+    QTest::failOnWarning(QRegularExpression(QStringLiteral("closeEditor|commitData")));
     m_window->layoutOfDocks().showPage(QStringLiteral("Outliner"));
     m_window->selection().select(OutlineKind::Body, document().project().bodies.front().id);
     auto* tree = m_window->outliner()->findChild<QTreeView*>();

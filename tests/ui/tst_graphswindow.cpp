@@ -232,8 +232,27 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY(row());
   }
 
-  /// Nobody has noted where matter stood at the start, unless a probe asked for it then.
+  /// Before the first frame matter stands where it began: nothing waits.
+  void aBoxOfTheStartActsAtOnceAtTheStart() {
+    toTheStart();
+    QVERIFY(session().snapshot()->stats.time == 0 && !session().snapshot()->knowsStart);
+    for (const auto& [key, value] : {std::pair<const char*, Value>("in_box", true),
+                                     std::pair<const char*, Value>("box_when", std::string(Probe::kAtStart))})
+      QCOMPARE(document().setParameter({Owner::Probe, "ice_mass", key}, value), QString());
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->knowsStart, kLong);
+    const auto& probes = document().project().probes;
+    const auto place = std::find_if(probes.begin(), probes.end(), [](const Probe& p) { return p.id == "ice_mass"; });
+    const auto index = static_cast<size_t>(place - probes.begin());
+    QVERIFY(session().snapshot()->stats.probes.at(index) > 0);
+    toTheStart();  // noted then, it sees the same
+    QVERIFY(session().snapshot()->stats.probes.at(index) > 0);
+  }
+
+  /// Later nobody has noted where matter stood at the start, unless a probe asked for it then.
   void aBoxOfTheStartWaitsForTheReset() {
+    toTheStart();
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.time > 0, kLong);
     m_window->selection().select(OutlineKind::Probe, "ice_mass");
     const auto set = [&](const char* key, const Value& value) {
       return document().setParameter({Owner::Probe, "ice_mass", key}, value);

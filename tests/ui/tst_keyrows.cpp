@@ -6,8 +6,13 @@
 #include "ui/curves/responselist.h"
 #include "ui/timeline/keyrows.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
+#include <QtGui/QContextMenuEvent>
+#include <QtTest/QSignalSpy>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QListWidget>
+#include <QtWidgets/QMenu>
 
 #include <cmath>
 
@@ -216,7 +221,83 @@ class TestKeyRows : public CurveWindowTest {
     QCOMPARE(keys(kFloor).size(), size_t{2});
   }
 
+  /// A double-click means a tenth of a second, with Ctrl a frame.
+  void aDoubleClickSetsAKeyAtATenth() {
+    const int y = rows().placeOf(kFloor, 0).y();
+    const auto added = [&](double seconds, Qt::KeyboardModifiers modifiers) {
+      QTest::mouseDClick(&rows(), Qt::LeftButton, modifiers, {static_cast<int>(rows().xOf(seconds)), y});
+      return rows().chosen().size() == 1 ? keys(kFloor)[rows().chosen()[0].key].time : -1;
+    };
+    const auto isWhole = [](double steps) { return std::abs(steps - std::round(steps)) < 1e-4; };
+    const double tenth = added(15, {}), frame = added(30, Qt::ControlModifier);
+    QVERIFY(std::abs(tenth - 15) < 0.5 && isWhole(10 * tenth));
+    QVERIFY(std::abs(frame - 30) < 0.5 && isWhole(60 * frame));
+    QCOMPARE(keys(kFloor).size(), size_t{5});
+  }
+
+  /// By the menu of a key, also past another one.
+  void aKeyIsTyped() {
+    m_window->activateWindow();
+    const std::string before = text();
+    const auto enter = [this](const QString& time, const QString& value) {
+      choose(QStringLiteral("Set time and value…"), rows().placeOf(kFloor, 0));
+      const auto field = [this](const char* name) {
+        for (QLineEdit* line : rows().findChildren<QLineEdit*>()) {
+          if (line->isVisible() && line->accessibleName() == QLatin1String(name)) return line;
+        }
+        return static_cast<QLineEdit*>(nullptr);
+      };
+      QVERIFY(field("Time of the key") && field("Value of the key"));
+      QCOMPARE(field("Time of the key")->text(), QStringLiteral("5 s"));
+      field("Time of the key")->setText(time);
+      field("Value of the key")->setText(value);
+      QTest::keyClick(field("Value of the key"), Qt::Key_Return);
+    };
+    enter(QStringLiteral("12.5 s"), QStringLiteral("400 K"));
+    QCOMPARE(document().undoStack().count(), m_steps + 1);
+    QCOMPARE(keys(kFloor).size(), size_t{3});
+    QCOMPARE(keys(kFloor)[1].time, 12.5);
+    QVERIFY(std::abs(keys(kFloor)[1].value - 400) < 1e-9);
+    document().undoStack().undo();
+    QCOMPARE(text(), before);
+    QSignalSpy refused(&rows(), &KeyRows::refused);
+    enter(QStringLiteral("soon"), QStringLiteral("400 K"));
+    QCOMPARE(refused.count(), 1);
+    QCOMPARE(text(), before);
+  }
+
+  /// Ahead of what is recorded the ruler says what a click does, and its menu has a marker for it.
+  void theRulerAheadOfTheRunIsNoDeadEnd() {
+    const QPoint ahead(static_cast<int>(rows().xOf(30)), rows().ruler() / 2);
+    QSignalSpy hint(&rows(), &KeyRows::hint);
+    QTest::mouseClick(&rows(), Qt::LeftButton, {}, ahead);
+    QCOMPARE(hint.count(), 1);
+    const QString parts = m_window->statusLine()->parts().join(QLatin1Char('\n'));
+    QVERIFY2(parts.contains(QStringLiteral("has only run up to")), qPrintable(parts));
+    QTest::mouseClick(&rows(), Qt::LeftButton, {}, {static_cast<int>(rows().xOf(0)), ahead.y()});
+    QCOMPARE(hint.count(), 1);
+    choose(QStringLiteral("Add marker here"), ahead);
+    QCOMPARE(document().project().markers.size(), size_t{1});
+    const double time = document().project().markers[0].time;
+    QVERIFY(std::abs(time - 30) < 0.5 && std::abs(10 * time - std::round(10 * time)) < 1e-4);
+  }
+
  private:
+  /// In the menu that a right click opens.
+  void choose(const QString& text, const QPoint& at) {
+    QContextMenuEvent asked(QContextMenuEvent::Mouse, at, rows().mapToGlobal(at));
+    QApplication::sendEvent(&rows(), &asked);
+    auto* menu = rows().findChild<QMenu*>();
+    QVERIFY(menu);
+    QAction* action = nullptr;
+    for (QAction* each : menu->actions()) {
+      if (each->text() == text) action = each;
+    }
+    QVERIFY2(action, qPrintable(text));
+    menu->close();
+    action->trigger();
+    delete menu;
+  }
   KeyRows& rows() { return *m_window->findChild<KeyRows*>(); }
   std::string text() { return writeProject(document().project()); }
   const std::vector<TrackKey>& keys(const Address& address) { return document().track(address)->keys; }

@@ -23,6 +23,7 @@
 #include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
 #include <QtWidgets/QPushButton>
@@ -270,6 +271,35 @@ class TestMendingWindow : public SampleWindowTest {
     QVERIFY(loaded);
   }
 
+  /// Where a scene needs it, what is over the view tries it once more.
+  void aPluginInQuarantineIsTriedFromItsNotice() {
+    const QTemporaryDir folder, home;
+    QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + QStringLiteral("/fixture_material.so"),
+                        folder.filePath(QStringLiteral("aborting.so"))));
+    const QByteArray before = qgetenv("XDG_STATE_HOME");
+    qputenv("XDG_STATE_HOME", home.path().toUtf8());
+    const std::unique_ptr<MainWindow> window = sampleWindow({1280, 800}, {folder.path().toStdString()});
+    qputenv("XDG_STATE_HOME", before);
+    QVERIFY(window);
+    Project project = scene();
+    SceneMaterial lab;
+    lab.id = "lab";
+    lab.base = "fixture.material";
+    project.materials.push_back(lab);
+    const QString path = folder.filePath(QStringLiteral("lab.json"));
+    saveProject(project, path.toStdString());
+    window->openFile(path);
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*window, QStringLiteral("Try again")), kLong);
+    QVERIFY(!noticeButton(*window, QStringLiteral("Find plugin…")));
+    noticeButton(*window, QStringLiteral("Try again"))->click();
+    QTRY_VERIFY_WITH_TIMEOUT(window->notice()->text().contains(QStringLiteral("failed again")), kLong);
+    qputenv("PS_LET_GO", "1");
+    noticeButton(*window, QStringLiteral("Try again"))->click();
+    QTRY_VERIFY_WITH_TIMEOUT(window->notice()->text().contains(QStringLiteral("came back")), kLong);
+    qunsetenv("PS_LET_GO");
+    QVERIFY(noticeButton(*window, QStringLiteral("Close the program")));
+  }
+
   void aPluginThatDoesNotComeBackIsNamed() {
     const QString words = pluginLabel(session().plugins(), "bonds") + QStringLiteral("” does not come back");
     const auto says = [&] { return m_window->statusLine()->parts().front().contains(words); };
@@ -278,6 +308,7 @@ class TestMendingWindow : public SampleWindowTest {
     Q_EMIT session().happened({0, EngineEvent::Kind::Late, 0, "bonds"});
     QTRY_VERIFY_WITH_TIMEOUT(says(), kLong);
     QVERIFY2(m_window->notice()->text().contains(words), qPrintable(m_window->notice()->text()));
+    QVERIFY(!m_window->notice()->text().contains(QStringLiteral("leaves the plugin out")));  // it is the program's own
     Q_EMIT session().happened({0, EngineEvent::Kind::Settled, 0, {}});
     QTRY_VERIFY_WITH_TIMEOUT(!says(), kLong);
     QVERIFY(m_window->notice()->topic() != QStringLiteral("step"));
@@ -307,6 +338,36 @@ class TestMendingWindow : public SampleWindowTest {
     program.start(QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"), arguments);  // without it
     QVERIFY(program.waitForFinished(2 * kLong));
     QCOMPARE(program.exitCode(), 0);
+  }
+
+  /// As at a logout, while the scene runs, or before it does: an end like a kill, which accuses no plugin.
+  void theLossOfTheDisplayIsNoCrash() {
+    const QTemporaryDir folder;
+    QProcess display;
+    display.start(QStringLiteral("Xvfb"),
+                  {QStringLiteral("-displayfd"), QStringLiteral("1"), QStringLiteral("-screen"), QStringLiteral("0"),
+                   QStringLiteral("1280x800x24"), QStringLiteral("-nolisten"), QStringLiteral("tcp"),
+                   QStringLiteral("-noreset"), QStringLiteral("+extension"), QStringLiteral("GLX")});
+    QVERIFY(display.waitForStarted());
+    QTRY_VERIFY_WITH_TIMEOUT(display.canReadLine(), kLong);
+    saveProject(scene(), folder.filePath(QStringLiteral("scene.json")).toStdString());
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert(QStringLiteral("DISPLAY"), QLatin1Char(':') + QString::fromLatin1(display.readLine().trimmed()));
+    environment.insert(QStringLiteral("XDG_STATE_HOME"), folder.filePath(QStringLiteral("state")));
+    environment.insert(QStringLiteral("XDG_DATA_HOME"), folder.filePath(QStringLiteral("data")));
+    QProcess program;
+    program.setProcessEnvironment(environment);
+    program.start(QStringLiteral(PS_BINARY_DIR "/bin/phasesketch"), {folder.filePath(QStringLiteral("scene.json"))});
+    QVERIFY(program.waitForStarted());
+    QTest::qWait(6000);
+    QVERIFY2(program.state() == QProcess::Running, program.readAllStandardError().constData());
+    display.kill();
+    QVERIFY(display.waitForFinished());
+    QVERIFY(program.waitForFinished(kLong));
+    const QByteArray said = program.readAllStandardError();
+    QVERIFY2(program.exitStatus() == QProcess::NormalExit && program.exitCode() == 1, said.constData());
+    QVERIFY(
+        QDir(folder.filePath(QStringLiteral("state/phasesketch"))).entryList({QStringLiteral("*.crashed")}).isEmpty());
   }
 
  private:

@@ -17,8 +17,10 @@
 #include "ui/session/messagelog.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/window/dock.h"
 #include "ui/window/statusline.h"
 #include "ui/window/waysout.h"
+#include "ui/window/windowlayout.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QMap>
@@ -144,6 +146,28 @@ class TestWaysOut : public SampleWindowTest {
     QVERIFY(row && labelOf(*row).contains(QStringLiteral("plugin:org.example.net")));
     inspector.setMaterial("water");
     QVERIFY(!labelOf(*inspector.materialPanel()).contains(QStringLiteral("material:paste")));
+  }
+
+  /// What was said of one project is not taken for what is said of the next, and leads nowhere there.
+  void messagesOfAnotherProjectSaySo() {
+    openProject(sceneOfMissing());
+    m_window->layoutOfDocks().showPage(QStringLiteral("Messages"));
+    auto* list = m_window->findChild<MessagesPage*>()->findChild<QTreeView*>();
+    const auto shown = [&] {
+      QStringList texts;
+      for (int row = 0; row < list->model()->rowCount(); ++row) {
+        const QString text = list->model()->index(row, 2).data().toString();
+        if (text.contains(QStringLiteral("Bingham paste"))) texts << text;
+      }
+      return texts;
+    };
+    QVERIFY(!shown().isEmpty());
+    for (const QString& text : shown()) QVERIFY(!text.startsWith(QStringLiteral("Of the project before: ")));
+    QTest::qWait(1100);  // what is said within a second is of the opening
+    session().files().newProject();
+    QTRY_VERIFY_WITH_TIMEOUT(shown().front().startsWith(QStringLiteral("Of the project before: ")), kLong);
+    for (const QString& text : shown()) QVERIFY(text.startsWith(QStringLiteral("Of the project before: ")));
+    m_window->layoutOfDocks().showPage(QStringLiteral("Graphs"));
   }
 
   /// What lacks its plugin stands still, marked in the outliner, with all that the project says of it.

@@ -20,8 +20,10 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QFileInfo>
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QTemporaryFile>
 #include <QtCore/QTimer>
 #include <QtGui/QAction>
 #include <QtGui/QFontMetricsF>
@@ -31,6 +33,9 @@
 #include <QtWidgets/QFileDialog>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
+
+#include <cstdio>
+#include <unistd.h>
 
 using namespace ps;
 
@@ -338,7 +343,26 @@ class TestWelcome : public QObject {
     const QImage shown = recent().front()->project().picture;
     QCOMPARE(shown.size(), red.size());
     QCOMPARE(shown.pixel(160, 90), red.pixel(160, 90));
-    QVERIFY(pictureOf("AAAA").isNull());  // no picture
+  }
+
+  /// What is no picture, or a part of one, is none, and no library complains of it on standard error.
+  void whatIsNoPictureIsQuietlyNone() {
+    QImage red(320, 180, QImage::Format_RGB32);
+    red.fill(qRgb(255, 0, 0));
+    const std::string whole = thumbnailOf(red);
+    QTemporaryFile said;
+    QVERIFY(said.open());
+    std::fflush(stderr);
+    const int before = ::dup(STDERR_FILENO);
+    ::dup2(said.handle(), STDERR_FILENO);
+    const bool any = !pictureOf("").isNull() || !pictureOf("AAAA").isNull() ||
+                     !pictureOf(whole.substr(0, whole.size() / 2)).isNull();
+    const bool same = pictureOf(whole).size() == red.size();
+    std::fflush(stderr);
+    ::dup2(before, STDERR_FILENO);
+    ::close(before);
+    QVERIFY(!any && same);
+    QCOMPARE(QFileInfo(said.fileName()).size(), qint64{0});
   }
 
   /// Samples are in nobody's way: neither recent, nor drawn into the cache.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ps {
 namespace {
@@ -82,9 +83,8 @@ CurveView::CurveView(CurveTarget& target, QWidget* parent) : QWidget(parent), m_
     take();
   });
   connect(&target, &CurveTarget::responseChanged, this, [this] {
-    const Response::Kind before = m_shown.kind;
-    m_shown = m_target.response();
-    if (m_shown.kind != before && m_grip == Grip::None) fit();
+    const Response before = std::exchange(m_shown, m_target.response());
+    if (m_grip == Grip::None && (m_shown.kind != before.kind || hasLeft(before))) fit();
     update();
   });
   connect(&target, &CurveTarget::pointChanged, this, [this] { update(); });
@@ -147,6 +147,15 @@ void CurveView::fit() {
   m_high = high + room;
   if (!logarithmic() && low >= 0) m_low = std::max(m_low, 0.0);
   showParticles();
+}
+
+/// Whether a point has come or moved out of sight, as one does whose value is typed.
+bool CurveView::hasLeft(const Response& before) const {
+  return std::any_of(m_shown.points.begin(), m_shown.points.end(), [&](const CurvePoint& p) {
+    const double up = level(p.y);
+    const bool inSight = p.x >= m_first && p.x <= m_last && up >= m_low && up <= m_high;
+    return !inSight && std::find(before.points.begin(), before.points.end(), p) == before.points.end();
+  });
 }
 
 /// While nothing runs nobody else tells of what it did not follow while it was hidden.

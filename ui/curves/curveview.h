@@ -60,6 +60,7 @@ class CurveView : public QWidget {
   double ofLevel(double level) const;
   double levelSlope(double value) const;
   double bounded(double value) const;
+  bool hasLeft(const Response& before) const;
   int pointAt(const QMouseEvent& event) const;
   /// What the pointer holds: a point, or a handle of the selected one.
   enum class Grip { None, Point, Before, After };

@@ -6,6 +6,14 @@
 #include <QImageReader>
 
 namespace ps {
+namespace {
+
+/// Who reads a part of a picture, or nothing, complains on standard error.
+bool isWholePng(const QByteArray& bytes) {
+  return bytes.startsWith("\x89PNG\r\n\x1a\n") && bytes.contains("IEND\xae\x42\x60\x82");
+}
+
+}  // namespace
 
 std::string thumbnailOf(const QImage& picture) {
   constexpr int kWidth = 320, kHeight = 180;
@@ -22,6 +30,7 @@ std::string thumbnailOf(const QImage& picture) {
 QImage pictureOf(const std::string& thumbnail) {
   constexpr int kMost = 1024;  // others may have written it
   QByteArray bytes = QByteArray::fromBase64(QByteArray::fromStdString(thumbnail));
+  if (!isWholePng(bytes)) return {};
   QBuffer buffer(&bytes);
   buffer.open(QIODevice::ReadOnly);
   QImageReader reader(&buffer, "PNG");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/messagespage.h"
 
+#include "ui/document/document.h"
+#include "ui/session/documentfiles.h"
 #include "ui/session/messagelog.h"
+#include "ui/session/session.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/theme.h"
 
@@ -17,11 +20,13 @@
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace ps {
 namespace {
 
 constexpr int kTimeWidth = 96, kWhereWidth = 170, kLeastText = 160, kLinksEdge = 24;
+constexpr qint64 kOpening = 1000;  ///< ms
 
 Token tokenOf(MessageLevel level) {
   switch (level) {
@@ -39,9 +44,10 @@ Token tokenOf(MessageLevel level) {
 
 }  // namespace
 
-MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
+MessagesPage::MessagesPage(Session& session, QWidget* parent)
     : QWidget(parent),
-      m_log(log),
+      m_session(session),
+      m_log(session.log()),
       m_model(new QStandardItemModel(this)),
       m_view(new QTreeView),
       m_empty(new QLabel(QStringLiteral("All quiet"))) {
@@ -66,8 +72,23 @@ MessagesPage::MessagesPage(MessageLog& log, QWidget* parent)
                    [this] { QGuiApplication::clipboard()->setText(m_log.allText()); });
     menu.exec(m_view->viewport()->mapToGlobal(at));
   });
-  connect(&log, &MessageLog::changed, this, &MessagesPage::refresh);
+  connect(&m_log, &MessageLog::changed, this, &MessagesPage::refresh);
+  m_path = session.document().path();
+  connect(&session.files(), &DocumentFiles::saved, this, [this] { m_path = m_session.document().path(); });
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    if (!std::holds_alternative<ProjectOpened>(event)) return;
+    const QString before = std::exchange(m_path, m_session.document().path());
+    if (!m_path.isEmpty() && m_path == before) return;  // read again
+    m_opened = QDateTime::currentDateTime();
+    refresh();
+  });
   refresh();
+}
+
+/// What was said just before a project came is of its opening; what the program says of itself is of none.
+bool MessagesPage::isOfFormer(const Message& message) const {
+  return m_opened.isValid() && message.time < m_opened.addMSecs(-kOpening) &&
+         message.where != QStringLiteral("Program") && !message.where.startsWith(QStringLiteral("Plugin "));
 }
 
 void MessagesPage::addLinks(int row, const Message& message) {
@@ -105,14 +126,16 @@ void MessagesPage::refresh() {
     const QColor colour = Theme::current()[tokenOf(it->level)];
     time->setIcon(QIcon(iconPixmap(QString::fromLatin1(messageIcon(it->level)), colour, 16, devicePixelRatioF())));
     time->setForeground(Theme::current()[Token::Muted]);
+    const bool former = isOfFormer(*it);
     auto* where = new QStandardItem(it->where);
-    where->setForeground(Theme::current()[Token::Text2]);
-    QString text = it->text;
+    where->setForeground(Theme::current()[former ? Token::Muted : Token::Text2]);
+    QString text = former ? QStringLiteral("Of the project before: ") + it->text : it->text;
     if (it->count > 1) text += QStringLiteral("  (%1 times)").arg(it->count);
     auto* what = new QStandardItem(text);
     what->setToolTip(it->text);
+    if (former) what->setForeground(Theme::current()[Token::Muted]);
     m_model->appendRow({time, where, what, new QStandardItem});
-    if (!it->links.empty()) addLinks(m_model->rowCount() - 1, *it);
+    if (!it->links.empty() && !former) addLinks(m_model->rowCount() - 1, *it);
   }
   setWidths();
   m_empty->setVisible(messages.empty());

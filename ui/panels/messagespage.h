@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtCore/QDateTime>
 #include <QtWidgets/QWidget>
 
 class QStandardItemModel;
@@ -9,13 +10,14 @@ class QLabel;
 namespace ps {
 
 class MessageLog;
+class Session;
 struct Message;
 
-/// The list of messages, newest on top.
+/// The list of messages, newest on top; those of a project that was open before say so.
 class MessagesPage : public QWidget {
   Q_OBJECT
  public:
-  explicit MessagesPage(MessageLog& log, QWidget* parent = nullptr);
+  explicit MessagesPage(Session& session, QWidget* parent = nullptr);
 
  Q_SIGNALS:
   void linkActivated(const QString& target);  ///< MessageLink::target
@@ -28,8 +30,12 @@ class MessagesPage : public QWidget {
  private:
   void refresh();
   void setWidths();
+  bool isOfFormer(const Message& message) const;
   void addLinks(int row, const Message& message);
+  Session& m_session;
   MessageLog& m_log;
+  QString m_path;      ///< of the present project; "": never saved
+  QDateTime m_opened;  ///< when the present project came in the place of another
   QStandardItemModel* m_model;
   QTreeView* m_view;
   QLabel* m_empty;

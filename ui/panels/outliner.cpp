@@ -20,7 +20,6 @@
 #include "ui/theme/units.h"
 
 #include <QtGui/QColor>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
@@ -82,13 +81,10 @@ Outliner::Outliner(Session& session, Selection& selection, QWidget* parent)
           [this](int kind, const std::string& id, bool on) { m_document.setVisible(thingsOf(kind, id), on); });
   connect(delegate, &OutlinerDelegate::lockToggled, this,
           [this](int kind, const std::string& id, bool on) { m_document.setLocked(thingsOf(kind, id), on); });
-  connect(delegate, &OutlinerDelegate::renamed, this, [this](int kind, const std::string& id, const QString& name) {
-    // The rows are made anew, and the field that is typed into goes with them before it is closed: the keys stay here,
-    // unless a click elsewhere ended the naming.
-    const bool types = m_view->viewport()->isAncestorOf(QApplication::focusWidget());
-    rename(kind, id, name);
-    if (types) m_view->setFocus(Qt::OtherFocusReason);
-  });
+  // The rows are made anew: not below the field that is typed into, which the view closes first.
+  connect(
+      delegate, &OutlinerDelegate::renamed, this,
+      [this](int kind, const std::string& id, const QString& name) { rename(kind, id, name); }, Qt::QueuedConnection);
   m_view->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_view, &QTreeView::customContextMenuRequested, this, [this](const QPoint& at) {
     if (selected().first != OutlineKind::Environment && m_view->currentIndex().isValid())

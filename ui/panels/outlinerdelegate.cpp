@@ -6,6 +6,7 @@
 #include "ui/theme/paint.h"
 #include "ui/theme/theme.h"
 
+#include <QtGui/QKeyEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QLineEdit>
@@ -107,6 +108,16 @@ bool OutlinerDelegate::editorEvent(QEvent* event, QAbstractItemModel* model, con
     }
   }
   return QStyledItemDelegate::editorEvent(event, model, option, index);
+}
+
+/// Tab ends the naming, and names nothing else: the rows are made anew.
+bool OutlinerDelegate::eventFilter(QObject* object, QEvent* event) {
+  auto* editor = qobject_cast<QWidget*>(object);
+  const int key = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event)->key() : 0;
+  if (!editor || (key != Qt::Key_Tab && key != Qt::Key_Backtab)) return QStyledItemDelegate::eventFilter(object, event);
+  Q_EMIT commitData(editor);
+  Q_EMIT closeEditor(editor);
+  return true;
 }
 
 void OutlinerDelegate::setModelData(QWidget* editor, QAbstractItemModel*, const QModelIndex& index) const {

@@ -21,6 +21,9 @@ class OutlinerDelegate : public QStyledItemDelegate {
   static QRect eyeRect(const QRect& row);
   static QRect lockRect(const QRect& row);
 
+ protected:
+  bool eventFilter(QObject* object, QEvent* event) override;
+
  Q_SIGNALS:
   void visibleToggled(int kind, const std::string& id, bool on) const;
   void lockToggled(int kind, const std::string& id, bool on) const;

@@ -139,7 +139,9 @@ QHBoxLayout* PluginPage::makeFoot() {
   connect(m_folder, &QPushButton::clicked, this, [this] {
     if (const MissingPlugin* missing = missingAt(m_view->currentIndex())) Q_EMIT folderWanted(missing->id);
   });
-  connect(m_again, &QPushButton::clicked, this, &PluginPage::tryAgain);
+  connect(m_again, &QPushButton::clicked, this, [this] {
+    if (const PluginInfo* shown = pluginAt(m_view->currentIndex())) tryAgain(std::string(shown->id));
+  });
   return foot;
 }
 
@@ -298,12 +300,11 @@ const PluginInfo* PluginPage::pluginAt(const QModelIndex& index) const {
 }
 
 /// It may take as long as a plugin may; the window goes on meanwhile, or may be gone.
-void PluginPage::tryAgain() {
-  const PluginInfo* shown = pluginAt(m_view->currentIndex());
-  if (!shown || m_trying) return;
+void PluginPage::tryAgain(const std::string& id) {
+  if (m_trying) return;
   m_trying = true;
   showDetails();
-  m_session.worker().run([&session = m_session, page = QPointer<PluginPage>(this), id = shown->id] {
+  m_session.worker().run([&session = m_session, page = QPointer<PluginPage>(this), id] {
     const QString problem = QString::fromStdString(session.plugins()->tryAgain(id).problem);
     QMetaObject::invokeMethod(&session, [&session, page, id, problem] {
       const QString name = QStringLiteral("Plugin ") + QString::fromStdString(id);
@@ -316,6 +317,7 @@ void PluginPage::tryAgain() {
       page->m_trying = false;
       page->refresh();
       page->select(id);
+      Q_EMIT page->tried(id, problem);
     });
   });
 }

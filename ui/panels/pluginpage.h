@@ -33,13 +33,16 @@ class PluginPage : public QWidget {
   void showNews(const QString& text);
   /// Shows one that the scene misses, whatever is filtered.
   void find(const std::string& id);
+  /// Tries one in quarantine once more, in a process of its own; one at a time.
+  void tryAgain(const std::string& id);
   QString summary() const;
   /// As shown, one line per plugin: for tests and "Copy list".
   QStringList lines() const;
 
  Q_SIGNALS:
   void closeRequested();
-  void folderWanted(const std::string& id);  ///< where a missing one is to be looked for
+  void tried(const std::string& id, const QString& problem);  ///< ""; or why it stays in quarantine
+  void folderWanted(const std::string& id);                   ///< where a missing one is to be looked for
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -56,7 +59,6 @@ class PluginPage : public QWidget {
   std::string idAt(int row) const;
   /// What the list has in this row; nullptr: nothing there.
   const PluginInfo* pluginAt(const QModelIndex& index) const;
-  void tryAgain();
   void filter(const QString& text);
   Session& m_session;
   PluginRegistry* m_registry = nullptr;  ///< while plugins are being loaded

@@ -15,6 +15,7 @@ class Document;
 namespace ps::wayout {
 
 inline constexpr const char* kPlugin = "plugin:";      ///< with a plugin's id: look for it
+inline constexpr const char* kTryAgain = "tryagain:";  ///< with the id of one in quarantine: try it once more
 inline constexpr const char* kMaterial = "material:";  ///< with a scene material's id: choose another for it
 
 inline constexpr const char* kAction = "action:";  ///< with an action's name: do it
@@ -23,8 +24,8 @@ inline constexpr const char* kAction = "action:";  ///< with an action's name: d
 QString action(const char* name);
 /// Whether a link is one of these.
 bool isWayOut(const QString& link);
-/// "Find plugin…", "Use another material…".
-std::vector<MessageLink> linksOf(const MissingPlugin& missing);
+/// "Find plugin…", or "Try again" of one in quarantine; "Use another material…".
+std::vector<MessageLink> linksOf(const MissingPlugin& missing, const PluginRegistry& plugins);
 /// What is missing, with these links, as ParameterRow::setLimit() takes it.
 QString note(const MissingPlugin& missing, const Document& document);
 

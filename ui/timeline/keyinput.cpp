@@ -6,9 +6,13 @@
 #include "ui/document/document.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/session.h"
+#include "ui/session/wording.h"
+#include "ui/theme/numbers.h"
 #include "ui/theme/plaintext.h"
 #include "ui/theme/reach.h"
+#include "ui/timeline/keyinplace.h"
 #include "ui/timeline/keyrows.h"
+#include "ui/timeline/timeaxis.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QKeyEvent>
@@ -107,7 +111,10 @@ void KeyRows::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   const QPoint at = event->position().toPoint();
   m_scrubs = at.y() < m_ruler && at.x() >= kLabel;
-  if (m_scrubs) return m_session.recorded().showAt(secondsAt(event->position().x()));
+  if (m_scrubs) {
+    m_session.recorded().showAt(secondsAt(event->position().x()));
+    return hintAhead(secondsAt(event->position().x()));
+  }
   const auto under = keyUnder(at, reachOf(*event, kGrip));
   if (!under) {
     choose({});
@@ -242,8 +249,61 @@ void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
   if (at.x() < kLabel) {
     Q_EMIT curveWanted(Address(row->address));
   } else {
-    setKeyAt(Row(*row), snapped(secondsAt(at.x()), event->modifiers() & Qt::ShiftModifier));
+    setKeyAt(Row(*row), timeToSet(secondsAt(at.x()), 2 * m_session.document().keySlack(), event->modifiers()));
   }
+}
+
+/// Of what has not run yet there is nothing to show.
+void KeyRows::hintAhead(double seconds) {
+  const SnapshotPtr newest = m_session.newest();
+  const double last = std::max(m_session.recorded().extent().to, newest ? newest->stats.time : 0);
+  if (xOf(seconds) <= xOf(last) + kGrip) return;
+  Q_EMIT hint(
+      QStringLiteral("A click here shows what is recorded, and the scene has only run up to %1. Space plays on; a "
+                     "double-click in a row below sets a key here, a right click a marker.")
+          .arg(clockText(last)));
+}
+
+void KeyRows::typeKey(const Chosen& key) {
+  const std::vector<TrackKey>& keys = keysOf(key.address);
+  const api::ParameterDeclaration* declaration = m_session.document().keyDeclaration(key.address);
+  if (key.key >= keys.size() || !declaration) return;
+  const TrackKey& shown = keys[key.key];
+  const bool toggle = declaration->kind == api::ParameterKind::Toggle;
+  const QPoint at = placeOf(key.address, key.key);
+  keyInPlace(
+      *this, {at.x() + static_cast<int>(kGrip), at.y() - m_row / 2 + 1, 0, m_row - 2},
+      {formatShort(shown.time, 6) + QStringLiteral(" s"), toggle ? QString() : formatValue(*declaration, shown.value)},
+      [this, address = key.address, time = shown.time](const KeyTexts& typed) {
+        takeTyped(address, time, typed.time, typed.value);
+      });
+}
+
+/// The key of that time, which others may have moved or taken away meanwhile; with another time it takes the place of
+/// one that is there.
+void KeyRows::takeTyped(const Address& address, double time, const QString& newTime, const QString& newValue) {
+  Document& document = m_session.document();
+  const api::ParameterDeclaration* declaration = document.keyDeclaration(address);
+  std::vector<TrackKey> keys = keysOf(address);
+  const auto place = keyAt(keys, time, 1e-6);
+  if (!declaration || !place) return;
+  TrackKey key = keys[*place];
+  QString bare = newTime.trimmed();
+  if (bare.endsWith(QLatin1Char('s'))) bare.chop(1);
+  const auto seconds = parseNumber(bare.trimmed());
+  if (!seconds || !(*seconds >= 0)) return tell(QStringLiteral("A time is a number of seconds from the start on."));
+  if (!newValue.isEmpty()) {
+    const Typed typed = parseTyped(newValue, *declaration, key.value);
+    if (!typed.problem.isEmpty()) return tell(typed.problem);
+    key.value = typed.value;
+  }
+  key.time = std::round(*seconds * 1e6) / 1e6;
+  keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(*place));
+  const size_t now = putKey(keys, key, document.keySlack());
+  const QString problem =
+      document.setKeys({{address, keys}}, QStringLiteral("key of %1").arg(document.trackTitle(address)));
+  tell(problem);
+  if (problem.isEmpty()) choose({{address, now}});
 }
 
 /// Of the value that holds then.
@@ -295,34 +355,45 @@ void KeyRows::keyPressEvent(QKeyEvent* event) {
     QWidget::keyPressEvent(event);
 }
 
+/// Of what is chosen.
+void KeyRows::fillKeyMenu(QMenu& menu) {
+  const Chosen key = m_picked.back().key;
+  const bool toggles = std::any_of(m_picked.begin(), m_picked.end(), [this](const Picked& picked) {
+    const auto* declared = m_session.document().keyDeclaration(picked.key.address);
+    return !declared || declared->kind == api::ParameterKind::Toggle;
+  });
+  if (m_picked.size() == 1) {
+    connect(menu.addAction(toggles ? QStringLiteral("Set time…") : QStringLiteral("Set time and value…")),
+            &QAction::triggered, this, [this, key] { typeKey(key); });
+    menu.addSeparator();
+  }
+  for (const auto& [way, text] : {std::pair(ToNext::Step, "Hold its value"), std::pair(ToNext::Linear, "Straight line"),
+                                  std::pair(ToNext::Smooth, "Smooth curve")}) {
+    if (toggles) break;
+    QAction* action = menu.addAction(QString::fromLatin1(text));
+    action->setCheckable(true);
+    action->setChecked(keysOf(key.address)[key.key].toNext == way);
+    connect(action, &QAction::triggered, this, [this, way = way] { setWay(way); });
+  }
+  if (!toggles) menu.addSeparator();
+  connect(menu.addAction(m_picked.size() > 1 ? QStringLiteral("Delete keys") : QStringLiteral("Delete key")),
+          &QAction::triggered, this, [this] { removeChosen(); });
+}
+
 void KeyRows::contextMenuEvent(QContextMenuEvent* event) {
+  const bool byMouse = event->reason() == QContextMenuEvent::Mouse;
   const auto under = keyUnder(event->pos());
-  if (event->reason() == QContextMenuEvent::Mouse && (!under || !isChosen(*under)))
-    choose(under ? std::vector{*under} : std::vector<Chosen>{});
+  if (byMouse && (!under || !isChosen(*under))) choose(under ? std::vector{*under} : std::vector<Chosen>{});
   auto* menu = new QMenu(this);
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  if (!m_picked.empty()) {
-    const Chosen& key = m_picked.back().key;
-    const bool toggles = std::any_of(m_picked.begin(), m_picked.end(), [this](const Picked& picked) {
-      const auto* declared = m_session.document().keyDeclaration(picked.key.address);
-      return !declared || declared->kind == api::ParameterKind::Toggle;
-    });
-    for (const auto& [way, text] :
-         {std::pair(ToNext::Step, "Hold its value"), std::pair(ToNext::Linear, "Straight line"),
-          std::pair(ToNext::Smooth, "Smooth curve")}) {
-      if (toggles) break;
-      QAction* action = menu->addAction(QString::fromLatin1(text));
-      action->setCheckable(true);
-      action->setChecked(keysOf(key.address)[key.key].toNext == way);
-      connect(action, &QAction::triggered, this, [this, way = way] { setWay(way); });
-    }
-    if (!toggles) menu->addSeparator();
-    connect(menu->addAction(m_picked.size() > 1 ? QStringLiteral("Delete keys") : QStringLiteral("Delete key")),
-            &QAction::triggered, this, [this] { removeChosen(); });
-  }
+  if (!m_picked.empty()) fillKeyMenu(*menu);
   if (const Row* row = rowAt(event->pos())) {
     connect(menu->addAction(QStringLiteral("Edit as a curve")), &QAction::triggered, this,
             [this, address = row->address] { Q_EMIT curveWanted(address); });
+  } else if (byMouse && event->pos().x() >= kLabel) {
+    const double time = timeToSet(secondsAt(event->pos().x()), 2 * m_session.document().keySlack(), {});
+    connect(menu->addAction(QStringLiteral("Add marker here")), &QAction::triggered, this,
+            [this, time] { m_session.document().addMarker(time); });
   }
   if (menu->isEmpty()) {
     delete menu;

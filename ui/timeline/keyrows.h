@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+class QMenu;
+
 namespace ps {
 
 class Session;
@@ -15,8 +17,8 @@ class Session;
 /// The keys of the document over the scene's time: a ruler, on which a drag shows recorded frames, and a row for each
 /// animated parameter, where there are any. Keys are chosen by a click, Shift adds one, or by a box that is drawn
 /// around them, and dragged to other frames together (Shift: to any time; Ctrl: copies of them); Escape takes a drag
-/// back. A double-click sets a key of the value that holds there, on a name it opens the keys as a curve; Delete takes
-/// chosen ones away. Each gesture is one undo step.
+/// back. A double-click sets a key of the value that holds there, at a tenth of a second (Ctrl: at a frame, Shift: at
+/// any time), on a name it opens the keys as a curve; Delete takes chosen ones away. Each gesture is one undo step.
 class KeyRows : public QWidget {
   Q_OBJECT
  public:
@@ -43,6 +45,7 @@ class KeyRows : public QWidget {
  Q_SIGNALS:
   void rowsChanged();
   void refused(const QString& title, const QString& why);  ///< "The keys stay as they are.", why
+  void hint(const QString& sentence);                      ///< what a click does where it did nothing
   void curveWanted(const ps::Address& address);
 
  protected:
@@ -80,6 +83,11 @@ class KeyRows : public QWidget {
   void tell(const QString& problem);  ///< "": there is none
   void setKeyAt(const Row& row, double time);
   void removeChosen();
+  /// Fields over the row, for time and value of a key.
+  void typeKey(const Chosen& key);
+  void takeTyped(const Address& address, double time, const QString& newTime, const QString& newValue);
+  void hintAhead(double seconds);
+  void fillKeyMenu(QMenu& menu);
   void setWay(ToNext way);
   QString tipAt(const QPoint& at) const;
   void paintRuler(QPainter& painter) const;

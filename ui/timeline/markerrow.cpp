@@ -10,6 +10,7 @@
 #include "ui/theme/theme.h"
 #include "ui/timeline/keyrows.h"
 #include "ui/timeline/nameinplace.h"
+#include "ui/timeline/timeaxis.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QHelpEvent>
@@ -141,7 +142,7 @@ void MarkerRow::mouseDoubleClickEvent(QMouseEvent* event) {
     return;
   }
   m_chosen = m_session.document().addMarker(
-      snapped(m_scale.secondsAt(at.x()), event->modifiers().testFlag(Qt::ShiftModifier)));
+      timeToSet(m_scale.secondsAt(at.x()), 2 * m_session.document().keySlack(), event->modifiers()));
   update();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <QtCore/Qt>
 
 namespace ps {
 
@@ -7,6 +8,10 @@ class Session;
 
 /// s at the right end of all that lies along time: the duration, or what was recorded, keyed or marked beyond.
 double timeAxisEnd(Session& session, double duration);
+
+/// s, near a time that a double-click or a menu means: a tenth of a second, with Ctrl a frame, with Shift any time.
+/// What is set acts at a frame: of frames that do not divide a tenth the nearest one.
+double timeToSet(double seconds, double frame, Qt::KeyboardModifiers modifiers);
 
 /// Between the ends of rows, in logical pixels.
 struct TimeAxis {

@@ -49,9 +49,11 @@ Timeline::Timeline(Session& session, PointedBy by, QWidget* parent)
 std::vector<std::pair<QString, QString>> Timeline::gestures() {
   return {{QStringLiteral("Drag"), QStringLiteral("Show a recorded time; move a key or a marker")},
           {QStringLiteral("Double-click"), QStringLiteral("Set a key or a marker; name a run or a marker")},
+          {QStringLiteral("Ctrl+double-click"), QStringLiteral("The same at a frame, not at a tenth of a second")},
           {QStringLiteral("F2"), QStringLiteral("Name the chosen run or marker")},
           {QStringLiteral("Del"), QStringLiteral("Delete the chosen key or marker")},
-          {QStringLiteral("Right-click"), QStringLiteral("Go on with an earlier run, compare, ghost, delete")}};
+          {QStringLiteral("Right-click"),
+           QStringLiteral("Type a key, add a marker; go on with an earlier run, compare, delete")}};
 }
 
 void Timeline::setSlim(bool slim) {

@@ -162,6 +162,17 @@ QString countText(const Body& body, const Document& document) {
   return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
+/// What went with a body that has come back at once.
+void bringBack(Document& document, const std::vector<Track>& tracks, const std::vector<Probe>& probes) {
+  for (const Track& track : tracks) {
+    const auto address = Address::parse(track.parameter);
+    if (address && !document.track(*address)) document.setKeys({{*address, track.keys}}, {});
+  }
+  for (const Probe& probe : probes) {
+    if (!document.probe(probe.id)) document.addProbe(probe);
+  }
+}
+
 }  // namespace
 
 BodyActions::BodyActions(Session& session, Selection& selection, const Actions& actions, Notices& notices,
@@ -487,9 +498,12 @@ void BodyActions::setUnit(std::string id, double from, double to) {
   }
   Body body = *present;
   scale(solidOf(body), to / from);
+  const std::vector<Track> tracks = document.project().tracks;
+  const std::vector<Probe> probes = document.project().probes;
   document.undoStack().beginMacro(QStringLiteral("unit of %1").arg(QString::fromStdString(body.name)));
   document.removeBody(id);
   const std::string anew = add(std::move(body), id);
+  if (anew == id) bringBack(document, tracks, probes);
   document.undoStack().endMacro();
   askUnit(anew, to);
 }

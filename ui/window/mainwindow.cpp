@@ -391,6 +391,7 @@ void MainWindow::connectTools() {
 void MainWindow::connectPanels() {
   connect(m_inspector, &Inspector::keyRefused, m_notices, &Notices::refuse);
   connect(findChild<KeyRows*>(), &KeyRows::refused, m_notices, &Notices::refuse);
+  connect(findChild<KeyRows*>(), &KeyRows::hint, m_status, [this](const QString& text) { m_status->say(text); });
   connect(findChild<KeyRows*>(), &KeyRows::curveWanted, this, [this](const Address& address) {
     m_curves->chooseTrack(address);
     showWorkspace(kTuneTab);

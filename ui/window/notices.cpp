@@ -108,16 +108,17 @@ void Notices::showFailure(const EngineEvent& event) {
 
 void Notices::showLate(const std::string& plugin) {
   const auto& all = m_session.plugins()->plugins();
-  const bool brush = std::any_of(all.begin(), all.end(), [&](const PluginInfo& info) {
-    return info.id == plugin && info.kind == PluginKind::Brush;  // its stroke was given up
-  });
+  const auto is = [&](const auto& so) {
+    return std::any_of(all.begin(), all.end(), [&](const PluginInfo& info) { return info.id == plugin && so(info); });
+  };
+  const bool brush = is([](const PluginInfo& info) { return info.kind == PluginKind::Brush; });  // its stroke is over
+  const bool own = is([](const PluginInfo& info) { return info.own; });  // no start leaves it out
   const QString title =
       QStringLiteral("The plugin “%1” does not come back.").arg(pluginLabel(m_session.plugins(), plugin));
-  const QString text =
-      (brush ? QStringLiteral("Its stroke was given up, and the scene goes on.")
-             : QStringLiteral("Nothing moves until it does.")) +
-      QStringLiteral(
-          " Your work is kept: close the window and start the program again, which then leaves the plugin out.");
+  const QString text = (brush ? QStringLiteral("Its stroke was given up, and the scene goes on.")
+                              : QStringLiteral("Nothing moves until it does.")) +
+                       QStringLiteral(" Your work is kept: close the window and start the program again%1.")
+                           .arg(own ? QString() : QStringLiteral(", which then leaves the plugin out"));
   m_session.log().add(MessageLevel::Error, QStringLiteral("Simulation"), title + QLatin1Char(' ') + text);
   m_bar.show(kStep, MessageLevel::Error, title, text);
 }

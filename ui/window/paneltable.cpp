@@ -98,7 +98,7 @@ const std::vector<PanelRow>& panelTable() {
       {"dock.graphs", "Graphs", [](Context c) -> QWidget* { return new GraphsPanel(c.session); }, "graphs"},
       {"dock.graphs", "Energy", [](Context c) -> QWidget* { return new EnergyPanel(c.session); }, "graphs"},
       {"dock.graphs", "Draw the result", [](Context c) -> QWidget* { return new FitPanel(c.session); }, "graphs"},
-      {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session.log()); }},
+      {"dock.graphs", "Messages", [](Context c) -> QWidget* { return new MessagesPage(c.session); }},
       {"dock.graphs", "Heating curve",
        [](Context c) -> QWidget* { return new MatterDiagram(MatterDiagram::Kind::Heating, c.session, c.curves); },
        "tuning"},

@@ -35,7 +35,7 @@ namespace ps {
 namespace {
 
 const QString kTopic = QStringLiteral("missing"), kTaken = QStringLiteral("taken instead"),
-              kInstalling = QStringLiteral("installing");
+              kInstalling = QStringLiteral("installing"), kTried = QStringLiteral("tried again");
 
 /// Of those that are in a folder; "" where the plugin is among them and sound.
 QString whyNotIn(const std::vector<PluginInfo>& list, const QString& folder, const std::string& id) {
@@ -67,10 +67,12 @@ WaysOut::WaysOut(const Parts& parts, QObject* parent) : QObject(parent), m_parts
                                        QStandardPaths::writableLocation(QStandardPaths::DownloadLocation));
     if (!folder.isEmpty()) installFrom(folder, id);
   });
+  connect(&parts.plugins, &PluginPage::tried, this, &WaysOut::showTried);
 }
 
 void WaysOut::follow(const QString& link) {
   const auto after = [&](const char* prefix) { return link.mid(QLatin1String(prefix).size()).toStdString(); };
+  if (link.startsWith(QLatin1String(wayout::kTryAgain))) return m_parts.plugins.tryAgain(after(wayout::kTryAgain));
   if (link.startsWith(QLatin1String(wayout::kPlugin))) return findPlugin(after(wayout::kPlugin));
   if (link.startsWith(QLatin1String(wayout::kAction))) {
     QAction* action = m_parts.actions.find(link.mid(QLatin1String(wayout::kAction).size()));
@@ -88,7 +90,8 @@ void WaysOut::tellMissing() {
   if (!document.plugins()) return;
   for (const MissingPlugin& missing : missingPlugins(document.project(), *document.plugins())) {
     m_parts.session.log().add(MessageLevel::Warning, document.title(),
-                              missingText(missing, document.project(), *document.plugins()), wayout::linksOf(missing));
+                              missingText(missing, document.project(), *document.plugins()),
+                              wayout::linksOf(missing, *document.plugins()));
   }
 }
 
@@ -100,7 +103,7 @@ void WaysOut::showMissing() {
   const std::vector<MissingPlugin> all = missingPlugins(document.project(), *document.plugins());
   if (all.empty()) return;
   std::vector<NoticeBar::Button> buttons;
-  for (const MessageLink& link : wayout::linksOf(all.front()))
+  for (const MessageLink& link : wayout::linksOf(all.front(), *document.plugins()))
     buttons.push_back({link.text, [this, target = link.target] { follow(target); }});
   bar.show(kTopic, MessageLevel::Warning,
            all.size() == 1 ? QStringLiteral("A plugin is missing, the rest runs.")
@@ -153,6 +156,18 @@ void WaysOut::useOther(const std::string& material, const std::string& base) {
                m_parts.notices.bar().close(kTaken);
                m_parts.session.reset();
              }}});
+}
+
+void WaysOut::showTried(const std::string& id, const QString& problem) {
+  showMissing();
+  NoticeBar& bar = m_parts.notices.bar();
+  const QString name = QString::fromStdString(id);
+  if (problem.isEmpty())
+    return bar.show(kTried, MessageLevel::Info, QStringLiteral("The plugin “%1” came back.").arg(name),
+                    QStringLiteral("Start the program again to have it; your work is kept meanwhile."),
+                    {{QStringLiteral("Close the program"), [this] { m_parts.actions.window().close(); }}});
+  bar.show(kTried, MessageLevel::Warning, QStringLiteral("The plugin “%1” failed again.").arg(name), problem,
+           {{QStringLiteral("Try again"), [this, id] { m_parts.plugins.tryAgain(id); }}});
 }
 
 void WaysOut::installFrom(const QString& folder, const std::string& id) {

@@ -47,6 +47,8 @@ class WaysOut : public QObject {
 
  private:
   void showInstalled(const std::string& id, const QString& problem, const QString& place);
+  /// Of one in quarantine that was tried again.
+  void showTried(const std::string& id, const QString& problem);
   Parts m_parts;
 };
 
