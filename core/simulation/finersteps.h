@@ -20,4 +20,8 @@ struct FinerSteps {
 /// iterations where it has fewer. Nothing where no more substeps can be had, or a track leads either of them.
 std::optional<FinerSteps> finerSteps(const Project& project);
 
+/// Substeps with which as many layers rest on each other at the spacing of a scene as with the defaults at theirs.
+/// Nothing where that is less than twice the default, or where somebody has chosen substeps, iterations or the frame.
+std::optional<int> substepsAtSpacing(const Project& project);
+
 }  // namespace ps

@@ -422,6 +422,22 @@ class TestWaysOut : public SampleWindowTest {
     document().undoStack().undo();
   }
 
+  /// The substeps of a new scene are for coarse particles.
+  void aFineSpacingOffersMoreSubsteps() {
+    openProject(scenes::iceOnPlate(2, 280));
+    session().pause();
+    ParameterPanel* panel = m_window->inspector().solverPanel();
+    const auto note = [&] { return labelOf(*panel->row(QStringLiteral("solver/particle_spacing"))); };
+    QVERIFY2(!note().contains(QStringLiteral("substeps")), qPrintable(note()));
+    QCOMPARE(document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.005), QString());
+    QVERIFY2(note().contains(QStringLiteral("solver/substeps=8")), qPrintable(note()));
+    Q_EMIT panel->linkActivated(QString(), QStringLiteral("solver/substeps=8"));
+    QCOMPARE(std::get<double>(document().value({Owner::Solver, "", "substeps"})), 8.0);
+    QVERIFY2(!note().contains(QStringLiteral("substeps")), qPrintable(note()));
+    for (int step = 0; step < 2; ++step) document().undoStack().undo();
+    QVERIFY(!document().isDirty());
+  }
+
   /// A scene without a title of its own is called as its file is.
   void aSavedSceneIsCalledAsItsFile() {
     const QTemporaryDir folder;

@@ -53,6 +53,8 @@ class TstSimulation : public QObject {
   void endlessParticlesAreRefused();
   void stepsAreMadeFiner_data();
   void stepsAreMadeFiner();
+  void aFineSpacingTakesMoreSubsteps_data();
+  void aFineSpacingTakesMoreSubsteps();
   void runsWithoutAnyPlugin();
   void viscosityIsCompiledAsDeclared();
   void threadPlaysPausesStepsAndResets();
@@ -540,6 +542,34 @@ void TstSimulation::stepsAreMadeFiner() {
   track.keys = {{0, 4}};
   project.tracks = {track};
   QVERIFY(!finerSteps(project));
+}
+
+void TstSimulation::aFineSpacingTakesMoreSubsteps_data() {
+  QTest::addColumn<double>("spacing");
+  QTest::addColumn<QString>("key");  // with a value beside it; "" none
+  QTest::addColumn<double>("gravity");
+  QTest::addColumn<int>("substeps");  // 0: nothing to say
+  QTest::newRow("default") << 0.02 << QString() << 9.81 << 0;
+  QTest::newRow("finer") << 0.01 << QString() << 9.81 << 0;
+  QTest::newRow("least of the slider") << 0.005 << QString() << 9.81 << 8;
+  QTest::newRow("4 mm") << 0.004 << QString() << 9.81 << 9;
+  QTest::newRow("as fine as can be") << 0.0005 << QString() << 9.81 << 26;
+  QTest::newRow("without weight") << 0.004 << QString() << 0.0 << 0;
+  QTest::newRow("chosen substeps") << 0.004 << QStringLiteral("substeps") << 9.81 << 0;
+  QTest::newRow("chosen iterations") << 0.004 << QStringLiteral("iterations") << 9.81 << 0;
+  QTest::newRow("chosen frame") << 0.004 << QStringLiteral("dt") << 9.81 << 0;
+}
+
+void TstSimulation::aFineSpacingTakesMoreSubsteps() {
+  QFETCH(double, spacing);
+  QFETCH(QString, key);
+  QFETCH(double, gravity);
+  QFETCH(int, substeps);
+  Project project = scenes::iceOnPlate(3, 293.15);
+  project.environment.gravity = {0, -gravity, 0};
+  project.solver.parameters.values["particle_spacing"] = spacing;
+  if (!key.isEmpty()) project.solver.parameters.values[key.toStdString()] = 2.0;
+  QCOMPARE(substepsAtSpacing(project).value_or(0), substeps);
 }
 
 void TstSimulation::runsWithoutAnyPlugin() {
