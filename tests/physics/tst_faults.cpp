@@ -172,8 +172,8 @@ class TestFaults : public QObject {
     QCOMPARE(report.flags, static_cast<ps::StepFlags>(ps::StepFlag::LostParticle));
   }
 
-  /// What is far too dense for one step to mend is told; drops that are next to nothing of the matter are not the
-  /// solver's failure.
+  /// What is far too dense for one step to mend is told, by its body; drops that are next to nothing of the matter are
+  /// not the solver's failure.
   void squeezedLiquidIsToldUnlessItIsADrop() {
     for (const bool drop : {false, true}) {
       Solver solver;
@@ -187,9 +187,12 @@ class TestFaults : public QObject {
       ps::Spawn heap = ice(lattice(14, 14, 14, 0.02, -1), 0);
       heap.constraintSets.clear();
       if (drop) solver.spawn(heap);
+      solver.setBodyNames({"Pool"});
       const StepReport report = solver.step();
       QVERIFY2(report.densityErrorMean > 0.5, qPrintable(QString::number(report.densityErrorMean)));
       QCOMPARE((report.flags & static_cast<ps::StepFlags>(ps::StepFlag::Diverged)) != 0, !drop);
+      QCOMPARE(report.message.find("'Pool': density error ") != std::string::npos, !drop);
+      QVERIFY2(report.message.find(" of 'Pool': density error") == std::string::npos, report.message.c_str());
       const std::vector<ps::Limit> limits = solver.limits();
       const auto told = [](const ps::Limit& limit) { return limit.what == ps::kSqueezeLimit; };
       QCOMPARE(std::any_of(limits.begin(), limits.end(), told), drop);

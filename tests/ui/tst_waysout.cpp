@@ -18,6 +18,7 @@
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
 #include "ui/window/dock.h"
+#include "ui/window/noticebar.h"
 #include "ui/window/statusline.h"
 #include "ui/window/waysout.h"
 #include "ui/window/windowlayout.h"
@@ -414,6 +415,51 @@ class TestWaysOut : public SampleWindowTest {
     m_window->selection().setMaterial("wood");
     QVERIFY(!m_window->revealParameter({Owner::Material, "gone", "youngs_modulus"}));
     QCOMPARE(m_window->selection().material(), std::string("wood"));
+  }
+
+  /// The solver's steps are made finer by one step of undo, and once.
+  void squeezedLiquidOffersFinerSteps() {
+    openProject(scenes::iceOnPlate(4, 280));
+    session().pause();
+    idsNow(session());  // no frame comes any more, nor what it would say
+    const Address substeps{Owner::Solver, "", "substeps"}, iterations{Owner::Solver, "", "iterations"};
+    const auto number = [&](const Address& address) { return std::get<double>(document().value(address)); };
+    QCOMPARE(document().setParameter(iterations, 2.0), QString());
+    const int before = document().undoStack().count();
+    EngineEvent squeezed;
+    squeezed.flags = static_cast<StepFlags>(StepFlag::Diverged);
+    squeezed.message = "'Ice': density error 155 % where it is worst, 69 % in the mean of all liquid";
+    Q_EMIT session().happened(squeezed);
+    const auto says = [&](const char* text) { return m_window->notice()->text().contains(QString::fromUtf8(text)); };
+    QVERIFY2(says("'Ice': density error 155 %") && says("Raise the substeps"), qPrintable(m_window->notice()->text()));
+    QPushButton* use = noticeButton(*m_window, QStringLiteral("Use 16 substeps and 4 iterations"));
+    QVERIFY(use);
+    use->click();
+    QCOMPARE(document().undoStack().count(), before + 1);
+    QCOMPARE(number(substeps), 16.0);
+    QCOMPARE(number(iterations), 4.0);
+    QVERIFY2(says("Steps are finer"), qPrintable(m_window->notice()->text()));
+    QVERIFY(noticeButton(*m_window, QStringLiteral("Back to the start")));
+    document().undoStack().undo();
+    QCOMPARE(number(substeps), 4.0);
+    QCOMPARE(number(iterations), 2.0);
+    document().undoStack().undo();
+  }
+
+  /// The substeps of a new scene are for coarse particles.
+  void aFineSpacingOffersMoreSubsteps() {
+    openProject(scenes::iceOnPlate(2, 280));
+    session().pause();
+    ParameterPanel* panel = m_window->inspector().solverPanel();
+    const auto note = [&] { return labelOf(*panel->row(QStringLiteral("solver/particle_spacing"))); };
+    QVERIFY2(!note().contains(QStringLiteral("substeps")), qPrintable(note()));
+    QCOMPARE(document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.005), QString());
+    QVERIFY2(note().contains(QStringLiteral("solver/substeps=8")), qPrintable(note()));
+    Q_EMIT panel->linkActivated(QString(), QStringLiteral("solver/substeps=8"));
+    QCOMPARE(std::get<double>(document().value({Owner::Solver, "", "substeps"})), 8.0);
+    QVERIFY2(!note().contains(QStringLiteral("substeps")), qPrintable(note()));
+    for (int step = 0; step < 2; ++step) document().undoStack().undo();
+    QVERIFY(!document().isDirty());
   }
 
   /// A scene without a title of its own is called as its file is.

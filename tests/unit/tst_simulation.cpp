@@ -7,6 +7,7 @@
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/finersteps.h"
 #include "core/simulation/lattice.h"
 #include "core/simulation/measure.h"
 #include "core/solver/solver.h"
@@ -50,6 +51,10 @@ class TstSimulation : public QObject {
   void noTwoParticlesInOnePlace();
   void periodicBoxesHoldOneImageOfEach();
   void endlessParticlesAreRefused();
+  void stepsAreMadeFiner_data();
+  void stepsAreMadeFiner();
+  void aFineSpacingTakesMoreSubsteps_data();
+  void aFineSpacingTakesMoreSubsteps();
   void runsWithoutAnyPlugin();
   void viscosityIsCompiledAsDeclared();
   void threadPlaysPausesStepsAndResets();
@@ -506,6 +511,65 @@ void TstSimulation::endlessParticlesAreRefused() {
   Project project = engine.project();
   findSet(project, spacing)->values[spacing.key] = 0.0005;
   QVERIFY_THROWS_EXCEPTION(InputError, Engine(project, m_plugins));
+}
+
+void TstSimulation::stepsAreMadeFiner_data() {
+  QTest::addColumn<int>("substeps");
+  QTest::addColumn<int>("iterations");
+  QTest::addColumn<int>("finer");  // 0: none
+  QTest::addColumn<int>("passes");
+  QTest::newRow("one step") << 1 << 1 << 4 << 4;
+  QTest::newRow("defaults") << 4 << 4 << 16 << 4;
+  QTest::newRow("eight, many passes") << 8 << 16 << 16 << 16;
+  QTest::newRow("above what a slider has") << 24 << 2 << 48 << 4;
+  QTest::newRow("near the most") << 40 << 4 << 64 << 4;
+  QTest::newRow("the most") << 64 << 1 << 0 << 0;
+}
+
+void TstSimulation::stepsAreMadeFiner() {
+  QFETCH(int, substeps);
+  QFETCH(int, iterations);
+  QFETCH(int, finer);
+  QFETCH(int, passes);
+  Project project = scenes::iceOnPlate(3, 293.15);
+  project.solver.parameters.values["substeps"] = double(substeps);
+  project.solver.parameters.values["iterations"] = double(iterations);
+  const std::optional<FinerSteps> found = finerSteps(project);
+  QCOMPARE(found.has_value(), finer > 0);
+  if (found) QVERIFY((*found == FinerSteps{finer, passes}));
+  Track track;
+  track.parameter = "solver/substeps";
+  track.keys = {{0, 4}};
+  project.tracks = {track};
+  QVERIFY(!finerSteps(project));
+}
+
+void TstSimulation::aFineSpacingTakesMoreSubsteps_data() {
+  QTest::addColumn<double>("spacing");
+  QTest::addColumn<QString>("key");  // with a value beside it; "" none
+  QTest::addColumn<double>("gravity");
+  QTest::addColumn<int>("substeps");  // 0: nothing to say
+  QTest::newRow("default") << 0.02 << QString() << 9.81 << 0;
+  QTest::newRow("finer") << 0.01 << QString() << 9.81 << 0;
+  QTest::newRow("least of the slider") << 0.005 << QString() << 9.81 << 8;
+  QTest::newRow("4 mm") << 0.004 << QString() << 9.81 << 9;
+  QTest::newRow("as fine as can be") << 0.0005 << QString() << 9.81 << 26;
+  QTest::newRow("without weight") << 0.004 << QString() << 0.0 << 0;
+  QTest::newRow("chosen substeps") << 0.004 << QStringLiteral("substeps") << 9.81 << 0;
+  QTest::newRow("chosen iterations") << 0.004 << QStringLiteral("iterations") << 9.81 << 0;
+  QTest::newRow("chosen frame") << 0.004 << QStringLiteral("dt") << 9.81 << 0;
+}
+
+void TstSimulation::aFineSpacingTakesMoreSubsteps() {
+  QFETCH(double, spacing);
+  QFETCH(QString, key);
+  QFETCH(double, gravity);
+  QFETCH(int, substeps);
+  Project project = scenes::iceOnPlate(3, 293.15);
+  project.environment.gravity = {0, -gravity, 0};
+  project.solver.parameters.values["particle_spacing"] = spacing;
+  if (!key.isEmpty()) project.solver.parameters.values[key.toStdString()] = 2.0;
+  QCOMPARE(substepsAtSpacing(project).value_or(0), substeps);
 }
 
 void TstSimulation::runsWithoutAnyPlugin() {

@@ -2,6 +2,7 @@
 #include "ui/panels/rownotes.h"
 
 #include "core/simulation/events.h"
+#include "core/simulation/finersteps.h"
 #include "core/simulation/rules.h"
 #include "core/simulation/sceneneed.h"
 #include "ui/document/document.h"
@@ -33,6 +34,16 @@ void add(std::map<QString, Note>& notes, const QString& key, Note note) {
   if (fresh) return;
   at->second.text += QLatin1Char('\n') + note.text;
   if (!std::isnan(note.delivered)) at->second.delivered = note.delivered;
+}
+
+/// Which substeps a fine spacing takes: those of a new scene are for a coarse one.
+template <class Note>
+void addFiner(std::map<QString, Note>& notes, const Project& project) {
+  const std::optional<int> substeps = substepsAtSpacing(project);
+  if (!substeps) return;
+  const QString text = QStringLiteral("Matter this fine sinks into itself unless its steps are finer, too. ");
+  add(notes, QString::fromStdString(Address{Owner::Solver, "", "particle_spacing"}.text()),
+      Note{text + QStringLiteral("[Use %1 substeps](solver/substeps=%1)").arg(*substeps), kNone});
 }
 
 }  // namespace
@@ -171,6 +182,7 @@ void RowNotes::show() {
   addMissing(notes);
   addAdvice(notes);
   addLimits(notes);
+  addFiner(notes, m_document.project());
   addWaiting(notes);
   addStarts(notes);
   for (ParameterPanel* panel : m_panels) {

@@ -84,7 +84,7 @@ FailureText failureText(const EngineEvent& event) {
   }
   if (has(StepFlag::Diverged)) {
     return {QStringLiteral("The liquid is squeezed more than the solver can mend."),
-            detail + QStringLiteral("Raise the iterations, or lower the relaxation.")};
+            detail + QStringLiteral("Raise the substeps, or choose a larger particle spacing.")};
   }
   if (has(StepFlag::EnergyOpen)) {
     return {QStringLiteral("The energy balance does not close."),

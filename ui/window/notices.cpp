@@ -3,6 +3,7 @@
 
 #include "core/plugin_host/registry.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/finersteps.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/session.h"
@@ -24,6 +25,36 @@ const QString kRefused = QStringLiteral("refused");
 const QString kRefusedNow = QStringLiteral("refused now");  // until the next edit
 const QString kMaking = QStringLiteral("making");
 const QString kGivingUp = QStringLiteral("Giving up…");
+
+NoticeBar::Button startButton(Session& session) {
+  return {QStringLiteral("Back to the start"), [&session] { session.reset(); }};
+}
+
+/// In place of the notice with the button, which would make them finer once more.
+void showFinerSteps(Session& session, NoticeBar& bar, const QString& done) {
+  bar.show(kStep, MessageLevel::Info, QStringLiteral("Steps are finer from the next frame on."),
+           QStringLiteral("What was thrown apart is whole again at the start. Undo takes “%1” back.").arg(done),
+           {startButton(session)});
+}
+
+/// "Use 16 substeps"; none where steps cannot be made finer.
+std::vector<NoticeBar::Button> finerStepsButton(Session& session, Notices& notices) {
+  const std::optional<FinerSteps> finer = finerSteps(session.document().project());
+  if (!finer) return {};
+  QString text = QStringLiteral("Use %1 substeps").arg(finer->substeps);
+  std::vector<std::pair<Address, Value>> values{{{Owner::Solver, "", "substeps"}, double(finer->substeps)}};
+  const Address iterations{Owner::Solver, "", "iterations"};
+  if (!(session.document().value(iterations) == Value(double(finer->iterations)))) {
+    text += QStringLiteral(" and %1 iterations").arg(finer->iterations);
+    values.emplace_back(iterations, double(finer->iterations));
+  }
+  const auto use = [&session, &notices, values, text] {
+    const QString problem = session.document().setParameters(values, text);
+    if (!problem.isEmpty()) return notices.refuse(QStringLiteral("The steps stay as they are."), problem);
+    showFinerSteps(session, notices.bar(), text);
+  };
+  return {{text, use, QStringLiteral("What is squeezed gives way less, and a frame takes longer")}};
+}
 
 }  // namespace
 
@@ -94,6 +125,7 @@ void Notices::showFailure(const EngineEvent& event) {
   m_session.log().add(level, QStringLiteral("Simulation"), text);
   if (m_bar.isVisible() && m_bar.text() == text) return;  // one of its buttons may be under the pointer
   std::vector<NoticeBar::Button> buttons;
+  if (event.flags & static_cast<StepFlags>(StepFlag::Diverged)) buttons = finerStepsButton(m_session, *this);
   // Matter runs off without any edit to blame.
   if (failure.lost) {
     buttons.push_back({QStringLiteral("Add sides"), [this] {
@@ -102,7 +134,7 @@ void Notices::showFailure(const EngineEvent& event) {
   } else if (!takenBack && m_session.document().undoStack().canUndo()) {
     buttons.push_back({QStringLiteral("Undo"), [this] { m_session.document().undoStack().undo(); }});
   }
-  if (!takenBack) buttons.push_back({QStringLiteral("Back to the start"), [this] { m_session.reset(); }});
+  if (!takenBack) buttons.push_back(startButton(m_session));
   m_bar.show(kStep, level, failure.title, more, std::move(buttons));
 }
 

@@ -23,6 +23,10 @@ constexpr double kOpenExchange = 1e-6, kOpenRounding = 1e-11;
 
 using Part = MechanicalRecord::Part;
 
+std::string bodyText(const std::vector<std::string>& names, uint32_t body) {
+  return body < names.size() ? "'" + names[body] + "'" : "body " + std::to_string(body);
+}
+
 }  // namespace
 
 Solver::Impl::Impl() {
@@ -77,9 +81,7 @@ void Solver::Impl::findThinSolids() {
 }
 
 std::string Solver::Impl::describe(size_t i) const {
-  const uint32_t body = store.body()[i];
-  const std::string name = body < bodyNames.size() ? "'" + bodyNames[body] + "'" : "body " + std::to_string(body);
-  return "particle " + std::to_string(store.id()[i]) + " of " + name;
+  return "particle " + std::to_string(store.id()[i]) + " of " + bodyText(bodyNames, store.body()[i]);
 }
 
 void Solver::Impl::raise(StepFlag flag, const std::string& message) {
@@ -191,8 +193,9 @@ void Solver::Impl::judgeDensity() {
   if (error.mean > kDiverged && double(error.liquids) >= kLeastLiquid * double(moving())) {
     const float* c = store.densityError();
     const size_t worst = static_cast<size_t>(std::max_element(c, c + store.size()) - c);
-    raise(StepFlag::Diverged, describe(worst) + ": density error " + std::to_string(static_cast<int>(100 * c[worst])) +
-                                  " %, mean " + std::to_string(static_cast<int>(100 * report.densityErrorMean)) + " %");
+    const auto percent = [](double share) { return std::to_string(static_cast<int>(100 * share)) + " %"; };
+    raise(StepFlag::Diverged, bodyText(bodyNames, store.body()[worst]) + ": density error " + percent(c[worst]) +
+                                  " where it is worst, " + percent(error.mean) + " in the mean of all liquid");
   }
 }
 
