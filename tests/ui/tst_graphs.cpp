@@ -362,7 +362,7 @@ void TestGraphs::namesOfMarkersLieBesideLabels() {
       plot->resize(420, height);
       bool named = false, labelled = false;
       std::vector<QRectF> places;
-      for (const PaintedText& text : texts) {
+      for (const PaintedText& text : paintedBy(*plot)) {
         const QRectF place = text.place.adjusted(0, 2, 0, -2);     // lines of letters may touch
         if (!plot->plotRect().contains(place.center())) continue;  // numbers of axes
         for (const QRectF& other : places) QVERIFY2(!place.intersects(other), qPrintable(text.text));
