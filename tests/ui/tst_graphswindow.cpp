@@ -130,7 +130,7 @@ class TestGraphsWindow : public SampleWindowTest {
     const std::unique_ptr<QMenu> menu(graphs()->makeMenu(first()));
     for (const QMenu* list : menu->findChildren<QMenu*>())
       QVERIFY(list->title() != QStringLiteral("Body") || list->isEmpty());
-    choose(first(), {"Plot", "Body", "Ice block", "Speed", "Highest speed"});
+    choose(first(), {"Plot", "Body", "Ice block", "Motion", "Highest speed"});
     QCOMPARE(document().project().probes.size(), probes + 1);
     const Probe made = document().project().probes.back();
     QCOMPARE(made.quantity, std::string("speed_max"));
@@ -174,6 +174,37 @@ class TestGraphsWindow : public SampleWindowTest {
     undoneAndRedone(before);
     const std::unique_ptr<QMenu> menu(graphs()->makeMenu(first()));
     QVERIFY(!hands::entryOf(*menu, {"Plot", "Parameter", "Water", "Viscosity"}));
+  }
+
+  /// Ninety of them are no list: the row has groups, of which none is higher than a low window.
+  void quantitiesOfAProbeStandInGroups() {
+    m_window->selection().select(OutlineKind::Probe, "ice_mass");
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("probe/ice_mass/quantity"));
+    QVERIFY(row);
+    QStringList groups, marked;
+    size_t offered = 0;
+    qsizetype most = 0;
+    QTimer::singleShot(0, row, [&] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      QVERIFY(menu);
+      for (const QAction* action : menu->actions()) {
+        groups << action->text();
+        if (action->isChecked()) marked << action->text();
+        if (!action->menu()) continue;
+        offered += static_cast<size_t>(action->menu()->actions().size());
+        most = std::max(most, action->menu()->actions().size());
+      }
+      QAction* speed = hands::entryOf(*menu, {"Motion", "Highest speed"});
+      QVERIFY(speed);
+      menu->close();
+    });
+    row->setFocus();
+    QTest::keyClick(row, Qt::Key_Return);
+    QVERIFY2(groups.contains(QStringLiteral("Temperature")) && groups.size() < 12,
+             qPrintable(groups.join(QStringLiteral(", "))));
+    QCOMPARE(marked, QStringList{QStringLiteral("Mass and particles")});
+    QCOMPARE(offered, session().fields().quantities().size());
+    QVERIFY2(most < 25, qPrintable(QString::number(most)));
   }
 
   void aProbeIsMadeAndEditedInItsRows() {
