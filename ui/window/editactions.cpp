@@ -11,6 +11,7 @@
 #include "ui/rows/rowcommands.h"
 #include "ui/session/selection.h"
 #include "ui/window/actions.h"
+#include "ui/window/entrytext.h"
 #include "ui/window/notices.h"
 
 #include <QtGui/QAction>
@@ -69,20 +70,20 @@ void EditActions::performAtHand(RowCommand command) {
 }
 
 void EditActions::makeWallMenu(QMenu* menu) {
-  for (const WallSide& side : kWallSides) {
-    m_actions.add(menu, QStringLiteral("sketch.wall.") + QString::fromLatin1(side.id),
-                  QStringLiteral("Add wall: %1").arg(QString::fromLatin1(side.name).toLower()), {},
-                  [this, side] { addWalls({side.id}); });
-  }
+  const auto add = [&](const QString& id, const char* whole, const QString& name, const Actions::Act& act) {
+    sayInMenu(*m_actions.add(menu, id, QString::fromLatin1(whole).arg(name.toLower()), {}, act), name);
+  };
+  for (const WallSide& side : kWallSides)
+    add(QStringLiteral("sketch.wall.") + QString::fromLatin1(side.id), "Add wall: %1", QString::fromLatin1(side.name),
+        [this, side] { addWalls({side.id}); });
   menu->addSeparator();
   for (const WallForm form : {WallForm::Cylinder, WallForm::Sphere}) {
     const QString shape = QString::fromStdString(shapeOf(form));
-    m_actions.add(menu, QStringLiteral("sketch.wall.") + shape, QStringLiteral("Add wall: %1").arg(shape), {},
-                  [this, form] { addRoundWall(form); });
+    add(QStringLiteral("sketch.wall.") + shape, "Add wall: %1", shape, [this, form] { addRoundWall(form); });
   }
   menu->addSeparator();
-  m_actions.add(menu, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
-                [this] { addWalls(kUprightSides); });
+  add(QStringLiteral("sketch.walls"), "Add walls: %1", QStringLiteral("All four sides"),
+      [this] { addWalls(kUprightSides); });
 }
 
 void EditActions::openItemMenu(const QPoint& global) const {
