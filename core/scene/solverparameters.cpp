@@ -9,7 +9,7 @@ using namespace declare;
 
 constexpr api::ParameterDeclaration kSolver[] = {
     atReset(
-        number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 10},
+        number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.001, 0.05, 0.0005, 10},
                {"Resolution",
                 "Distance between neighbouring particles. Half of it makes eight times as many. A liquid at rest is so "
                 "regular that things which are up to a fifth denser and a few spacings large may hang in it rather "
