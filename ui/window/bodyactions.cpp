@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/knowncount.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
@@ -160,6 +161,8 @@ double spacingOf(const Document& document) {
 
 /// Of a body that is not there yet, or of one that has just come.
 QString countText(const Body& body, const Document& document) {
+  if (const auto known = knownCount(body, spacingOf(document)))
+    return ps::countText(static_cast<size_t>(*known), QStringLiteral("particle"), QStringLiteral("particles"));
   return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
