@@ -48,7 +48,7 @@ constexpr api::ParameterDeclaration kBody[] = {
             {"Heat",
              "Heat that comes up inside the body per second of thermal time, the same in each gram of it; below zero "
              "it is taken away, down to 1 K. What has melted or boiled off goes on being heated.",
-             "body warmth 80, immersion heater 300, kettle 2000, −100 for a fridge", ""})),
+             "body warmth 80 W, immersion heater 300 W, kettle 2000 W, −100 W for a fridge", ""})),
     actingWhen(
         "fixed = on & scene/thermal_model != none",
         choice(
@@ -73,7 +73,7 @@ constexpr api::ParameterDeclaration kBody[] = {
                       {"Heat",
                        "How fast the fluid behind a convective body's surface gives and takes heat. The body's own "
                        "material conducts nothing then; it is as warm as that fluid.",
-                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
+                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000 W/(m²·K)",
                        "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"})),
     actingWhen("fixed = on & heat = fixed_flux",
                number({"heat_flux", "Heat flux", "q", "W/m²"}, {0, -60000, 60000, -1e9, 1e9},

@@ -10,7 +10,7 @@ using namespace declare;
 constexpr api::ParameterDeclaration kEnvironment[] = {
     number({"ambient_pressure", "Air pressure", "p", "Pa"}, {101325, 10, 500000, 1, 1e8},
            {"Air", "Pressure of the air around everything. It sets where matter boils and whether it melts at all.",
-            "sea level 101.3 kPa, Mount Everest 33.7, pressure cooker 200, freeze drying 0.1", ""},
+            "sea level 101.3, Mount Everest 33.7, pressure cooker 200, freeze drying 0.1 kPa", ""},
            {"kPa", 1e-3, 0}, api::Scale::Logarithmic),
     number({"ambient_temperature", "Air temperature", "Tₐ", "K"}, {293.15, 223.15, 473.15, 1, 10000},
            {"Air", "Temperature of the air, which cools or warms all that it touches.",
@@ -21,7 +21,7 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
         {"Air",
          "How fast still air takes heat from everything that it touches: heat per surface, time and degree. Wind from "
          "2 m/s on takes more, as chilled fingers know; with 0 no air takes heat, however it blows.",
-         "still air 5 to 10, breeze 25, 0 for none",
+         "still air 5 to 10, breeze 25 W/(m²·K), 0 for none",
          "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1; Siple & Passel 1945"}),
     number({"air_heat_capacity", "Heat capacity of the air", "C", "J/K"}, {0, 0, 1e4, 0, 1e12},
            {"Air",
@@ -32,10 +32,10 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
            {"Air",
             "Speed of the air. It carries vapour along, drops and solids too where they have an air drag, and cools "
             "faster.",
-            "draught 0.3, breeze 3, hair dryer 10", ""}),
+            "draught 0.3, breeze 3, hair dryer 10 m/s", ""}),
     actingWhen("wind_speed > 0", number({"wind_direction", "Wind blows towards", "", "°"}, {0, 0, 360, -3600, 3600},
                                         {"Air", "Heading of the wind, level with the ground: 0 along x, 90 along z.",
-                                         "180: against x", ""})),
+                                         "180°: against x", ""})),
     number({"air_drag", "Air drag of drops and solids", "C_d", ""}, {0, 0, 1.2, 0, 10},
            {"Air",
             "Drag coefficient of single particles of liquids and solids in air, and with it the air's small lift. 0 is "
@@ -62,7 +62,7 @@ constexpr api::ParameterDeclaration kEnvironment[] = {
             {"Contact",
              "How well heat passes from one body to another where at least one is solid: rough surfaces touch at few "
              "points. 0 for perfect contact.",
-             "iron on iron 2000 to 20000, with grease 50000, loose 500",
+             "iron on iron 2000 to 20000, with grease 50000, loose 500 W/(m²·K)",
              "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 3"})),
 };
 

@@ -8,8 +8,9 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kEmitter[] = {
-    number({"speed", "Speed", "v", "m/s"}, {1, 0, 5, 0, 100},
-           {"Jet", "Speed with which matter leaves the mouth. 0 closes it.", "kitchen tap 1, garden hose 5", ""}),
+    number(
+        {"speed", "Speed", "v", "m/s"}, {1, 0, 5, 0, 100},
+        {"Jet", "Speed with which matter leaves the mouth. 0 closes it.", "kitchen tap 1 m/s, garden hose 5 m/s", ""}),
     number({"diameter", "Width of the mouth", "d", "m"}, {0.06, 0.02, 0.3, 1e-4, 10},
            {"Jet",
             "Diameter of the round mouth. What it pours is its area times the speed, however many particles fit into "
@@ -33,7 +34,7 @@ constexpr api::ParameterDeclaration kEmitter[] = {
 };
 
 constexpr api::ParameterDeclaration turn(Names names, const char* help) {
-  return number(names, {0, -180, 180, -3600, 3600}, {"Place", help, "30 along a slope", ""});
+  return number(names, {0, -180, 180, -3600, 3600}, {"Place", help, "30° along a slope", ""});
 }
 
 constexpr api::ParameterDeclaration kSink[] = {

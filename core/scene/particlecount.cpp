@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/scene/knowncount.h"
 #include "core/scene/project.h"
 #include "core/scene/solidform.h"
 
@@ -32,6 +33,18 @@ double particleCount(const Body& body, double spacing) {
     count *= std::pow(voxels.spacing / spacing, 3);
   }
   return count;
+}
+
+std::optional<double> knownCount(const Body& body, double spacing) {
+  if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
+    const SolidForm form(*solid);
+    if (form.kind() != SolidForm::Kind::Block || form.isHollow()) return std::nullopt;
+    const Vector3 size = form.size();
+    return layersAlong(size.x(), spacing) * layersAlong(size.y(), spacing) * layersAlong(size.z(), spacing);
+  }
+  const auto* sketch = std::get_if<VoxelShape>(&body.shape);
+  if (sketch && sketch->spacing != spacing) return std::nullopt;
+  return particleCount(body, spacing);
 }
 
 double particleCount(const Project& project) {

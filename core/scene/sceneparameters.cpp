@@ -22,11 +22,11 @@ constexpr const char* kThermalModel = "thermal_model";
 
 constexpr Words kVelocity{
     "Motion", "Speed along this axis: of a body that is held in place as long as it moves, of any other at the start.",
-    "a paddle 0.2, a thrown ball 10", ""};
+    "a paddle 0.2 m/s, a thrown ball 10 m/s", ""};
 constexpr Words kSpin{"Motion",
                       "Turning about this axis through the body's centre, anticlockwise where the axis points at you: "
                       "of a body that is held in place as long as it moves, of any other at the start.",
-                      "a stirrer 180, a turntable 200, one turn a second 360", ""};
+                      "a stirrer 180°/s, a turntable 200°/s, one turn a second 360°/s", ""};
 constexpr Display kDegrees{"°/s", 180 / std::numbers::pi, 0};
 
 constexpr api::ParameterDeclaration ofMotion(Names names, Range range, Words words, Display display = kAsStored) {

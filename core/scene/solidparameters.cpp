@@ -22,7 +22,7 @@ constexpr api::ParameterDeclaration place(Names names, const char* help) {
   return carrying(number(names, kPlace, {"Place", help, "0.5 is half a metre from the middle of the scene", ""}));
 }
 constexpr api::ParameterDeclaration turn(Names names, const char* help) {
-  return carrying(number(names, kTurn, {"Place", help, "30 for a ramp, 90 for a cylinder that lies", ""}));
+  return carrying(number(names, kTurn, {"Place", help, "30° for a ramp, 90° for a cylinder that lies", ""}));
 }
 
 constexpr Words kPoint{"Points", "Where the rope goes, from the middle of the shape along its own axes.",
@@ -37,15 +37,15 @@ constexpr api::ParameterDeclaration kSolid[] = {
                     "What the sizes along its own axes are the extents of. Cylinders, cones, capsules and tubes stand "
                     "upright, a torus lies, a bowl is open at its top.",
                     "ellipsoid with three equal sizes for a ball", ""})),
-    actingWhen("kind != rope",
-               size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.", "a dice 0.016, a brick 0.25")),
+    actingWhen("kind != rope", size({"size_x", "Size along x", "", "m"}, "Extent along its own x axis.",
+                                    "a dice 16 mm, a brick 250 mm")),
     size({"size_y", "Size along y", "", "m"},
          "Extent along its own y axis, which points up where it is not turned. Of a torus: the thickness of its ring; "
          "of a bowl: its height, half its width for half a ball. Sheets and ropes are one particle thick, whatever "
          "this says: so much of them a brush takes when it cuts them.",
-         "a mug 0.1, a table 0.75"),
+         "a mug 100 mm, a table 750 mm"),
     actingWhen("kind != rope",
-               size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 0.02")),
+               size({"size_z", "Size along z", "", "m"}, "Extent along its own z axis.", "a plank 20 mm")),
     actingWhen(
         "kind = sheet|rope",
         atReset(choice({"held", "Held at", "", ""}, "none|start|ends", 0,
@@ -57,7 +57,7 @@ constexpr api::ParameterDeclaration kSolid[] = {
                size({"wall", "Thickness of the wall", "", "m"},
                     "Of a tube or bowl, measured inwards; as much as half its width, or as a bowl is high, leaves no "
                     "room in it.",
-                    "a pipe 0.005, a bowl of clay 0.008", kWall)),
+                    "a pipe 5 mm, a bowl of clay 8 mm", kWall)),
     actingWhen("kind = mesh",
                atReset(choice(
                    {"inside", "Inside", "", ""}, "filled|hollow", 0,

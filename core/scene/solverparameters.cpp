@@ -8,13 +8,14 @@ namespace {
 using namespace declare;
 
 constexpr api::ParameterDeclaration kSolver[] = {
-    atReset(number(
-        {"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.005, 0.05, 0.0005, 10},
-        {"Resolution",
-         "Distance between neighbouring particles. Half of it makes eight times as many. At rest those of a liquid "
-         "lie in order, so that what is up to a fifth denser and a few spacings large may hang in it.",
-         "20 mm for a hand-sized block of 6,000 particles, 5 mm for fine drops", ""},
-        {"mm", 1000, 0}, api::Scale::Logarithmic)),
+    atReset(
+        number({"particle_spacing", "Particle spacing", "d", "m"}, {0.02, 0.001, 0.05, 0.0005, 10},
+               {"Resolution",
+                "Distance between neighbouring particles. Half of it makes eight times as many. A liquid at rest is so "
+                "regular that things which are up to a fifth denser and a few spacings large may hang in it rather "
+                "than sink.",
+                "a block of 10 cm has 125 particles at 20 mm, 8,000 at 5 mm", ""},
+               {"mm", 1000, 0}, api::Scale::Logarithmic)),
     number({"support_ratio", "Reach of a particle", "κ", ""}, {2, 2, 3, 1.8, 4},
            {"Resolution", "How far a particle feels others, in spacings. More is smoother and slower.",
             "2 for 26 neighbours, 3 for 92", "Monaghan 2005"}),

@@ -20,7 +20,7 @@ constexpr api::ParameterDeclaration kWall[] = {
                                                   "pipe and bowl: inside; pillar and ball: outside", ""})),
     actingWhen("shape = cylinder|sphere",
                number({"radius", "Radius", "R", "m"}, {0.25, 0.01, 2, 1e-6, 1e4},
-                      {"Shape", "Of a cylinder or a sphere, up to its face.", "garden hose 0.006, bucket 0.15", ""})),
+                      {"Shape", "Of a cylinder or a sphere, up to its face.", "garden hose 6 mm, bucket 150 mm", ""})),
     actingWhen(
         "scene/thermal_model != none",
         choice(
@@ -46,7 +46,7 @@ constexpr api::ParameterDeclaration kWall[] = {
     actingWhen("heat = convective",
                number({"convection", "Convection behind it", "h", "W/(m²·K)"}, {100, 0, 2000, 0, 1e6},
                       {"Heat", "How fast the fluid behind a convective wall gives and takes heat.",
-                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000",
+                       "air 5 to 25, water at rest 100 to 1000, stirred 2000 to 10000 W/(m²·K)",
                        "Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 1"})),
     actingWhen("heat = fixed_temperature|convective & environment/radiation = on",
                number({"emissivity", "Emissivity", "ε", ""}, {0.9, 0, 1, 0, 1},
@@ -57,7 +57,7 @@ constexpr api::ParameterDeclaration kWall[] = {
     actingWhen("heat = fixed_temperature",
                number({"film_coefficient", "Condensation", "h", "W/(m²·K)"}, {500, 0, 5000, 0, 1e6},
                       {"Heat", "How fast vapour gives its heat to this wall where the wall is below the boiling point.",
-                       "thin water film 1000 to 5000, with air in the steam 100 to 500, 0 for none",
+                       "thin water film 1000 to 5000, with air in the steam 100 to 500 W/(m²·K), 0 for none",
                        "Nusselt 1916; Incropera et al., Fundamentals of Heat and Mass Transfer, ch. 10"})),
     number({"friction", "Friction", "µ", ""}, {0.3, 0, 1, 0, 10},
            {"Contact", "How strongly solids stick and drag on the wall: sideways force per pressing force.",

@@ -108,6 +108,18 @@ class TestBodies : public SampleWindowTest {
     QCOMPARE(idsNow(session()).size(), 6000 + fillSolid(solid, 0.02).cells.size());
   }
 
+  /// Whole layers: of a block one knows how many particles it will be, and says no other number than there are.
+  void aBlockIsCountedBeforeItIsThere() {
+    m_window->action(QStringLiteral("add.block"))->trigger();
+    const std::string id = document().project().bodies.back().id;
+    for (const char* size : {"size_x", "size_y", "size_z"})
+      QCOMPARE(document().setParameter({Owner::Shape, id, size}, 0.108), QString());  // 5.4 of 20 mm
+    const auto* header = m_window->inspector().bodyPanel()->findChild<PanelHeader*>();
+    QTRY_VERIFY2(header->toolTip().endsWith(QStringLiteral("125 particles")), qPrintable(header->toolTip()));
+    QVERIFY2(!header->toolTip().contains(QStringLiteral("≈")), qPrintable(header->toolTip()));
+    QCOMPARE(fillSolid(std::get<SolidShape>(document().body(id)->shape), 0.02).cells.size(), size_t{125});
+  }
+
   /// A bowl of what would run away is made of what stands; undoing that chooses what was chosen before, not the first
   /// of all materials.
   void bowlsAreOfWhatStands() {

@@ -38,6 +38,7 @@ class TestGraphs : public QObject {
   void labelsKeepClearOfTheTitle();
   void everyLineIsNamed_data();
   void everyLineIsNamed();
+  void namesOfMarkersLieBesideLabels();
   void stackAddsUp();
   void labelsOfAStackCanBeReadOverIt();
   void whatMeltsIsHatched();
@@ -341,6 +342,37 @@ void TestGraphs::everyLineIsNamed() {
   }
   if (fits) QCOMPARE(places.size(), static_cast<size_t>(lines));
   QCOMPARE(graph.toolTip(), fits ? QString() : names.join(QLatin1Char('\n')));
+}
+
+/// Labels of curves and layers, the title and names of markers lie apart; in a low plot markers lose theirs first.
+void TestGraphs::namesOfMarkersLieBesideLabels() {
+  const QString first = QStringLiteral("first drop"), line = QStringLiteral("Ice");
+  PhaseStackView stack;
+  GraphView graph;
+  graph.setTitle(QStringLiteral("Temperature, °C"));
+  const int series = graph.addSeries(line);
+  for (int i = 0; i <= 10; ++i) {
+    stack.append(i, {0.5, 0, 0.04, 0, 0});
+    graph.append(series, i, 10.0 - i);  // its label ends in the corner where names begin
+  }
+  for (TimePlot* plot : {static_cast<TimePlot*>(&stack), static_cast<TimePlot*>(&graph)}) {
+    plot->setMarkers({{8.9, first}, {9.1, QStringLiteral("second drop")}});
+    plot->setPresentTime(9);
+    for (const int height : {200, 60}) {
+      plot->resize(420, height);
+      bool named = false, labelled = false;
+      std::vector<QRectF> places;
+      for (const PaintedText& text : paintedBy(*plot)) {
+        const QRectF place = text.place.adjusted(0, 2, 0, -2);     // lines of letters may touch
+        if (!plot->plotRect().contains(place.center())) continue;  // numbers of axes
+        for (const QRectF& other : places) QVERIFY2(!place.intersects(other), qPrintable(text.text));
+        places.push_back(place);
+        named = named || text.text == first;
+        labelled = labelled || text.text == line || text.text.startsWith(QStringLiteral("solid"), Qt::CaseInsensitive);
+      }
+      QVERIFY(height == 60 || (named && labelled));
+    }
+  }
 }
 
 /// Looked back at, labels stand where the run goes on: on a ground of their own.

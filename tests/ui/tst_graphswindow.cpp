@@ -130,7 +130,7 @@ class TestGraphsWindow : public SampleWindowTest {
     const std::unique_ptr<QMenu> menu(graphs()->makeMenu(first()));
     for (const QMenu* list : menu->findChildren<QMenu*>())
       QVERIFY(list->title() != QStringLiteral("Body") || list->isEmpty());
-    choose(first(), {"Plot", "Body", "Ice block", "Speed", "Highest speed"});
+    choose(first(), {"Plot", "Body", "Ice block", "Motion", "Highest speed"});
     QCOMPARE(document().project().probes.size(), probes + 1);
     const Probe made = document().project().probes.back();
     QCOMPARE(made.quantity, std::string("speed_max"));
@@ -176,10 +176,86 @@ class TestGraphsWindow : public SampleWindowTest {
     QVERIFY(!hands::entryOf(*menu, {"Plot", "Parameter", "Water", "Viscosity"}));
   }
 
+  /// Ninety of them are no list: the row has groups, of which none is higher than a low window.
+  void quantitiesOfAProbeStandInGroups() {
+    m_window->selection().select(OutlineKind::Probe, "ice_mass");
+    ParameterRow* row = m_window->inspector().bodyPanel()->row(QStringLiteral("probe/ice_mass/quantity"));
+    QVERIFY(row);
+    QStringList groups, marked;
+    size_t offered = 0;
+    qsizetype most = 0;
+    QTimer::singleShot(0, row, [&] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      QVERIFY(menu);
+      for (const QAction* action : menu->actions()) {
+        groups << action->text();
+        if (action->isChecked()) marked << action->text();
+        if (!action->menu()) continue;
+        offered += static_cast<size_t>(action->menu()->actions().size());
+        most = std::max(most, action->menu()->actions().size());
+      }
+      QAction* speed = hands::entryOf(*menu, {"Motion", "Highest speed"});
+      QVERIFY(speed);
+      menu->close();
+    });
+    row->setFocus();
+    QTest::keyClick(row, Qt::Key_Return);
+    QVERIFY2(groups.contains(QStringLiteral("Temperature")) && groups.size() < 12,
+             qPrintable(groups.join(QStringLiteral(", "))));
+    QCOMPARE(marked, QStringList{QStringLiteral("Mass and particles")});
+    QCOMPARE(offered, session().fields().quantities().size());
+    QVERIFY2(most < 25, qPrintable(QString::number(most)));
+  }
+
+  /// A third of it along each axis, in a box of which it sees the body alone: in one step.
+  void aProbeOfABodyBeginsInItsMiddle() {
+    const std::string before = json();
+    const SnapshotPtr shown = session().snapshot();
+    Vector3 low = Vector3::Constant(1e9), high = -low;
+    for (size_t i = 0; i < shown->position.size(); ++i) {
+      if ((*shown->bodyIds)[shown->body[i]] != "ice" || shown->motion[i] == api::Motion::Gas) continue;
+      low = low.cwiseMin(vectorOf(shown->position[i]));
+      high = high.cwiseMax(vectorOf(shown->position[i]));
+    }
+    m_window->selection().select(OutlineKind::Body, "ice");
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    const Probe* probe = document().probe(m_window->selection().id());
+    QVERIFY(probe && probe->region);
+    QCOMPARE(probe->body, std::string("ice"));
+    QCOMPARE(probe->quantity, std::string("temperature"));
+    QCOMPARE(probe->name, std::string("Ice block, core"));
+    const Vector3 size = probe->region->maximum - probe->region->minimum;
+    QVERIFY((0.5 * (probe->region->maximum + probe->region->minimum) - 0.5 * (low + high)).norm() < 1e-6);
+    for (int axis = 0; axis < 3; ++axis)
+      QVERIFY(size[axis] > 0.32 * (high - low)[axis] && size[axis] < 0.6 * (high - low)[axis]);
+    QCOMPARE(document().undoStack().count(), 1);
+    undoneAndRedone(before);
+  }
+
+  /// Beside the other temperatures, and once: a wall holds no matter that a probe would see.
+  void theTemperatureOfAWallIsPlotted() {
+    const std::string before = json();
+    const size_t probes = document().project().probes.size(), count = graphs()->plots().size();
+    m_window->selection().select(OutlineKind::Wall, "floor");
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    QCOMPARE(document().project().probes.size(), probes);
+    QCOMPARE(graphs()->plots().size(), count);
+    QCOMPARE(document().graphs().front().series.back(), std::string("parameter/wall/floor/temperature"));
+    QCOMPARE(document().undoStack().count(), 1);
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    QCOMPARE(document().undoStack().count(), 1);
+    QVERIFY(m_window->notice()->isVisible());
+    undoneAndRedone(before);
+    // One that lets no heat through has none.
+    QCOMPARE(document().setParameter({Owner::Wall, "floor", "heat"}, std::string("adiabatic")), QString());
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    QCOMPARE(document().project().probes.size(), probes + 1);
+  }
+
   void aProbeIsMadeAndEditedInItsRows() {
     const std::string before = json();
     m_window->selection().select(OutlineKind::Body, "ice");
-    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    m_window->action(QStringLiteral("edit.probeAll"))->trigger();
     const std::string id = m_window->selection().id();
     QCOMPARE(m_window->selection().kind(), OutlineKind::Probe);
     QCOMPARE(document().probe(id)->body, std::string("ice"));

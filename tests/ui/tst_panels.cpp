@@ -66,6 +66,7 @@ class TestPanels : public QObject {
   void aNewModelEndsOpenGestures();
   void aRowMayAskForANewModel();
   void changedMeansOtherThanTheMaterial();
+  void aMaterialsOwnValueIsUsual();
   void emptyPanelHasItsSentence();
   void noTextIsCut_data();
   void noTextIsCut();
@@ -297,6 +298,19 @@ void TestPanels::changedMeansOtherThanTheMaterial() {
   row.reset();
   QCOMPARE(row.number(), 0.6);
   QVERIFY(sameValue(Value(0.6), Value(Response(0.6))));
+}
+
+/// Beyond the slider is what somebody sets there, not what the material has by itself.
+void TestPanels::aMaterialsOwnValueIsUsual() {
+  ParameterSet base, own;
+  base.values["conductivity"] = Response(400.0);
+  ParameterRow row(rowModels(list(), own, base)[5]);
+  QVERIFY(isOutOfRange(row.model().declaration, row.number()));
+  QVERIFY(!row.has(RowState::OutOfRange) && !row.has(RowState::Changed));
+  QVERIFY(row.enter(QStringLiteral("399")));
+  QVERIFY(row.has(RowState::OutOfRange));
+  row.reset();
+  QVERIFY(!row.has(RowState::OutOfRange));
 }
 
 void TestPanels::emptyPanelHasItsSentence() {

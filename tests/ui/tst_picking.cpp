@@ -614,6 +614,29 @@ class TestPicking : public QObject {
     QVERIFY(region().minimum == low && region().maximum == high);
   }
 
+  /// On matter a box is taken only by an edge that the pointer is on; in the air from somewhat farther.
+  void aBoxWithinABodyIsTakenByItsEdgeAlone() {
+    Project project = scene();
+    Probe box;
+    box.id = "box", box.quantity = "temperature", box.region = Region{{0.1, 0.2, 0}, {0.3, 0.4, 0.2}};
+    project.probes = {box};
+    const Vector3 place(0.1, 0.3, 0.2), eye = at(place).ray.origin, way = place - eye;  // on an upright edge
+    auto body = std::make_shared<Snapshot>();
+    body->spacing = 0.2;
+    const Vector3 centre = eye + 0.5 * way;
+    body->position = {
+        {static_cast<float>(centre.x()), static_cast<float>(centre.y()), static_cast<float>(centre.z()), 0.1f}};
+    const auto takes = [&](double units, const SnapshotPtr& matter) {
+      const Vector3 right = way.cross(Vector3(0, 1, 0)).normalized();
+      Pointer pointer = at(place - units * at(place).fineness * way.norm() * right);
+      pointer.scene = matter;
+      const auto pick = pickAt(project, {}, pointer);
+      return pick && pick->item == SelectedItem{OutlineKind::Probe, "box"};
+    };
+    QVERIFY(takes(1, nullptr) && takes(6, nullptr) && !takes(9, nullptr));
+    QVERIFY(takes(1, body) && !takes(6, body));
+  }
+
  private:
   const std::vector<Region>& pins() const { return m_document->project().bodies[0].pins; }
   std::unique_ptr<Document> m_document;

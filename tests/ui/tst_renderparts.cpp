@@ -43,6 +43,7 @@ class TestRenderParts : public QObject {
   void revisionsDoNotMix();
   void hidesOnlyWhatIsCovered();
   void leavesOutWhatIsBuried();
+  void outlinesNoDroplets();
   void wallsAreClippedByEachOther();
   void curvedWallsAreGlass();
   void sectionsFaceWhoLooks();
@@ -450,6 +451,31 @@ void TestRenderParts::curvedWallsAreGlass() {
     QVERIFY(std::abs(lowest) < 1e-6);  // on the floor
     QVERIFY(std::abs(highest - (face.form() == WallForm::Sphere ? 0.4 : 0.8)) < 1e-6);
   }
+}
+
+/// Droplets around a block get no ring of their own, a rope as thin as one particle does; of what is all droplets each
+/// is outlined.
+void TestRenderParts::outlinesNoDroplets() {
+  constexpr double kRadius = 0.01;
+  Snapshot s, drops;
+  uint32_t id = 0;
+  for (int i = 0; i < 27; ++i)
+    addParticle(s, Vector3(i % 3, i / 3 % 3, i / 9) * 2 * kRadius, kRadius, id++, api::Motion::Solid);
+  for (int i = 0; i < 12; ++i) addParticle(s, {0.3 + 2 * kRadius * i, 0, 0}, kRadius, id++, api::Motion::Solid);
+  for (Snapshot* to : {&s, &drops}) {
+    for (int i = 0; i < 5; ++i) addParticle(*to, {0.1 * i, 0.5, 0}, kRadius, id++, api::Motion::Liquid);
+    addParticle(*to, {0.02, 0.5, 0}, kRadius, id++, api::Motion::Liquid);  // two of them in one
+  }
+  render::InstanceRequest request;
+  request.outlined = {1};
+  const auto outlined = [&](const Snapshot& of) {
+    render::Instances out;
+    request.now = &of;
+    render::collectInstances(request, out);
+    return out.outlined;
+  };
+  QCOMPARE(outlined(s), size_t{27 + 12});
+  QCOMPARE(outlined(drops), size_t{6});
 }
 
 /// Along an axis the same for everybody; one that faces the viewer cuts away what is near, flipped what is far.

@@ -4,6 +4,7 @@
 #include "core/base/statestream.h"
 #include "core/io/projectio.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/quantitygroup.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/particlefield.h"
 #include "core/solver/solver.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <string_view>
 #include <type_traits>
 
 using namespace ps;
@@ -50,6 +52,17 @@ Project scene(bool withSource = true) {
 class TestParticleFields : public QObject {
   Q_OBJECT
  private Q_SLOTS:
+  /// Each heading has some; what is of no heading is a plugin's.
+  void quantitiesHaveHeadings() {
+    std::set<std::string_view> used{quantityGroups().back()};
+    for (const Quantity& quantity : ParticleFields().quantities()) {
+      used.insert(quantityGroup(quantity.key));
+      QVERIFY2(quantityGroup(quantity.key) != quantityGroups().back(), quantity.key.c_str());
+    }
+    QCOMPARE(used.size(), quantityGroups().size());
+    QVERIFY(quantityGroup("org.example.rust.depth_max") == quantityGroups().back());
+  }
+
   void initTestCase() {
     QVERIFY(QFile::copy(qEnvironmentVariable("PS_FIXTURE_DIR") + "/fixture_source.so",
                         m_fixtures.filePath("showing_source.so")));

@@ -63,6 +63,7 @@ void TestScene::declarationsAreSound() {
     QVERIFY2(d.scale == api::Scale::Linear || d.minimum > 0, d.key);  // a logarithmic slider cannot begin at 0
     QVERIFY2((d.kind == api::ParameterKind::Choice) == !choicesOf(d).empty(), d.key);
     QVERIFY2(d.displayScale != 0, d.key);
+    if (keys.contains("particle_spacing")) QVERIFY(findDeclaration(lists[list], "particle_spacing")->minimum <= 0.001);
     QCOMPARE(text(problemOf(valueOf({}, d), d)), "");
     QVERIFY2(!problemOf(Value(Response(0.5)), d).empty() || d.kind == api::ParameterKind::Response, d.key);
   }

@@ -52,7 +52,8 @@ void keepApart(std::vector<EndLabel>& labels, const QRectF& room) {
 }
 
 /// In as few columns as there must be, at the right, where lines end.
-bool paintColumns(QPainter& painter, const std::vector<EndLabel>& labels, const QRectF& room) {
+bool paintColumns(QPainter& painter, const std::vector<EndLabel>& labels, const QRectF& room,
+                  std::vector<QRectF>& taken) {
   if (room.height() < kHeight) return false;
   const QFont font = Theme::font(TextRole::Small);
   const size_t rows = 1 + static_cast<size_t>((room.height() - kHeight) / kPitch);
@@ -70,6 +71,7 @@ bool paintColumns(QPainter& painter, const std::vector<EndLabel>& labels, const 
                   wide - kBetween, kHeight);
   };
   for (size_t k = 0; k < shown; ++k) {
+    taken.push_back(place(k));
     const QRectF rect = place(k).adjusted(kMark, 0, 0, 0);
     paintLabel(painter, rect.adjusted(-kMark, 0, 0, 0), {}, {});
     paintDot(painter, {rect.left() - kMark + kDot, rect.center().y()}, labels[k].series);
@@ -78,24 +80,28 @@ bool paintColumns(QPainter& painter, const std::vector<EndLabel>& labels, const 
       paintText(painter, rect, Qt::AlignRight | Qt::AlignVCenter, labels[k].value, font, Theme::current()[Token::Text]);
     whole = whole && textWidth(labels[k].name, font) <= rect.width();
   }
-  if (shown < labels.size()) paintLabel(painter, place(shown), QStringLiteral("+%1").arg(labels.size() - shown), {});
+  if (shown < labels.size()) {
+    taken.push_back(place(shown));
+    paintLabel(painter, place(shown), QStringLiteral("+%1").arg(labels.size() - shown), {});
+  }
   return whole;
 }
 
 }  // namespace
 
 bool paintEndLabels(QPainter& painter, std::vector<EndLabel> labels, const QRectF& room,
-                    const std::function<double(double, double)>& leftOf) {
+                    const std::function<double(double, double)>& leftOf, std::vector<QRectF>& taken) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const EndLabel& label : labels) paintDot(painter, label.end, label.series);
   if (labels.empty()) return true;
   // They may come a pixel nearer to what is above.
   if (room.height() + 1 < kHeight + kPitch * static_cast<double>(labels.size() - 1))
-    return paintColumns(painter, labels, room);
+    return paintColumns(painter, labels, room, taken);
   keepApart(labels, room);
   for (const EndLabel& label : labels) {
     const double width = widthOf(label);
-    paintLabel(painter, {leftOf(label.end.x(), width), label.top, width + 1, kHeight}, label.name, label.value);
+    taken.emplace_back(leftOf(label.end.x(), width), label.top, width + 1, kHeight);
+    paintLabel(painter, taken.back(), label.name, label.value);
   }
   return true;
 }

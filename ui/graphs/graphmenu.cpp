@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/graphs/graphmenu.h"
 
+#include "core/scene/quantitygroup.h"
 #include "core/scene/shownname.h"
 #include "core/simulation/graphsource.h"
 #include "ui/document/declared.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace ps {
@@ -37,14 +39,6 @@ QAction* addCheck(QMenu& menu, const QString& text, bool on, std::function<void(
 size_t placeOf(const std::vector<Graph>& graphs, const std::string& id) {
   return static_cast<size_t>(std::find_if(graphs.begin(), graphs.end(), [&](const Graph& g) { return g.id == id; }) -
                              graphs.begin());
-}
-
-/// "x" of "velocity_x_max"; 0 of what is along no axis.
-char axisOf(std::string key) {
-  for (const char* end : {"_min", "_max"}) {
-    if (key.ends_with(end)) key.resize(key.size() - 4);
-  }
-  return key.size() > 2 && key[key.size() - 2] == '_' && key.back() >= 'x' && key.back() <= 'z' ? key.back() : '\0';
 }
 
 /// A body's own parameters, its solid's and its constraints' are one body's.
@@ -180,30 +174,25 @@ void GraphMenu::addTargets(QMenu& menu, const std::string& graph) const {
 
 void GraphMenu::addQuantities(QMenu& menu, const std::string& graph, const Probe& of, const QString& name) const {
   // Made when it is opened: there are many.
-  QObject::connect(&menu, &QMenu::aboutToShow, &menu,
-                   [&menu, document = &m_document, fields = &m_fields, graph, of, name] {
-                     if (!menu.isEmpty()) return;
-                     std::map<QString, QMenu*> groups;
-                     const auto group = [&](const QString& title) {
-                       QMenu*& found = groups[title];
-                       if (!found) found = menu.addMenu(asButtonText(title));
-                       return found;
-                     };
-                     for (const Quantity& quantity : fields->quantities()) {
-                       if (isForce(quantity.key) && of.body.empty()) continue;
-                       const QString label = QString::fromStdString(quantity.label);
-                       const char axis = axisOf(quantity.key);
-                       QMenu* place = quantity.field ? group(QString::fromStdString(quantity.field->label))
-                                      : axis         ? group(QStringLiteral("Along ") + QLatin1Char(axis))
-                                                     : &menu;
-                       add(*place, label, [document, graph, of, label, name, key = quantity.key] {
-                         Probe probe = of;
-                         probe.quantity = key;
-                         probe.name = (name + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1)).toStdString();
-                         document->plotProbe(graph, std::move(probe));
-                       });
-                     }
-                   });
+  QObject::connect(
+      &menu, &QMenu::aboutToShow, &menu, [&menu, document = &m_document, fields = &m_fields, graph, of, name] {
+        if (!menu.isEmpty()) return;
+        for (const std::string_view title : quantityGroups()) {
+          QMenu* group = nullptr;
+          for (const Quantity& quantity : fields->quantities()) {
+            if (quantityGroup(quantity.key) != title) continue;
+            if (isForce(quantity.key) && of.body.empty()) continue;
+            if (!group) group = menu.addMenu(QString::fromUtf8(title.data(), static_cast<qsizetype>(title.size())));
+            const QString label = QString::fromStdString(quantity.label);
+            add(*group, label, [document, graph, of, label, name, key = quantity.key] {
+              Probe probe = of;
+              probe.quantity = key;
+              probe.name = (name + QLatin1Char(' ') + label.left(1).toLower() + label.mid(1)).toStdString();
+              document->plotProbe(graph, std::move(probe));
+            });
+          }
+        }
+      });
 }
 
 void GraphMenu::addRemoval(QMenu& menu, const Graph& graph) const {

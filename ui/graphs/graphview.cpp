@@ -366,8 +366,10 @@ void GraphView::paintLabels(QPainter& painter) {
   QStringList names;
   for (const EndLabel& label : labels) names << label.name;
   const QRectF room(plot.left() + 2, plot.top() + titleStrip() - 3, plot.width() - 4, plot.height() - titleStrip() + 3);
-  const bool whole = paintEndLabels(painter, std::move(labels), room,
-                                    [this](double place, double width) { return labelLeft(place, width); });
+  std::vector<QRectF> taken{headingRect()};
+  const bool whole = paintEndLabels(
+      painter, std::move(labels), room, [this](double place, double width) { return labelLeft(place, width); }, taken);
+  paintMarkerNames(painter, std::move(taken));
   const QString tip = whole ? QString() : names.join(QLatin1Char('\n'));
   if (toolTip() != tip) setToolTip(tip);
 }

@@ -228,15 +228,20 @@ void Plot::paintEvent(QPaintEvent*) {
   if (hasFocus()) paintFocusRing(painter, QRectF(rect()).adjusted(1, 1, -1, -1), 4);
 }
 
+QRectF Plot::headingRect() const {
+  if (d->title.isEmpty()) return {};
+  const QRectF plot = plotRect();
+  const double width = textWidth(axisTitle(), Theme::font(TextRole::Small)) + 1;
+  return {plot.left() + 7, plot.top() + 3, std::min(width, plot.width() - 14), 16};
+}
+
 void Plot::paintHeading(QPainter& painter) const {
   if (d->title.isEmpty()) return;
   const Theme& theme = Theme::current();
   const QFont font = Theme::font(TextRole::Small);
-  const QRectF plot = plotRect();
   QColor ground = theme[Token::Field];
   ground.setAlphaF(0.75f);
-  const QRectF heading(plot.left() + 7, plot.top() + 3, std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14),
-                       16);
+  const QRectF heading = headingRect();
   painter.fillRect(heading.adjusted(-2, 1, 2, -1), ground);  // the line of the present time passes here
   paintText(painter, heading, kAlignMiddle, axisTitle(), font, theme[Token::Text2]);
 }

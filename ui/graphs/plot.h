@@ -90,6 +90,7 @@ class Plot : public QWidget {
   /// Left edge of a label of this width: right of a place where the plot has room, else left of it, else as far to the
   /// right as it fits.
   double labelLeft(double place, double width) const;
+  QRectF headingRect() const;  ///< empty without a title
   void paintHeading(QPainter& painter) const;
   void dataChanged();                     ///< schedules a repaint
   virtual void paintBehind(QPainter&) {}  ///< over the data, below the labels

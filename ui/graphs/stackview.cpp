@@ -156,8 +156,9 @@ void StackView::paintLabels(QPainter& painter) {
   const QRectF plot = plotRect();
   const QFont font = Theme::font(TextRole::Small);
   const double end = std::min(labelTime(lastTime()), range().second);
-  paintText(painter, QRectF(plot.left() + 7, plot.top() + 3, plot.width() - 14, 16), Qt::AlignRight | Qt::AlignVCenter,
-            axisTitle(), font, theme[Token::Muted]);
+  const double wide = std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14);
+  std::vector<QRectF> taken{{plot.right() - 7 - wide, plot.top() + 3, wide, 16}};
+  paintText(painter, taken.front(), Qt::AlignRight | Qt::AlignVCenter, axisTitle(), font, theme[Token::Muted]);
   struct Label {
     double top;
     size_t layer;
@@ -187,11 +188,12 @@ void StackView::paintLabels(QPainter& painter) {
     const double left = labelLeft(edge - 2, width);
     const QRectF swatch(left, label.top + 1, 14, 14);
     const QRectF text(swatch.right() + 5, label.top, width - 19, 16);
+    taken.push_back(swatch.united(text).adjusted(-2, 0, 3, 0));
     // Over what is drawn: left of the place, and right of it while that is not the end.
     if (left < x(lastTime())) {
       QColor ground = theme[Token::Field];
       ground.setAlphaF(0.92f);
-      paintBox(painter, swatch.united(text).adjusted(-2, 0, 3, 0), ground, QColor(), 3);
+      paintBox(painter, taken.back(), ground, QColor(), 3);
     }
     const QColor colour = colourOf(label.layer);
     paintBox(painter, swatch, colour, theme[Token::Line2], 3);
@@ -201,6 +203,7 @@ void StackView::paintLabels(QPainter& painter) {
               contrast(colour, dark) > contrast(colour, light) ? dark : light);
     paintText(painter, text, Qt::AlignLeft | Qt::AlignVCenter, label.text, font, theme[Token::Text]);
   }
+  paintMarkerNames(painter, std::move(taken));
 }
 
 std::vector<PlotLine> StackView::readOut(double time) const {

@@ -34,8 +34,12 @@ class TimePlot : public Plot {
   double summaryPlace() const override { return lastTime(); }
   void clicked(double at) override { Q_EMIT seekRequested(at); }
   void paintBehind(QPainter& painter) override;
+  /// Names of the markers, lowest where nothing else is written: `taken`. One that has no such place is left out; the
+  /// timeline has them all.
+  void paintMarkerNames(QPainter& painter, std::vector<QRectF> taken) const;
 
  private:
+  QRectF markerPlace(double time, double width, const std::vector<QRectF>& taken) const;  ///< empty: there is none
   std::vector<std::pair<double, QString>> m_markers;
   double m_duration = 0, m_present = std::numeric_limits<double>::quiet_NaN();
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several things in the inspector: rows that all of them have, a dash where they disagree, and edits that reach all.
+#include "core/scene/knowncount.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/panels/inspector.h"
@@ -13,6 +14,7 @@
 #include <QtCore/QTimer>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace ps {
@@ -143,10 +145,17 @@ bool Inspector::showCount() {
 QString Inspector::countOfBodies() const {
   const double spacing = numberOf(m_document.project().solver.parameters, solverParameters(), "particle_spacing");
   double count = 0;
+  bool known = true;
   for (const Address& one : m_bodies) {
-    if (const Body* body = m_document.body(one.id)) count += particleCount(*body, spacing);
+    const Body* body = m_document.body(one.id);
+    if (!body) continue;
+    const std::optional<double> exact = knownCount(*body, spacing);
+    known = known && exact;
+    count += exact ? *exact : particleCount(*body, spacing);
   }
-  return count > 0 ? particlesAhead(count) : QString();
+  if (count == 0) return {};
+  if (!known) return particlesAhead(count);
+  return countText(static_cast<size_t>(count), QStringLiteral("particle"), QStringLiteral("particles"));
 }
 
 void Inspector::countSoon() {

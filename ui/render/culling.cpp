@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 // Why on the processor: sphere shaders write depth, so nothing hidden is rejected before it is shaded. Where a
 // processor shades as well, finding what is hidden first costs a tenth of shading it.
@@ -17,27 +19,67 @@ struct Disc {
 
 constexpr float kCell = 2;  // pixels
 
+/// Space in cells of one width, with an empty one all around.
+class Cells {
+ public:
+  /// None where there would be too many to be worth a search.
+  static std::optional<Cells> of(const Extent& extent, float cell) {
+    constexpr double kMost = 1u << 22;
+    std::array<double, 3> counts{};
+    for (size_t k = 0; k < 3; ++k) counts[k] = (double{extent.maximum[k]} - double{extent.minimum[k]}) / cell + 3;
+    if (!(counts[0] * counts[1] * counts[2] <= kMost)) return std::nullopt;
+    Cells cells;
+    cells.m_least = extent.minimum;
+    cells.m_cell = cell;
+    std::transform(counts.begin(), counts.end(), cells.m_counts.begin(),
+                   [](double count) { return static_cast<size_t>(count); });
+    return cells;
+  }
+  size_t at(const Instance& p) const {
+    const auto along = [&](float v, size_t k) { return static_cast<size_t>((v - m_least[k]) / m_cell) + 1; };
+    return (along(p.z, 2) * m_counts[1] + along(p.y, 1)) * m_counts[0] + along(p.x, 0);
+  }
+  size_t count() const { return m_counts[0] * m_counts[1] * m_counts[2] + 1; }
+  size_t row() const { return m_counts[0]; }
+  size_t layer() const { return m_counts[0] * m_counts[1]; }
+
+ private:
+  std::array<float, 3> m_least{};
+  float m_cell = 1;
+  std::array<size_t, 3> m_counts{};
+};
+
+/// The cells that hang together with one, which are empty then. Returns how many particles they held.
+size_t takePiece(const Cells& cells, size_t from, std::vector<uint32_t>& held, std::vector<size_t>& piece) {
+  piece.assign(1, from);
+  size_t size = std::exchange(held[from], 0);
+  for (size_t k = 0; k < piece.size(); ++k) {
+    for (const size_t layer : {piece[k] - cells.layer(), piece[k], piece[k] + cells.layer()}) {
+      for (const size_t row : {layer - cells.row(), layer, layer + cells.row()}) {
+        for (const size_t at : {row - 1, row, row + 1}) {
+          if (at >= held.size() || held[at] == 0) continue;
+          size += std::exchange(held[at], 0);
+          piece.push_back(at);
+        }
+      }
+    }
+  }
+  return size;
+}
+
 }  // namespace
 
 size_t exposedFirst(const Extent& extent, float radius, float cell, int full, std::vector<Instance>& list) {
-  constexpr double kMost = 1u << 22;
   if (list.size() < 1000) return list.size();
-  std::array<double, 3> counts{};
-  for (size_t k = 0; k < 3; ++k) counts[k] = (double{extent.maximum[k]} - double{extent.minimum[k]}) / cell + 3;
-  if (!(counts[0] * counts[1] * counts[2] <= kMost)) return list.size();
-  std::array<size_t, 3> cells{};
-  std::transform(counts.begin(), counts.end(), cells.begin(), [](double count) { return static_cast<size_t>(count); });
-  const auto cellOf = [&](const Instance& p) {
-    const auto along = [&](float v, size_t k) { return static_cast<size_t>((v - extent.minimum[k]) / cell) + 1; };
-    return (along(p.z, 2) * cells[1] + along(p.y, 1)) * cells[0] + along(p.x, 0);
-  };
-  std::vector<uint8_t> held(cells[0] * cells[1] * cells[2] + 1), buried(held.size());
+  const std::optional<Cells> cells = Cells::of(extent, cell);
+  if (!cells) return list.size();
+  std::vector<uint8_t> held(cells->count()), buried(held.size());
   for (const Instance& p : list)
     if (p.radius > 0.7f * radius) {
-      uint8_t& count = held[cellOf(p)];
+      uint8_t& count = held[cells->at(p)];
       count = static_cast<uint8_t>(count + (count < full));
     }
-  const size_t row = cells[0], layer = cells[0] * cells[1];
+  const size_t row = cells->row(), layer = cells->layer();
   const auto threeFull = [&](size_t at) { return held[at - 1] == full && held[at] == full && held[at + 1] == full; };
   for (size_t at = layer + row + 1; at + layer + row + 1 < held.size(); ++at) {
     bool all = threeFull(at);
@@ -46,8 +88,25 @@ size_t exposedFirst(const Extent& extent, float radius, float cell, int full, st
       all = all && threeFull(base);
     buried[at] = all;
   }
-  const auto exposed = [&](const Instance& p) { return buried[cellOf(p)] == 0; };
+  const auto exposed = [&](const Instance& p) { return buried[cells->at(p)] == 0; };
   return static_cast<size_t>(std::stable_partition(list.begin(), list.end(), exposed) - list.begin());
+}
+
+size_t piecesFirst(const Extent& extent, float cell, size_t least, std::vector<Instance>& list) {
+  const std::optional<Cells> cells = Cells::of(extent, cell);
+  if (!cells) return list.size();
+  std::vector<uint32_t> held(cells->count());
+  for (const Instance& p : list) ++held[cells->at(p)];
+  std::vector<uint8_t> small(held.size());
+  std::vector<size_t> piece;
+  for (const Instance& p : list) {
+    if (held[cells->at(p)] == 0) continue;  // of a piece that is known by now
+    const size_t size = takePiece(*cells, cells->at(p), held, piece);
+    for (size_t k = 0; size < least && k < piece.size(); ++k) small[piece[k]] = 1;
+  }
+  const auto large = [&](const Instance& p) { return small[cells->at(p)] == 0; };
+  const auto rest = std::stable_partition(list.begin(), list.end(), large);
+  return rest == list.begin() ? list.size() : static_cast<size_t>(rest - list.begin());
 }
 
 void sortVisible(const Projector& projector, std::span<const Instance> spheres, std::vector<Instance>& visible) {

@@ -13,6 +13,8 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
 constexpr float kHeldLighter = 0.08f;    // towards white: what is held until it is let go
+constexpr float kTouching = 2.5f;        // radii, cells in which particles that touch are neighbours
+constexpr size_t kPiece = 8;             // particles of the smallest piece that gets an outline beside larger ones
 constexpr float kSurfaceGrowth = 1.25f;  // a liquid's surface lies about this far out, in radii of its particles
 
 // Index in the previous snapshot by index in this one; empty when both have the same order.
@@ -160,7 +162,8 @@ void arrange(Instances& out) {
   out.vapours = out.vapour.size();
   Extent extent;
   for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
-  out.outlined = exposedFirst(extent, out.radius, lattice, 1, out.outline);
+  out.outline.resize(exposedFirst(extent, out.radius, lattice, 1, out.outline));
+  out.outlined = piecesFirst(extent, kTouching * out.radius, kPiece, out.outline);
   out.outline.resize(out.outlined);
   for (const std::vector<Instance>* list : {&out.liquid, &out.vapour, &out.ghost, &out.outline})
     all.insert(all.end(), list->begin(), list->end());

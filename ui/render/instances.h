@@ -76,7 +76,7 @@ struct Instances {
   size_t dense = 0, clear = 0, buriedLiquids = 0;  ///< of surfaces; the dense ones hide what lies behind them
   size_t vapours = 0;
   size_t ghosts = 0;               ///< what shows of another run's matter
-  size_t outlined = 0;             ///< once more what makes the outlined body's picture
+  size_t outlined = 0;             ///< once more what makes the outlined body's picture, but for its droplets
   std::optional<float> clearness;  ///< of all liquids, 0..1, where it is one
   Extent sphereExtent, liquidExtent, vapourExtent;
   float radius = 0.01f;                                       ///< mean of what is neither vapour nor static, m
@@ -106,6 +106,10 @@ void sortVisible(const Projector& projector, std::span<const Instance> spheres, 
 /// wide, that has `full` spheres or more and 26 neighbours with as many; spheres much smaller than `radius` (m) do not
 /// count. Returns the number of the rest: all of a list too small, or spread too thin, to be worth the search.
 size_t exposedFirst(const Extent& extent, float radius, float cell, int full, std::vector<Instance>& list);
+/// Puts what lies in small pieces behind the rest, which keeps its order: fewer than `least` spheres in cells, `cell`
+/// (m) wide, of which each touches another. Returns the number of the rest; all where there is no larger piece, or
+/// where they are spread too thin.
+size_t piecesFirst(const Extent& extent, float cell, size_t least, std::vector<Instance>& list);
 /// Fills texels from spheres and liquids; clear liquids count less.
 void fillContactMap(const Instances& instances, ContactMap& map);
 

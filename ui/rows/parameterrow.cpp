@@ -239,7 +239,9 @@ unsigned ParameterRow::states() const {
   add(hasFocus() || d->edit, RowState::Focus);
   add(!d->model.disabledReason.isEmpty(), RowState::Disabled);
   add(d->model.mixed, RowState::Mixed);
-  add(!d->model.mixed && d->isNumeric() && isOutOfRange(d->declaration(), number()), RowState::OutOfRange);
+  // What is a material's own is usual, whatever the slider offers for others.
+  add(!d->model.mixed && d->isNumeric() && isChanged() && isOutOfRange(d->declaration(), number()),
+      RowState::OutOfRange);
   add(isChanged() || d->model.mixed, RowState::Changed);
   add(d->showsCurve(), RowState::Curve);
   add(!d->model.derivedFrom.isEmpty(), RowState::Derived);

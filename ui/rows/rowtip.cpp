@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/scene/quantitygroup.h"
 #include "ui/rows/parameterrow_p.h"
 #include "ui/rows/rowcommands.h"
 #include "ui/rows/rowvalue.h"
@@ -12,6 +13,9 @@
 #include <QtGui/QCursor>
 #include <QtWidgets/QMenu>
 
+#include <functional>
+#include <string_view>
+
 namespace ps {
 namespace {
 
@@ -19,6 +23,22 @@ QString line(const char* head, const QString& text) {
   if (text.isEmpty()) return {};
   return QStringLiteral("<div style=\"margin-top:3px\"><span style=\"color:%1\">%2</span> %3</div>")
       .arg(Theme::current()[Token::Muted].name(), QLatin1String(head), text.toHtmlEscaped());
+}
+
+/// What a probe may measure, which is more than a screen is high. The group of what is chosen is marked, too.
+void addInGroups(QMenu& menu, const QStringList& names, const std::function<bool(qsizetype)>& isChosen,
+                 const std::function<void(QMenu&, qsizetype)>& add) {
+  for (const std::string_view title : quantityGroups()) {
+    QMenu* group = nullptr;
+    for (qsizetype i = 0; i < names.size(); ++i) {
+      if (quantityGroup(names[i].toStdString()) != title) continue;
+      if (!group) group = menu.addMenu(QString::fromUtf8(title.data(), static_cast<qsizetype>(title.size())));
+      add(*group, i);
+      if (!isChosen(i)) continue;
+      group->menuAction()->setCheckable(true);
+      group->menuAction()->setChecked(true);
+    }
+  }
 }
 
 }  // namespace
@@ -63,11 +83,17 @@ QString ParameterRow::Private::toolTipText() const {
 void ParameterRow::Private::openChoiceMenu() {
   const QPointer<QMenu> menu(new QMenu(q));
   const QStringList names = choiceTexts();
-  for (qsizetype i = 0; i < names.size(); ++i) {
-    QAction* action = menu->addAction(asButtonText(names[i]));
+  const auto isChosen = [&](qsizetype i) { return !model.mixed && static_cast<qsizetype>(q->number()) == i; };
+  const auto add = [&](QMenu& to, qsizetype i) {
+    QAction* action = to.addAction(asButtonText(names[i]));
     action->setCheckable(true);
-    action->setChecked(!model.mixed && static_cast<qsizetype>(q->number()) == i);
+    action->setChecked(isChosen(i));
     action->setData(static_cast<int>(i));
+  };
+  if (QLatin1String(declaration().key) == QLatin1String("quantity")) {
+    addInGroups(*menu, choiceNames(declaration()), isChosen, add);
+  } else {
+    for (qsizetype i = 0; i < names.size(); ++i) add(*menu, i);
   }
   const QRect rect = choiceRect();
   menu->setMinimumWidth(rect.width());

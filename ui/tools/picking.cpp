@@ -18,6 +18,8 @@ namespace {
 
 // Units of fineness around a line that take hold of it. Walls are thin and pale, and stand around all the rest.
 constexpr double kReach = 7, kWallReach = 4;
+// Likewise around the box of a probe where there is matter: whoever clicks on a body with a box in it means the body.
+constexpr double kReachOnMatter = 3;
 
 bool has(const std::vector<SelectedItem>& items, const SelectedItem& item) {
   return std::find(items.begin(), items.end(), item) != items.end();
@@ -160,7 +162,8 @@ std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedIte
   for (const Probe& probe : project.probes) {
     if (canPick(probe) && probe.region) look({OutlineKind::Probe, probe.id}, *probe.region);
   }
-  return found ? found : wallAt(project.environment, pointer);
+  if (found && (least < kReachOnMatter || !matterOn(pointer))) return found;
+  return wallAt(project.environment, pointer);
 }
 
 }  // namespace ps

@@ -29,9 +29,9 @@ struct Pick {
   SelectedItem item;
   bool byLine = false;  ///< at one of its edges, not on its face
 };
-/// Pins first, then boxes of probes, then edges of walls as far as they are drawn and no matter hides them there, then
-/// floors and lids by the face that one sees; whoever points at matter means that. Sides are looked through, as they
-/// are drawn, and so is what is hidden or locked and what a section cuts away.
+/// Pins first, then boxes of probes (on matter only just at their edges), then edges of walls as far as they are drawn
+/// and no matter hides them there, then floors and lids by the face that one sees; whoever points at matter means that.
+/// Sides are looked through, as they are drawn, and so is what is hidden or locked and what a section cuts away.
 std::optional<Pick> pickAt(const Project& project, const std::vector<SelectedItem>& selected, const Pointer& pointer);
 /// The pins of bodies that are selected, or of which one is.
 std::vector<SelectedItem> shownPins(const Project& project, const std::vector<SelectedItem>& selected);

@@ -2,6 +2,7 @@
 #include "ui/window/actions.h"
 
 #include "ui/theme/plaintext.h"
+#include "ui/window/entrytext.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
@@ -11,7 +12,10 @@
 
 namespace ps {
 
-QString cleanText(const QAction& action) { return fromButtonText(action.text()); }
+QString cleanText(const QAction& action) {
+  const QString whole = action.property(kWholeName).toString();
+  return whole.isEmpty() ? fromButtonText(action.text()) : whole;
+}
 
 QAction* Actions::add(QMenu* menu, const QString& name, const QString& text, const QList<QKeySequence>& keys,
                       Act act) const {

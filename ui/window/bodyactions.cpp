@@ -3,6 +3,7 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
+#include "core/scene/knowncount.h"
 #include "core/scene/pose.h"
 #include "core/scene/solidform.h"
 #include "core/simulation/declared.h"
@@ -16,6 +17,7 @@
 #include "ui/session/wording.h"
 #include "ui/theme/numbers.h"
 #include "ui/window/actions.h"
+#include "ui/window/entrytext.h"
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
@@ -159,6 +161,8 @@ double spacingOf(const Document& document) {
 
 /// Of a body that is not there yet, or of one that has just come.
 QString countText(const Body& body, const Document& document) {
+  if (const auto known = knownCount(body, spacingOf(document)))
+    return ps::countText(static_cast<size_t>(*known), QStringLiteral("particle"), QStringLiteral("particles"));
   return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
@@ -205,6 +209,7 @@ void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
     QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(nameOf(row.kind)),
                                     QStringLiteral("Add body: %1").arg(name.toLower()), {},
                                     [this, kind = row.kind, name] { addSolid(kind, name); });
+    sayInMenu(*action, name);
     action->setProperty(kWords, QString::fromLatin1(row.words));
     m_adding.push_back(action);
   }
@@ -225,6 +230,7 @@ void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
 void BodyActions::addToWallMenu(QMenu* menu) {
   QAction* action = m_actions.add(menu, QStringLiteral("sketch.wall.mesh"), QStringLiteral("Add wall: from a mesh…"),
                                   {}, [this] { chooseMesh(MeshUse::Wall); });
+  sayInMenu(*action, QStringLiteral("From a mesh…"));
   action->setToolTip(QStringLiteral("A body of the mesh's surface that is held in place: a tank, a ground, a mould."));
   action->setEnabled(m_session.isReady());
   m_adding.push_back(action);
@@ -235,6 +241,7 @@ void BodyActions::makeToolMenu(QMenu* menu) {
     QAction* action = m_actions.add(menu, QStringLiteral("add.tool.") + QString::fromLatin1(form.id),
                                     QStringLiteral("Add tool: %1").arg(QString::fromLatin1(form.name).toLower()), {},
                                     [this, &form] { addTool(form); });
+    sayInMenu(*action, QString::fromLatin1(form.name));
     action->setToolTip(QStringLiteral("%1 Take it in hand with A.").arg(QString::fromLatin1(form.use)));
     m_adding.push_back(action);
   }

@@ -2,6 +2,9 @@
 #include "ui/window/editactions.h"
 
 #include "core/scene/scenewall.h"
+#include "core/simulation/graphsource.h"
+#include "core/simulation/rules.h"
+#include "core/simulation/snapshot.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/document/wallside.h"
@@ -10,14 +13,48 @@
 #include "ui/rows/parameterpanel.h"
 #include "ui/rows/rowcommands.h"
 #include "ui/session/selection.h"
+#include "ui/session/session.h"
 #include "ui/window/actions.h"
+#include "ui/window/entrytext.h"
 #include "ui/window/notices.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QMainWindow>
 #include <QtWidgets/QMenu>
 
+#include <algorithm>
+#include <limits>
+#include <optional>
+
 namespace ps {
+namespace {
+
+/// The middle third of a body as it is shown, along each axis, and no less than has particles in it; nothing where it
+/// has no matter.
+std::optional<Region> coreOf(const Snapshot* shown, const std::string& body) {
+  if (!shown || !shown->bodyIds) return std::nullopt;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Vector3 low = Vector3::Constant(kNone), high = Vector3::Constant(-kNone);
+  double radius = 0;
+  for (size_t i = 0; i < shown->position.size(); ++i) {
+    const size_t of = shown->body[i];
+    if (of >= shown->bodyIds->size() || (*shown->bodyIds)[of] != body || shown->motion[i] == api::Motion::Gas) continue;
+    const Vector3 place = vectorOf(shown->position[i]);
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+    radius = std::max(radius, static_cast<double>(shown->position[i].w));
+  }
+  if (radius == 0) return std::nullopt;
+  const Vector3 middle = 0.5 * (low + high);
+  // Of two layers neither lies in the third between them.
+  const Vector3 half = ((high - low) / 6).cwiseMax(1.1 * radius);
+  Region core;
+  core.minimum = middle - half;
+  core.maximum = middle + half;
+  return core;
+}
+
+}  // namespace
 
 void EditActions::makeMenu(QMenu* menu) {
   menu->addAction(m_actions.find(QStringLiteral("edit.undo")));
@@ -29,7 +66,7 @@ void EditActions::makeMenu(QMenu* menu) {
                 [this] { m_outliner.toggleVisible(); });
   m_actions.add(menu, QStringLiteral("edit.locked"), QStringLiteral("Lock or unlock"), {},
                 [this] { m_outliner.toggleLocked(); });
-  m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(); });
+  makeProbeEntries(menu);
   m_actions.add(menu, QStringLiteral("edit.key"), QStringLiteral("Set or remove a key"), {QKeySequence(Qt::Key_K)},
                 [this] {
                   if (ParameterRow* row = orRefused(m_inspector.rowAtHand(), QStringLiteral("No key was set.")))
@@ -38,6 +75,17 @@ void EditActions::makeMenu(QMenu* menu) {
   addRowCommands();
   menu->addSeparator();
   menu->addAction(m_actions.find(QStringLiteral("edit.search")));
+}
+
+void EditActions::makeProbeEntries(QMenu* menu) {
+  QAction* probe =
+      m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(false); });
+  probe->setToolTip(
+      QStringLiteral("Measures the temperature in the middle of the body that is selected, or of all matter; its rows "
+                     "have its box and other quantities. Of a wall that has a temperature it plots that."));
+  QAction* all = m_actions.add(menu, QStringLiteral("edit.probeAll"), QStringLiteral("Add probe of all of it"), {},
+                               [this] { addProbe(true); });
+  all->setToolTip(QStringLiteral("Of the whole body or tap that is selected, or of all matter."));
 }
 
 ParameterRow* EditActions::orRefused(ParameterRow* row, const QString& refusal) {
@@ -69,20 +117,20 @@ void EditActions::performAtHand(RowCommand command) {
 }
 
 void EditActions::makeWallMenu(QMenu* menu) {
-  for (const WallSide& side : kWallSides) {
-    m_actions.add(menu, QStringLiteral("sketch.wall.") + QString::fromLatin1(side.id),
-                  QStringLiteral("Add wall: %1").arg(QString::fromLatin1(side.name).toLower()), {},
-                  [this, side] { addWalls({side.id}); });
-  }
+  const auto add = [&](const QString& id, const char* whole, const QString& name, const Actions::Act& act) {
+    sayInMenu(*m_actions.add(menu, id, QString::fromLatin1(whole).arg(name.toLower()), {}, act), name);
+  };
+  for (const WallSide& side : kWallSides)
+    add(QStringLiteral("sketch.wall.") + QString::fromLatin1(side.id), "Add wall: %1", QString::fromLatin1(side.name),
+        [this, side] { addWalls({side.id}); });
   menu->addSeparator();
   for (const WallForm form : {WallForm::Cylinder, WallForm::Sphere}) {
     const QString shape = QString::fromStdString(shapeOf(form));
-    m_actions.add(menu, QStringLiteral("sketch.wall.") + shape, QStringLiteral("Add wall: %1").arg(shape), {},
-                  [this, form] { addRoundWall(form); });
+    add(QStringLiteral("sketch.wall.") + shape, "Add wall: %1", shape, [this, form] { addRoundWall(form); });
   }
   menu->addSeparator();
-  m_actions.add(menu, QStringLiteral("sketch.walls"), QStringLiteral("Add walls: all four sides"), {},
-                [this] { addWalls(kUprightSides); });
+  add(QStringLiteral("sketch.walls"), "Add walls: %1", QStringLiteral("All four sides"),
+      [this] { addWalls(kUprightSides); });
 }
 
 void EditActions::openItemMenu(const QPoint& global) const {
@@ -112,11 +160,14 @@ void EditActions::openItemMenu(const QPoint& global) const {
     }
   }
   add("edit.probe");
+  if (placed) add("edit.probeAll");
   menu->popup(global);
 }
 
-/// Of the body or tap that is selected, or of all matter; what it measures is chosen in its rows.
-void EditActions::addProbe() {
+/// Of the body or tap that is selected, or of all matter; what it measures is chosen in its rows. What most probes are
+/// for is how warm a body is inside: of one it begins in its middle.
+void EditActions::addProbe(bool whole) {
+  if (!whole && plotWall()) return;
   Probe probe;
   probe.quantity = "temperature";
   const auto port = m_selection.port();
@@ -124,8 +175,36 @@ void EditActions::addProbe() {
   if (!probe.body.empty()) {
     const Owner owner = port ? Owner::Emitter : Owner::Body;
     probe.name = ownerLabel(m_document.project(), {owner, probe.body, ""}).toStdString();
+    if (!whole && !port) probe.region = coreOf(m_session.snapshot().get(), probe.body);
+    if (probe.region) probe.name += ", core";
   }
   m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
+}
+
+/// A wall holds no matter that a probe would see: its temperature is its own parameter. It comes beside other curves of
+/// temperature.
+bool EditActions::plotWall() {
+  const Address address{Owner::Wall, m_selection.id(), "temperature"};
+  const Project& project = m_document.project();
+  if (m_selection.kind() != OutlineKind::Wall || !m_document.declaration(address)) return false;
+  if (!idleReason(project, m_document.plugins(), address).empty()) return false;
+  const std::string source = parameterSource(address);
+  const auto known = [&](const std::string& name) {
+    return GraphSource(name, project, m_session.fields(), m_document.plugins());
+  };
+  std::string beside;
+  bool plotted = false;
+  for (const Graph& graph : m_document.graphs()) {
+    if (graph.kind != Graph::Kind::Time) continue;
+    for (const std::string& name : graph.series) {
+      plotted = plotted || name == source;
+      if (beside.empty() && known(name).unit() == known(source).unit()) beside = graph.id;
+    }
+  }
+  m_notices.refuse(QStringLiteral("Nothing was added."),
+                   plotted ? QStringLiteral("The temperature of this wall is plotted already.") : QString());
+  if (!plotted) m_document.plot(beside, source);
+  return true;
 }
 
 void EditActions::addRoundWall(WallForm form) {

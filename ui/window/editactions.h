@@ -18,13 +18,15 @@ class Notices;
 class Outliner;
 class ParameterRow;
 class Selection;
+class Session;
 
 /// What is done with the scene's things: the menu Edit but for undo, and the walls.
 class EditActions {
  public:
-  EditActions(Document& document, Selection& selection, Outliner& outliner, Inspector& inspector,
+  EditActions(Session& session, Document& document, Selection& selection, Outliner& outliner, Inspector& inspector,
               const Actions& actions, Notices& notices)
-      : m_document(document),
+      : m_session(session),
+        m_document(document),
         m_selection(selection),
         m_outliner(outliner),
         m_inspector(inspector),
@@ -38,9 +40,12 @@ class EditActions {
   ParameterRow* orRefused(ParameterRow* row, const QString& refusal);  ///< says where there is none
   void addRowCommands();
   void performAtHand(RowCommand command);  ///< with the row that is meant
-  void addProbe();
+  void makeProbeEntries(QMenu* menu);
+  void addProbe(bool whole);                             ///< of all that is selected rather than of its middle
+  bool plotWall();                                       ///< false: no wall is selected that has a temperature
   void addRoundWall(WallForm form);                      ///< see roundWall()
   void addWalls(const std::vector<std::string>& sides);  ///< of kWallSides
+  Session& m_session;
   Document& m_document;
   Selection& m_selection;
   Outliner& m_outliner;

@@ -237,8 +237,8 @@ void MainWindow::makeMiddle() {
 
 void MainWindow::makeMenus() {
   QMenuBar* bar = m_top->menus();
-  m_edit = std::make_unique<EditActions>(m_session->document(), *m_selection, *outliner(), *m_inspector, m_actions,
-                                         *m_notices);
+  m_edit = std::make_unique<EditActions>(*m_session, m_session->document(), *m_selection, *outliner(), *m_inspector,
+                                         m_actions, *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
   new LooseMatter(*m_session, *m_notices, this);
@@ -273,7 +273,7 @@ void MainWindow::makeMenus() {
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
   adding->addSeparator();
-  for (const char* name : {"sketch.tap", "sketch.drain", "edit.probe"})
+  for (const char* name : {"sketch.tap", "sketch.drain", "edit.probe", "edit.probeAll"})
     adding->addAction(m_actions.find(QString::fromLatin1(name)));
   offerInHeader(*m_layout->dock(QStringLiteral("dock.outliner")), adding);
   m_favourites = new FavouriteBrushes(*m_session, *m_selection, *m_tools, m_actions, *m_notices, this);
