@@ -312,6 +312,14 @@ void VrPanelsTest::aGripCarriesABoardByItsHeader() {
   QCOMPARE(hold(middle, 0).pose.position, carried.pose.position);
   ++view.brought[0];
   QCOMPARE(hold(middle, 0).pose.position, board.pose.position);
+  // What it carries when both grips begin to carry the scene is put down there, and not drawn after it later.
+  for (const double held : {0.0, 1.0}) hold(header, held);
+  QVERIFY(panels.carries(vr::kRight));
+  const Vector3 put = hold(header, 1).pose.position;
+  hold(header, 1, true);
+  QVERIFY(!panels.carries(vr::kRight));
+  QCOMPARE(hold(away, 1).pose.position, put);
+  QVERIFY(!panels.carries(vr::kRight));
 }
 
 /// Where its tip is, which presses nothing on the way.

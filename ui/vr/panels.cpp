@@ -136,12 +136,13 @@ void Panels::placeBoard(size_t board, const HeadsetFrame& frame, const HeadsetVi
   m_places[kBoard + board] = Place{*stands, shown.width, shown.height};
 }
 
-/// Where a board that it carries is put away meanwhile, nothing else is taken before the grip is let go.
+/// Where a board that it carries is put away meanwhile, nothing else is taken before the grip is let go. Where both
+/// grips carry the scene, it stays where it is by then.
 void Panels::carry(size_t hand, const HandInput& input, const HeadsetView& view, bool busy) {
   const bool held = std::exchange(m_holds[hand], input.hold > kPull);
   std::optional<Carried>& carried = m_carried[hand];
-  if (!m_holds[hand]) return carried.reset();
-  if (busy || !input.aim) return;
+  if (!m_holds[hand] || busy) return carried.reset();
+  if (!input.aim) return;
   if (!held) takeBoard(hand, *input.aim, view);
   if (!carried || !m_places[carried->panel]) return;
   const Vector3 at = input.aim->position + input.aim->orientation * Vector3(0, 0, -carried->along);
