@@ -188,6 +188,7 @@ void VrPanels::showPage(const QString& title) {
   QWidget* page = makePage(title);
   if (!page) return;
   const size_t board = boardOf(*page);
+  if (const QWidget* before = m_boards[board]->page(); before && before != page) letGoOf(*before);
   m_boards[board]->showPage(*page);
   if (m_shown[board]) note({}, {});
   if (!std::exchange(m_shown[board], true) || !m_ahead[board]) ++m_brought[board];
@@ -231,7 +232,7 @@ void VrPanels::setBeside() {
   ++m_brought[board];
 }
 
-/// What has a panel of its own is a page of the board again.
+/// What has a panel of its own is a page of the board again, which goes on with the page that it shows.
 void VrPanels::putBack(size_t board) {
   m_shown[board] = false;
   m_touched = true;
@@ -246,7 +247,7 @@ void VrPanels::move(QWidget& page, size_t board) {
     if (isOf(pointer.grabs) || isOf(pointer.under)) leave(pointer);
   }
   m_boards[board]->add(page, m_boards[boardOf(page)]->title());
-  m_boards[board]->showPage(page);
+  if (!m_shown[board]) m_boards[board]->showPage(page);
   m_touched = true;
 }
 
