@@ -74,6 +74,7 @@ class VrPanelsTest : public PanelsTest {
   void pagesAreTheWindowsOwn();
   void namesLeadToTheirPages();
   void menusComeAlong();
+  void menusGoWithTheirBoard();
   void aStickOpensMenus();
   void aLoneHandWithItsGripScrolls();
   void gravityIsTakenAndGivenBack();
@@ -837,6 +838,36 @@ void VrPanelsTest::menusComeAlong() {
   QTRY_VERIFY_WITH_TIMEOUT(!offered.isVisible(), 2 * kLong);
   QVERIFY(seen);
   QCOMPARE(chosen.count(), 1);
+}
+
+/// And the next press is none beside a menu that nobody sees.
+void VrPanelsTest::menusGoWithTheirBoard() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  QMenu offered;
+  offered.addAction(QStringLiteral("One"));
+  QToolButton opens(panels().widget(vr::kBoard));
+  opens.setPopupMode(QToolButton::InstantPopup);
+  opens.setMenu(&offered);
+  opens.setGeometry(150, 120, 80, 30);
+  opens.show();
+  opens.raise();
+  bool isSeen = false;
+  QTimer patience, watch;
+  patience.setSingleShot(true);
+  connect(&patience, &QTimer::timeout, &offered, &QMenu::close);
+  connect(&watch, &QTimer::timeout, this, [&] {
+    panels().paint();
+    if (isSeen || !panels().widget(vr::kPopup)) return;
+    isSeen = true;
+    panels().toggleBoard();
+    QVERIFY(!offered.isVisible());
+  });
+  patience.start(kLong);
+  watch.start(50);
+  for (const bool pressed : {false, true}) at(vr::kBoard, opens, QRectF(opens.rect()).center(), pressed);
+  QVERIFY(isSeen && !panels().widget(vr::kBoard) && !panels().widget(vr::kPopup));
 }
 
 /// Pressed over a row, as the mouse's right button would; what it offers lies over the board.

@@ -93,6 +93,7 @@ class VrPanels : public QObject {
   void makeBoards();
   size_t boardOf(const QWidget& page) const;
   void setBeside();
+  void putAway(size_t board);
   void putBack(size_t board);
   void move(QWidget& page, size_t board);
   size_t panelOf(const QWidget& widget) const;
