@@ -35,6 +35,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 using namespace ps;
 
@@ -321,6 +322,19 @@ void VrPanelsTest::aGripCarriesABoardByItsHeader() {
   QVERIFY(!panels.carries(vr::kRight));
   QCOMPARE(hold(away, 1).pose.position, put);
   QVERIFY(!panels.carries(vr::kRight));
+  // One that is put away and brought again stays where it was brought, and the grip takes nothing else.
+  hold(middle, 0);
+  ++view.brought[0];
+  for (const double held : {0.0, 1.0}) hold(header, held);
+  QVERIFY(panels.carries(vr::kRight));
+  const auto image = std::exchange(view.panels[vr::kBoard].image, nullptr);
+  vr::HeadsetFrame still = frameOf({}, header);
+  still.hands[vr::kRight].hold = 1;
+  panels.follow(still, view);
+  view.panels[vr::kBoard].image = image;
+  ++view.brought[0];
+  QCOMPARE(hold(away, 1).pose.position, board.pose.position);
+  QVERIFY(panels.carries(vr::kRight));
 }
 
 /// Where its tip is, which presses nothing on the way.
