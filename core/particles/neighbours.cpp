@@ -166,14 +166,13 @@ Neighbours::Room Neighbours::takeRoom(size_t entries) {
 void Neighbours::makeRoom(bool keepLists) {
   const size_t size = m_slots + kListPad;
   if (size <= m_index.size()) return;
-  RoomVector<uint32_t> before;
-  m_index.swap(before);
-  if (!keepLists) before = {};  // before there are the next ones
-  m_index.resize(size + size / kSpareShare);
-  forChunks(before.size(), kRoomChunk, [&](size_t first, size_t last) {
-    std::copy(before.data() + first, before.data() + last, m_index.data() + first);
+  if (!keepLists) RoomVector<uint32_t>().swap(m_index);  // before there are the next ones; {} would keep its memory
+  RoomVector<uint32_t> next(size + size / kSpareShare);
+  forChunks(m_index.size(), kRoomChunk, [&](size_t first, size_t last) {
+    std::copy(m_index.data() + first, m_index.data() + last, next.data() + first);
   });
-  zeroFrom(m_index, before.size());
+  zeroFrom(next, m_index.size());
+  m_index.swap(next);
 }
 
 /// What has found too little room gets as much as it has turned out to need. False where all have found enough.

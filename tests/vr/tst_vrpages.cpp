@@ -61,6 +61,7 @@ class VrPagesTest : public PanelsTest {
   void pagesAreSetBeside();
   void panelsAreWorkedOnAtOnce();
   void whatIsPressedOfAPageThatGoesBeside();
+  void whatIsPressedOfAPageThatGoes();
   void aPanelIsCarriedAndPutAway();
   void rowsReachTheWearer();
 
@@ -439,6 +440,7 @@ void VrPagesTest::pagesAreSetBeside() {
   QVERIFY(away);
   click(kOnRight, *away);
   QVERIFY(!panels().widget(kOnRight) && panels().widget(kOnLeft));
+  QVERIFY(panels().widget(vr::kBoard) && !graphs->isVisible());  // it goes on with what it shows
   panels().showPage(QStringLiteral("Graphs"));
   QVERIFY(graphs->isVisible() && graphs->window() == panels().widget(vr::kBoard));
 }
@@ -492,6 +494,33 @@ void VrPagesTest::whatIsPressedOfAPageThatGoesBeside() {
     if (pressed) QVERIFY(loop.isDown());
   }
   QVERIFY(panels().widget(kOnRight) && !loop.isDown() && !session().recorded().loops());
+}
+
+/// Likewise where another page comes in its place, of which the hand presses nothing; nor does its beam stick to what
+/// is not seen any more.
+void VrPagesTest::whatIsPressedOfAPageThatGoes() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Transport"));
+  painted();
+  QVERIFY(transport());
+  const QAbstractButton& loop = *transport()->loopButton();
+  const auto points = [&](bool pressed) { at(vr::kBoard, loop, QRectF(loop.rect()).center(), pressed); };
+  const int steps = document().undoStack().index();
+  for (const bool pressed : {false, true}) points(pressed);
+  QVERIFY(loop.isDown());
+  panels().showPage(QStringLiteral("Body"));
+  QVERIFY(!loop.isDown());
+  for (const bool pressed : {true, true, false}) points(pressed);
+  QVERIFY(!session().recorded().loops());
+  QCOMPARE(document().undoStack().index(), steps);
+  for (const char* page : {"Brush", "Body", "Material", "Scene", "Outliner", "Graphs", "Responses", "Curve"}) {
+    panels().showPage(QStringLiteral("Transport"));
+    points(false);
+    QVERIFY(loop.underMouse());
+    panels().showPage(QString::fromLatin1(page));
+    points(false);
+    QVERIFY2(!loop.underMouse(), page);
+  }
 }
 
 /// By the hand that the headset has: its grip takes a panel by the header, and it is pressed where that was put.

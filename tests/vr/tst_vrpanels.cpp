@@ -35,6 +35,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 using namespace ps;
 
@@ -74,6 +75,7 @@ class VrPanelsTest : public PanelsTest {
   void pagesAreTheWindowsOwn();
   void namesLeadToTheirPages();
   void menusComeAlong();
+  void menusGoWithTheirBoard();
   void aStickOpensMenus();
   void aLoneHandWithItsGripScrolls();
   void gravityIsTakenAndGivenBack();
@@ -312,6 +314,27 @@ void VrPanelsTest::aGripCarriesABoardByItsHeader() {
   QCOMPARE(hold(middle, 0).pose.position, carried.pose.position);
   ++view.brought[0];
   QCOMPARE(hold(middle, 0).pose.position, board.pose.position);
+  // What it carries when both grips begin to carry the scene is put down there, and not drawn after it later.
+  for (const double held : {0.0, 1.0}) hold(header, held);
+  QVERIFY(panels.carries(vr::kRight));
+  const Vector3 put = hold(header, 1).pose.position;
+  hold(header, 1, true);
+  QVERIFY(!panels.carries(vr::kRight));
+  QCOMPARE(hold(away, 1).pose.position, put);
+  QVERIFY(!panels.carries(vr::kRight));
+  // One that is put away and brought again stays where it was brought, and the grip takes nothing else.
+  hold(middle, 0);
+  ++view.brought[0];
+  for (const double held : {0.0, 1.0}) hold(header, held);
+  QVERIFY(panels.carries(vr::kRight));
+  const auto image = std::exchange(view.panels[vr::kBoard].image, nullptr);
+  vr::HeadsetFrame still = frameOf({}, header);
+  still.hands[vr::kRight].hold = 1;
+  panels.follow(still, view);
+  view.panels[vr::kBoard].image = image;
+  ++view.brought[0];
+  QCOMPARE(hold(away, 1).pose.position, board.pose.position);
+  QVERIFY(panels.carries(vr::kRight));
 }
 
 /// Where its tip is, which presses nothing on the way.
@@ -829,6 +852,36 @@ void VrPanelsTest::menusComeAlong() {
   QTRY_VERIFY_WITH_TIMEOUT(!offered.isVisible(), 2 * kLong);
   QVERIFY(seen);
   QCOMPARE(chosen.count(), 1);
+}
+
+/// And the next press is none beside a menu that nobody sees.
+void VrPanelsTest::menusGoWithTheirBoard() {
+  enterWithout();
+  panels().showPage(QStringLiteral("Brush"));
+  QTest::qWait(100);
+  QMenu offered;
+  offered.addAction(QStringLiteral("One"));
+  QToolButton opens(panels().widget(vr::kBoard));
+  opens.setPopupMode(QToolButton::InstantPopup);
+  opens.setMenu(&offered);
+  opens.setGeometry(150, 120, 80, 30);
+  opens.show();
+  opens.raise();
+  bool isSeen = false;
+  QTimer patience, watch;
+  patience.setSingleShot(true);
+  connect(&patience, &QTimer::timeout, &offered, &QMenu::close);
+  connect(&watch, &QTimer::timeout, this, [&] {
+    panels().paint();
+    if (isSeen || !panels().widget(vr::kPopup)) return;
+    isSeen = true;
+    panels().toggleBoard();
+    QVERIFY(!offered.isVisible());
+  });
+  patience.start(kLong);
+  watch.start(50);
+  for (const bool pressed : {false, true}) at(vr::kBoard, opens, QRectF(opens.rect()).center(), pressed);
+  QVERIFY(isSeen && !panels().widget(vr::kBoard) && !panels().widget(vr::kPopup));
 }
 
 /// Pressed over a row, as the mouse's right button would; what it offers lies over the board.

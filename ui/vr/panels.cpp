@@ -136,14 +136,16 @@ void Panels::placeBoard(size_t board, const HeadsetFrame& frame, const HeadsetVi
   m_places[kBoard + board] = Place{*stands, shown.width, shown.height};
 }
 
-/// Where a board that it carries is put away meanwhile, nothing else is taken before the grip is let go.
+/// Where a board that it carries is put away meanwhile, nothing is taken before the grip is let go, nor it again. Where
+/// both grips carry the scene, it stays where it is by then.
 void Panels::carry(size_t hand, const HandInput& input, const HeadsetView& view, bool busy) {
   const bool held = std::exchange(m_holds[hand], input.hold > kPull);
   std::optional<Carried>& carried = m_carried[hand];
-  if (!m_holds[hand]) return carried.reset();
-  if (busy || !input.aim) return;
+  if (!m_holds[hand] || busy) return carried.reset();
+  if (carried && !m_places[carried->panel]) carried->isGone = true;
+  if (!input.aim) return;
   if (!held) takeBoard(hand, *input.aim, view);
-  if (!carried || !m_places[carried->panel]) return;
+  if (!carried || carried->isGone) return;
   const Vector3 at = input.aim->position + input.aim->orientation * Vector3(0, 0, -carried->along);
   HandPose& pose = *m_boards[carried->panel - kBoard];
   pose.orientation = turnedTo(at, m_head);
@@ -158,7 +160,7 @@ void Panels::takeBoard(size_t hand, const HandPose& aim, const HeadsetView& view
   const double header = view.panels[point->panel].header;
   if (header <= 0 || point->y > header) return;
   const std::optional<Carried>& other = m_carried[1 - hand];
-  if (other && other->panel == point->panel) return;
+  if (other && !other->isGone && other->panel == point->panel) return;
   const double along = point->tip ? kTip : point->depth;
   const Vector3 at = aim.position + aim.orientation * Vector3(0, 0, -along);
   m_carried[hand] = Carried{point->panel, m_places[point->panel]->own(at), along};

@@ -73,8 +73,9 @@ class Panels {
   std::array<std::optional<HandPose>, kBoards> m_boards;  ///< since they were brought
   struct Carried {
     size_t panel;
-    Vector3 own;   ///< m, of the panel: where it was taken
-    double along;  ///< m, from where the hand aims from to there
+    Vector3 own;          ///< m, of the panel: where it was taken
+    double along;         ///< m, from where the hand aims from to there
+    bool isGone = false;  ///< it was put away since
   };
   std::array<std::optional<Carried>, 2> m_carried;
   std::array<bool, 2> m_holds{};  ///< its grip is pressed

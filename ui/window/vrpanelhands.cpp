@@ -84,12 +84,25 @@ void VrPanels::leave(Pointer& pointer) {
   pointer.on = nullptr;
 }
 
-/// What is there, or what the hand has just left, at its edge.
+/// Of a page that goes. What another hand presses there is let go, and it presses nothing else before it lets go; whose
+/// event it is that leads to another page does so itself.
+void VrPanels::letGoOf(const QWidget& page) {
+  for (Pointer& pointer : m_pointers) {
+    const bool isOf = pointer.grabs && (pointer.grabs == &page || page.isAncestorOf(pointer.grabs));
+    if (!isOf || &pointer == m_sends) continue;
+    const QPointer<QWidget> on = pointer.on;
+    leave(pointer);
+    pointer.on = on;
+    pointer.pressed = true;
+  }
+}
+
+/// What is there, or what the hand has just left, at its edge, where that has not gone with its page.
 QWidget* VrPanels::aimedAt(Pointer& pointer) {
   QWidget* child = pointer.on->childAt(pointer.at.toPoint());
   if (!child) child = pointer.on;
   QWidget* last = pointer.grabs ? pointer.grabs.data() : pointer.under.data();
-  const double sticks = last ? sticksBeside(*last, *child, pointer.grabs) : 0;
+  const double sticks = last && last->isVisible() ? sticksBeside(*last, *child, pointer.grabs) : 0;
   if (sticks > 0 && last != child && pointer.on->isAncestorOf(last)) {
     const QRectF own(last->mapTo(pointer.on, QPoint(0, 0)), last->size());
     if (own.adjusted(-sticks, -sticks, sticks, sticks).contains(pointer.at)) {
@@ -187,10 +200,12 @@ void VrPanels::scroll(Pointer& pointer, double way, double seconds) {
 void VrPanels::send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button) {
   if (!pointer.on || (&target != pointer.on && !pointer.on->isAncestorOf(&target))) return;
   const QPointF origin = target.mapTo(pointer.on, QPoint(0, 0));
-  const Qt::MouseButtons held = pointer.pressed ? Qt::LeftButton : Qt::NoButton;
+  const Qt::MouseButtons held = pointer.grabs ? Qt::LeftButton : Qt::NoButton;
   QMouseEvent event(static_cast<QEvent::Type>(type), pointer.at - origin, pointer.at,
                     pointer.on->mapToGlobal(pointer.at), button, held, Qt::NoModifier, &handDevice());
+  const Pointer* before = std::exchange(m_sends, &pointer);
   deliver(target, event);
+  m_sends = before;
 }
 
 void VrPanels::deliver(QWidget& target, QEvent& event) {

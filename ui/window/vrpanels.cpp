@@ -188,6 +188,7 @@ void VrPanels::showPage(const QString& title) {
   QWidget* page = makePage(title);
   if (!page) return;
   const size_t board = boardOf(*page);
+  if (const QWidget* before = m_boards[board]->page(); before && before != page) letGoOf(*before);
   m_boards[board]->showPage(*page);
   if (m_shown[board]) note({}, {});
   if (!std::exchange(m_shown[board], true) || !m_ahead[board]) ++m_brought[board];
@@ -202,10 +203,7 @@ size_t VrPanels::boardOf(const QWidget& page) const {
 /// The first page of all where the board has none.
 void VrPanels::toggleBoard() {
   m_touched = true;
-  if (m_shown[0] && m_ahead[0]) {
-    m_shown[0] = false;
-    return;
-  }
+  if (m_shown[0] && m_ahead[0]) return putAway(0);
   const auto isBeside = [&](const QString& title) {
     const auto made = m_made.find(title);
     return made != m_made.end() && made->second && boardOf(*made->second) > 0;
@@ -213,6 +211,13 @@ void VrPanels::toggleBoard() {
   QString title = m_boards[0]->title();
   for (size_t page = 0; title.isEmpty() || isBeside(title); ++page) title = QString::fromLatin1(kPages[page]);
   showPage(title);
+}
+
+/// A menu that opened there goes along: nobody would see it, and it would wait for a press.
+void VrPanels::putAway(size_t board) {
+  m_shown[board] = false;
+  m_touched = true;
+  if (m_popup && m_popup->isVisible() && m_popupOn == vr::kBoard + board) m_popup->close();
 }
 
 /// The page of the board gets a panel of its own, and the board goes until another page is asked for.
@@ -226,15 +231,14 @@ void VrPanels::setBeside() {
   const auto board = static_cast<size_t>(free - m_shown.begin());
   note({}, {});
   move(*page, board);
-  m_shown[0] = false;
+  putAway(0);
   m_shown[board] = true;
   ++m_brought[board];
 }
 
-/// What has a panel of its own is a page of the board again.
+/// What has a panel of its own is a page of the board again, which goes on with the page that it shows.
 void VrPanels::putBack(size_t board) {
-  m_shown[board] = false;
-  m_touched = true;
+  putAway(board);
   QWidget* page = m_boards[board]->page();
   if (board > 0 && page) move(*page, 0);
 }
@@ -246,7 +250,7 @@ void VrPanels::move(QWidget& page, size_t board) {
     if (isOf(pointer.grabs) || isOf(pointer.under)) leave(pointer);
   }
   m_boards[board]->add(page, m_boards[boardOf(page)]->title());
-  m_boards[board]->showPage(page);
+  if (!m_shown[board]) m_boards[board]->showPage(page);
   m_touched = true;
 }
 

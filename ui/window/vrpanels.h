@@ -83,6 +83,7 @@ class VrPanels : public QObject {
   void openMenu(Pointer& pointer);
   void scroll(Pointer& pointer, double way, double seconds);
   void leave(Pointer& pointer);
+  void letGoOf(const QWidget& page);
   void send(const Pointer& pointer, QWidget& target, int type, Qt::MouseButton button);
   void deliver(QWidget& target, QEvent& event);
   // vrpanels.cpp
@@ -92,6 +93,7 @@ class VrPanels : public QObject {
   void makeBoards();
   size_t boardOf(const QWidget& page) const;
   void setBeside();
+  void putAway(size_t board);
   void putBack(size_t board);
   void move(QWidget& page, size_t board);
   size_t panelOf(const QWidget& widget) const;
@@ -123,7 +125,8 @@ class VrPanels : public QObject {
   bool m_ticked = false;                    ///< something is to be felt
   QPointer<QWidget> m_popup;                ///< that came of what hands do here
   size_t m_popupOn = vr::kBoard;
-  int m_delivering = 0;  ///< events: a menu may wait in one until it closes
+  int m_delivering = 0;              ///< events: a menu may wait in one until it closes
+  const Pointer* m_sends = nullptr;  ///< whose press, move or release that is; nullptr: of none
   uint64_t m_acts = 0;
 };
 
