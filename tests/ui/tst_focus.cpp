@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where keys go when what had them is gone, and the way through the window without a mouse.
+#include "tests/ui/paintedtexts.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/panels/inspector.h"
 #include "ui/panels/outliner.h"
@@ -82,6 +83,25 @@ class TestFocus : public SampleWindowTest {
     QTest::qWait(50);
     QVERIFY2(tree->hasFocus(),
              QApplication::focusWidget() ? QApplication::focusWidget()->metaObject()->className() : "none");
+  }
+
+  /// The box in which a name is typed ends before what stands beside the name, or covers all of that.
+  void aRenamedRowKeepsItsCountInSight() {
+    m_window->layoutOfDocks().showPage(QStringLiteral("Outliner"));
+    m_window->selection().select(OutlineKind::Body, document().project().bodies.front().id);
+    auto* tree = m_window->outliner()->findChild<QTreeView*>();
+    const QRect row = tree->visualRect(tree->currentIndex());
+    m_window->action(QStringLiteral("edit.rename"))->trigger();
+    const auto* name = tree->viewport()->findChild<QLineEdit*>();
+    QVERIFY(name && row.contains(name->geometry()));
+    QVERIFY2(name->width() >= 50, qPrintable(QString::number(name->width())));
+    for (const PaintedText& text : paintedBy(*tree->viewport())) {
+      const QRect place = text.place.adjusted(2, 2, -2, -2).toRect(), box = name->geometry();
+      if (!row.contains(place.center()) || text.at.x() < box.left() + 12) continue;  // of another row, or the name
+      QVERIFY2(!box.intersects(place) || box.contains(place), qPrintable(text.text));
+    }
+    QTest::keyClick(const_cast<QLineEdit*>(name), Qt::Key_Escape);
+    QTRY_VERIFY(!tree->viewport()->findChild<QLineEdit*>());
   }
 
   /// What is typed into a row is given up by one Esc, and the next one is the view's: it selects nothing.

@@ -4,6 +4,7 @@
 #include "core/io/projectio.h"
 #include "samplewindow.h"
 #include "tests/shared/scenes.h"
+#include "tests/ui/paintedtexts.h"
 #include "ui/panels/materialspanel.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
@@ -423,6 +424,32 @@ class TestLayout : public QObject {
     messages->trigger();
     QVERIFY(shown());
     QCOMPARE(m_window->workspaceTab(), MainWindow::kSceneTab);
+  }
+
+  /// Long ones in as many lines as they need, at any width.
+  void messagesAreReadWhole() {
+    open({1280, 800});
+    const QString last = QStringLiteral("meanwhile.");
+    MessageLog& log = m_window->session().log();
+    log.add(MessageLevel::Info, QStringLiteral("Short"), QStringLiteral("All is well."));
+    log.add(MessageLevel::Info, QStringLiteral("Long"),
+            QStringLiteral("Bodies of a plugin that is not installed keep what they were and ").repeated(4) +
+                QStringLiteral("stand still ") + last);
+    m_window->action(QStringLiteral("help.messages"))->trigger();
+    QTreeView* view = nullptr;
+    for (QTreeView* each : m_window->findChildren<QTreeView*>()) {
+      if (each->accessibleName() == QStringLiteral("Messages")) view = each;
+    }
+    QVERIFY(view);
+    QTRY_VERIFY(view->isVisible() && view->model()->rowCount() >= 2);
+    for (const int width : {1280, 1100}) {
+      m_window->resize(width, 800);
+      const auto height = [&](int row) { return view->visualRect(view->model()->index(row, 2)).height(); };
+      QTRY_VERIFY2(height(0) > 1.7 * height(1), qPrintable(QString::number(height(0))));
+      QString painted;
+      for (const PaintedText& text : paintedBy(*view->viewport())) painted += text.text + QLatin1Char(' ');
+      QVERIFY2(painted.contains(last), qPrintable(painted));
+    }
   }
 
   /// They kept neither workspace nor pages.

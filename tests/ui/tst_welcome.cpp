@@ -431,6 +431,8 @@ class TestWelcome : public QObject {
     QTRY_VERIFY(restore->isVisible());
     for (const QLabel* label : restore->parentWidget()->findChildren<QLabel*>())
       QVERIFY2(label->height() >= label->heightForWidth(label->width()), qPrintable(label->text()));  // nothing is cut
+    for (const QPushButton* each : restore->parentWidget()->findChildren<QPushButton*>())
+      QTRY_VERIFY2(each->width() >= each->sizeHint().width(), qPrintable(each->text()));
     picture("welcome_restore");
     opens([restore] { QTest::mouseClick(restore, Qt::LeftButton); });
     QCOMPARE(std::get<double>(document().value(kFloor)), 351.0);

@@ -10,12 +10,15 @@
 
 #include <QtCore/QEvent>
 #include <QtGui/QClipboard>
+#include <QtGui/QFontMetrics>
 #include <QtGui/QGuiApplication>
 #include <QtGui/QShowEvent>
 #include <QtGui/QStandardItemModel>
 #include <QtWidgets/QHeaderView>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollBar>
+#include <QtWidgets/QStyledItemDelegate>
 #include <QtWidgets/QTreeView>
 #include <QtWidgets/QVBoxLayout>
 
@@ -25,7 +28,7 @@
 namespace ps {
 namespace {
 
-constexpr int kTimeWidth = 96, kWhereWidth = 170, kLeastText = 160, kLinksEdge = 24;
+constexpr int kTimeWidth = 96, kWhereWidth = 170, kLeastText = 160, kLinksEdge = 24, kWordsEdge = 20;
 constexpr qint64 kOpening = 1000;  ///< ms
 
 Token tokenOf(MessageLevel level) {
@@ -41,6 +44,24 @@ Token tokenOf(MessageLevel level) {
   }
   return Token::Text2;
 }
+
+/// As high as all words of a message, in the width of its column.
+class WrappedText : public QStyledItemDelegate {
+ public:
+  explicit WrappedText(QTreeView& view) : QStyledItemDelegate(&view), m_view(view) {}
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    QSize size = QStyledItemDelegate::sizeHint(option, index);
+    const int width = m_view.columnWidth(index.column()) - kWordsEdge;
+    const QFontMetrics metrics(option.font);
+    const QRect words =
+        metrics.boundingRect(0, 0, std::max(width, 1), 10000, Qt::TextWordWrap, index.data().toString());
+    size.setHeight(size.height() + std::max(0, words.height() - metrics.height()));
+    return size;
+  }
+
+ private:
+  QTreeView& m_view;
+};
 
 }  // namespace
 
@@ -61,7 +82,8 @@ MessagesPage::MessagesPage(Session& session, QWidget* parent)
   m_view->setModel(m_model);
   m_view->setHeaderHidden(true);
   m_view->setRootIsDecorated(false);
-  m_view->setUniformRowHeights(true);
+  m_view->setWordWrap(true);
+  m_view->setItemDelegateForColumn(2, new WrappedText(*m_view));
   m_view->setAllColumnsShowFocus(true);
   m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
   m_view->setAccessibleName(QStringLiteral("Messages"));
@@ -109,11 +131,15 @@ void MessagesPage::addLinks(int row, const Message& message) {
 
 /// Links stand at the right edge, whatever there is to read.
 void MessagesPage::setWidths() {
-  const int rest = m_view->viewport()->width() - kTimeWidth - kWhereWidth - m_linksWidth;
+  // Rows that get higher may need the scroll bar, which must not push the links away.
+  const int bar = m_view->verticalScrollBar()->sizeHint().width();
+  const int width = std::min(m_view->viewport()->width(), m_view->width() - bar);
+  const int rest = width - kTimeWidth - kWhereWidth - m_linksWidth;
   m_view->setColumnWidth(0, kTimeWidth);
   m_view->setColumnWidth(1, kWhereWidth);
   m_view->setColumnWidth(2, std::max(kLeastText, rest));
   m_view->setColumnHidden(3, m_linksWidth == 0);
+  m_view->doItemsLayout();  // rows are as high as their words need in this width
 }
 
 void MessagesPage::refresh() {

@@ -17,6 +17,7 @@ namespace ps {
 namespace {
 
 constexpr int kRow = 24, kIcon = 16;
+constexpr int kLeastEditor = 60;  // px, of the box in which a name is typed
 
 std::string idOf(const QModelIndex& index) { return index.data(outline::kId).toString().toStdString(); }
 /// Whether it can be hidden and locked.
@@ -26,6 +27,12 @@ int kindOf(const QModelIndex& index) { return index.data(outline::kKind).toInt()
 QRect around(const QRect& mark, const QRect& row) {
   const int beside = (row.height() - mark.width()) / 2;
   return {mark.left() - beside, row.top(), mark.width() + 2 * beside, row.height()};
+}
+/// px, where what is said of a row ends: before its swatch and its eye.
+double detailEnd(const QRect& row, const QModelIndex& index) {
+  if (!hasMarks(index)) return row.right() - 6;
+  const int eye = OutlinerDelegate::eyeRect(row).left();
+  return index.data(outline::kSwatch).isValid() ? eye - 21 : eye - 4;
 }
 
 }  // namespace
@@ -50,7 +57,7 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
   const QRectF text = row.adjusted(kIcon + 10, 0, 0, 0);
   const QColor ink = theme[!visible ? Token::Disabled : selected ? Token::Text : Token::Text2];
   paintIcon(*painter, QRectF(row.left() + 4, row.top() + 4, kIcon, kIcon), index.data(outline::kIcon).toString(), ink);
-  double right = row.right() - 6;
+  double right = detailEnd(row, index);
   if (marks) {
     const bool locked = index.data(outline::kLocked).toBool();
     if (!visible || selected || hover) {
@@ -69,9 +76,7 @@ void OutlinerDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opti
     painter->setBrush(index.data(outline::kPlaceholder).toBool()
                           ? QBrush(theme[Token::Muted], Qt::BDiagPattern)
                           : QBrush(index.data(outline::kSwatch).value<QColor>()));
-    const bool hasSwatch = index.data(outline::kSwatch).isValid();
-    if (hasSwatch) painter->drawEllipse(swatch);
-    right = hasSwatch ? swatch.left() - 6 : eyeRect(row).left() - 4;
+    if (index.data(outline::kSwatch).isValid()) painter->drawEllipse(swatch);
   }
   const QString detail = index.data(outline::kDetail).toString();
   const bool lockInstead = marks && (index.data(outline::kLocked).toBool() || hover);
@@ -127,8 +132,18 @@ void OutlinerDelegate::setModelData(QWidget* editor, QAbstractItemModel*, const 
 }
 
 void OutlinerDelegate::updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
-                                            const QModelIndex&) const {
-  editor->setGeometry(option.rect.adjusted(kIcon + 6, 1, -60, -1));
+                                            const QModelIndex& index) const {
+  const QRect& row = option.rect;
+  const int left = row.left() + kIcon + 6;
+  int right = lockRect(row).left() - 2;
+  // Beside the count, or, where that leaves no room to write in, over all of it.
+  const QString detail = index.data(outline::kDetail).toString();
+  if (!detail.isEmpty()) {
+    const double end = detailEnd(row, index), begin = end - textWidth(detail, Theme::font(TextRole::Small)) - 2;
+    right = static_cast<int>(begin - left < kLeastEditor ? std::max<double>(right, end + 2)
+                                                         : std::min<double>(right, begin - 4));
+  }
+  editor->setGeometry(left, row.top() + 1, right - left, row.height() - 2);
 }
 
 }  // namespace ps

@@ -248,6 +248,15 @@ void WelcomePage::fitOffer() {
     label->ensurePolished();
     label->setMinimumHeight(std::max(0, label->heightForWidth(width)));  // -1 without words
   }
+  // Side by side where they have room, else one below the other: none is cut.
+  int wide = -m_offerButtons->spacing();
+  for (int i = 0; i < m_offerButtons->count(); ++i) {
+    QWidget* button = m_offerButtons->itemAt(i)->widget();
+    if (!button) continue;
+    button->ensurePolished();
+    wide += button->sizeHint().width() + m_offerButtons->spacing();
+  }
+  m_offerButtons->setDirection(wide > width ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
 }
 
 void WelcomePage::setAtStart(bool on) { static_cast<QAbstractButton*>(m_atStart)->setChecked(on); }
