@@ -396,6 +396,44 @@ class TestGoingOn : public ToolTest {
     QCOMPARE(count(), whole);
   }
 
+  /// And with it goes what is being erased of it: a stroke that is given up brings back nothing of a body that has
+  /// gone, which comes back whole, with all that ties it. One that goes on has erased what it had.
+  void aBodyThatGoesTakesWhatIsErasedOfIt() {
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() && m_engine->snapshot()->bodyIds; }, 20000));
+    const size_t without = count();
+    const std::string bar = drawBar();
+    const size_t whole = count(), tied = ties();
+    const std::string before = writeProject(m_document->project());
+    take("cube", 0.05);
+    const auto erase = [&](LiveStroke& stroke) {
+      QCOMPARE(stroke.begin(true, *now(), {0.04, 0.4, 0}, {0, 1, 0}, 1.0), QString());
+      stroke.move({0.07, 0.4, 0}, 0.1, 1.0);
+      QTRY_VERIFY(count() < whole);
+    };
+    LiveStroke givenUp(*m_tools), kept(*m_tools);
+    erase(givenUp);
+    QCOMPARE(m_document->removeBody(bar), QString());
+    QCOMPARE(count(), without);
+    givenUp.cancel();
+    QCOMPARE(count(), without);
+    m_document->undoStack().undo();
+    QCOMPARE(writeProject(m_document->project()), before);
+    QCOMPARE(count(), whole);
+    QCOMPARE(ties(), tied);
+
+    erase(kept);
+    QCOMPARE(m_document->removeBody(bar), QString());
+    QCOMPARE(count(), without);
+    m_document->undoStack().undo();
+    QVERIFY(count() < whole);
+    QCOMPARE(kept.finish(), QString());
+    QVERIFY(cellCount(bar) < static_cast<int>(whole - without));
+    QTRY_COMPARE(count(), without + static_cast<size_t>(cellCount(bar)));
+    m_document->undoStack().undo();
+    QCOMPARE(writeProject(m_document->project()), before);
+    QTRY_COMPARE(count(), whole);
+  }
+
  private:
   static Project empty() {
     Project project = scenes::iceOnPlate(5, 420, 2500);
@@ -415,6 +453,9 @@ class TestGoingOn : public ToolTest {
     return tests::onEngine<SnapshotPtr>(*m_engine, [](Engine& engine) { return engine.snapshot(); });
   }
   size_t count() { return now()->id.size(); }
+  size_t ties() {
+    return tests::onEngine<size_t>(*m_engine, [](Engine& engine) { return engine.solver().constraintCount(); });
+  }
   size_t ofBody(const std::string& id) {
     const SnapshotPtr scene = now();
     size_t own = 0;

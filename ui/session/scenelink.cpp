@@ -208,6 +208,12 @@ void SceneLink::onBody(const BodyChanged& event) {
     rebuild(m_play);
     return;
   }
+  const auto eraseAgain = [this] {
+    for (const Drawn& drawn : m_drawn) {
+      const MatterRef matter = drawn.on.empty() ? drawn.matter.lock() : nullptr;
+      if (matter && isOfThisRun(matter)) m_engine.apply(TakeMatter{*matter});
+    }
+  };
   const Body* body = m_document.body(event.id);
   if (event.move && body) {
     // While no time passes nothing is led anywhere, and one wants to see it where it goes.
@@ -217,12 +223,14 @@ void SceneLink::onBody(const BodyChanged& event) {
   if (event.matter && !body) {
     takeDrawn(event.id);
     m_engine.apply(TakeBody{event.id, keyOf(event.matter)});
+    eraseAgain();
   }
   pushProject();
   if (!event.matter || !body) return;
   std::vector<NameMatter> named = namedMatter();
   std::erase_if(named, [&](const NameMatter& matter) { return matter.body != body->id; });
   m_engine.apply(ReturnBody{std::make_shared<const Body>(*body), keyOf(event.matter), std::move(named)});
+  eraseAgain();
 }
 
 /// At the start the scene is made anew as well, by resetSoon() of the body that has other cells.
@@ -437,13 +445,19 @@ MatterKey SceneLink::draws(const StrokeRecord& stroke) {
 }
 
 /// What hands have drawn on a body that goes is none of what comes back with it: the document knows nothing of it.
-/// Where that is undone in the middle of a stroke, which goes on then, the start is made anew with all of it.
+/// What they have erased of it is there again, so that it goes as a whole, and a stroke that is given up brings back
+/// nothing of it: but not while the scene runs, where a frame of that would be felt. Where its deletion is undone in
+/// the middle of a stroke, which goes on then, the start is made anew with all of it.
 void SceneLink::takeDrawn(const std::string& body) {
+  const bool paused = !runs();
   for (const Drawn& drawn : m_drawn) {
     const MatterRef matter = drawn.matter.lock();
-    if (!matter || drawn.on != body) continue;
-    m_engine.apply(TakeMatter{keyOf(matter)});
+    if (!matter || (!drawn.on.empty() && drawn.on != body)) continue;
     m_cutOff.push_back(drawn);
+    if (!drawn.on.empty())
+      m_engine.apply(TakeMatter{keyOf(matter)});
+    else if (paused && isOfThisRun(matter))
+      m_engine.apply(PutBack{*matter});
   }
 }
 
