@@ -490,6 +490,20 @@ class TestContentWindow : public SampleWindowTest {
   }
 
   /// A digit less moves nothing that stands beside it.
+  /// Each number of it says what it is.
+  void theStatusLineExplainsItself() {
+    auto* line = m_window->findChild<StatusLine*>();
+    QTRY_VERIFY(line->parts().size() > 4);
+    QSet<QString> tips;
+    for (const PaintedText& text : paintedBy(*line)) {
+      const QString tip = line->tipAt(text.place.center());
+      QVERIFY2(tip.endsWith(QLatin1Char('.')) || line->noteRect().contains(text.place.center()), qPrintable(text.text));
+      tips << tip;
+    }
+    QVERIFY(tips.size() > 4);
+    QVERIFY(line->tipAt({1, 1}).isEmpty());
+  }
+
   void theStatusLineStandsStill() {
     auto* line = m_window->findChild<StatusLine*>();
     StatusLine::State state = line->state();

@@ -46,8 +46,9 @@ bool isOwnText(const QWidget& widget, const QString& text) {
   if (button && fromButtonText(button->text()) == text) return true;
   const QList<QAction*> actions =
       widget.window()->parentWidget() ? widget.window()->parentWidget()->actions() : widget.window()->actions();
-  return std::any_of(actions.begin(), actions.end(),
-                     [&](const QAction* action) { return fromButtonText(action->text()) == text; });
+  return std::any_of(actions.begin(), actions.end(), [&](const QAction* action) {
+    return fromButtonText(action->text()) == text || cleanText(*action) == text;
+  });
 }
 
 /// What stands in the tooltip after the pointer has rested there.

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kGrams = 1e3;
 constexpr double kVisible = 1e-4;  ///< share of the whole below which a part has no label
+constexpr double kLow = 44;        ///< px of a plot, below which a label may reach as high as the title
 
 std::vector<StackView::Layer> phaseLayers() {
   std::vector<StackView::Layer> layers;
@@ -151,14 +152,26 @@ void StackView::paintData(QPainter& painter) {
   painter.drawPolyline(line);
 }
 
+/// At the right, where least is drawn; in a plot so low that labels stand as high as it, on the side that they leave.
+QRectF StackView::paintTitle(QPainter& painter, double present) const {
+  const QRectF plot = plotRect();
+  if (plot.height() < kLow && present > plot.center().x()) {
+    paintHeading(painter);
+    return headingRect();
+  }
+  const QFont font = Theme::font(TextRole::Small);
+  const double wide = std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14);
+  const QRectF place(plot.right() - 7 - wide, plot.top() + 3, wide, 16);
+  paintText(painter, place, Qt::AlignRight | Qt::AlignVCenter, axisTitle(), font, Theme::current()[Token::Muted]);
+  return place;
+}
+
 void StackView::paintLabels(QPainter& painter) {
   const Theme& theme = Theme::current();
   const QRectF plot = plotRect();
   const QFont font = Theme::font(TextRole::Small);
   const double end = std::min(labelTime(lastTime()), range().second);
-  const double wide = std::min(textWidth(axisTitle(), font) + 1, plot.width() - 14);
-  std::vector<QRectF> taken{{plot.right() - 7 - wide, plot.top() + 3, wide, 16}};
-  paintText(painter, taken.front(), Qt::AlignRight | Qt::AlignVCenter, axisTitle(), font, theme[Token::Muted]);
+  std::vector<QRectF> taken{paintTitle(painter, x(end))};
   struct Label {
     double top;
     size_t layer;

@@ -41,6 +41,7 @@ class StackView : public TimePlot {
 
  private:
   struct Private;
+  QRectF paintTitle(QPainter& painter, double present) const;  ///< px, the line of the present; returns where it stands
   void paintLayers(QPainter& painter, const std::vector<size_t>& columns, bool above) const;
   std::unique_ptr<Private> d;
 };

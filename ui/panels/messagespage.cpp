@@ -50,7 +50,9 @@ class WrappedText : public QStyledItemDelegate {
  public:
   explicit WrappedText(QTreeView& view) : QStyledItemDelegate(&view), m_view(view) {}
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    QSize size = QStyledItemDelegate::sizeHint(option, index);
+    QStyleOptionViewItem oneLine(option);
+    oneLine.rect = {};
+    QSize size = QStyledItemDelegate::sizeHint(oneLine, index);
     const int width = m_view.columnWidth(index.column()) - kWordsEdge;
     const QFontMetrics metrics(option.font);
     const QRect words =

@@ -93,6 +93,7 @@ size_t exposedFirst(const Extent& extent, float radius, float cell, int full, st
 }
 
 size_t piecesFirst(const Extent& extent, float cell, size_t least, std::vector<Instance>& list) {
+  if (list.size() < least) return list.size();
   const std::optional<Cells> cells = Cells::of(extent, cell);
   if (!cells) return list.size();
   std::vector<uint32_t> held(cells->count());

@@ -14,10 +14,12 @@
 #include "ui/theme/icon.h"
 #include "ui/theme/numbers.h"
 #include "ui/theme/paint.h"
+#include "ui/theme/plaintext.h"
 #include "ui/theme/theme.h"
 #include "ui/viewport/viewport.h"
 
 #include <QtCore/QDateTime>
+#include <QtGui/QHelpEvent>
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
 
@@ -28,6 +30,7 @@
 namespace ps {
 namespace {
 constexpr int kHeight = 24;
+constexpr const char* kFileTip = "When the project was saved last, or a copy of it was kept for recovery.";
 constexpr int kSaying = 30'000;       // ms
 constexpr double kSilent = 5;         // s without a frame while playing, after which that is said
 constexpr double kClearly = 1.2;      // times as slow as the stage that is named, to be named instead
@@ -307,26 +310,35 @@ std::vector<StatusLine::Part> StatusLine::leftParts() const {
                             ? QStringLiteral("No answer from the simulation for %1 s").arg(formatFixed(m_state.silent))
                         : m_state.playing ? QStringLiteral("Running")
                                           : QStringLiteral("Paused");
-  parts.push_back({state, {}, QStringLiteral("Running")});
-  if (!m_state.headset.isEmpty()) parts.push_back({m_state.headset, {}, QStringLiteral("Entering VR")});
+  const auto add = [&parts](Part part, const char* tip) {
+    part.tip = QString::fromUtf8(tip);
+    parts.push_back(std::move(part));
+  };
+  add({state, {}, QStringLiteral("Running")}, "What the run does. Space plays and pauses it.");
+  if (!m_state.headset.isEmpty()) add({m_state.headset, {}, QStringLiteral("Entering VR")}, "What the headset does.");
   if (m_state.working >= 0) {
     const bool tells = m_state.making < 0 && m_state.left >= 0;
     const QString left = tells ? QStringLiteral(" · %1 left").arg(spanText(m_state.left)) : QString();
-    parts.push_back({QStringLiteral("%1 %").arg(m_state.working), m_state.work + left, QStringLiteral("100 %")});
+    add({QStringLiteral("%1 %").arg(m_state.working), m_state.work + left, QStringLiteral("100 %")},
+        "How far long work is. Esc gives it up.");
   }
   if (!m_state.snapshot) return parts;
   const FrameStats& stats = m_state.snapshot->stats;
-  parts.push_back({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
-                   m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")});
-  if (!m_tool.body.empty()) parts.push_back(toolPart());
-  parts.push_back({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail(m_slowest),
-                   QStringLiteral("000.0 ms"), detail(widestStage())});
-  parts.push_back(
-      {formatFixed(m_state.realTime, 2) + QStringLiteral("×"), QStringLiteral("real time"), QStringLiteral("00.00×")});
-  if (!m_state.graphics.isEmpty()) parts.push_back({{}, m_state.graphics});
-  parts.push_back({formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error"),
-                   QStringLiteral("00.0 %")});
-  parts.push_back({formatError(drift()), QStringLiteral("energy drift"), formatError(-1.5e-8)});
+  add({formatFixed(static_cast<double>(m_state.snapshot->id.size())),
+       m_state.snapshot->id.size() == 1 ? QStringLiteral("particle") : QStringLiteral("particles")},
+      "Particles in the scene at this moment, of all bodies and taps.");
+  if (!m_tool.body.empty()) add(toolPart(), "What the tool feels that a hand leads.");
+  add({formatFixed(m_milliseconds, 1) + QStringLiteral(" ms"), detail(m_slowest), QStringLiteral("000.0 ms"),
+       detail(widestStage())},
+      "Time that a frame of the simulation takes, the stage of it that is slowest, and what drawing the view takes.");
+  add({formatFixed(m_state.realTime, 2) + QStringLiteral("×"), QStringLiteral("real time"), QStringLiteral("00.00×")},
+      "How fast the scene runs: at 1× a second of the scene takes a second.");
+  if (!m_state.graphics.isEmpty()) add({{}, m_state.graphics}, "What draws the view.");
+  add({formatFixed(stats.densityErrorMean * 100, 1) + QStringLiteral(" %"), QStringLiteral("density error"),
+       QStringLiteral("00.0 %")},
+      "How far liquid is from its density, in the mean. More substeps and iterations make it less.");
+  add({formatError(drift()), QStringLiteral("energy drift"), formatError(-1.5e-8)},
+      "Heat that matter has gained though none came, as a share of all that was exchanged since the start.");
   return parts;
 }
 
@@ -361,8 +373,11 @@ void StatusLine::paintEvent(QPaintEvent*) {
     right -= w;
     paintText(painter, QRectF(right, 0, w + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, text, font, theme[token]);
   };
+  m_places.clear();
   if (!m_state.file.isEmpty()) {
+    const double edge = right;
     fromRight(m_state.file, Token::Text2);
+    m_places.push_back({QRectF(right, 0, edge - right, height()), QString::fromUtf8(kFileTip)});
     right -= 12;
   }
   m_noteRect = {};
@@ -375,6 +390,7 @@ void StatusLine::paintEvent(QPaintEvent*) {
     paintIcon(painter, QRectF(right, 5, 14, 14), m_state.mild ? QStringLiteral("info") : QStringLiteral("warning"),
               theme[token]);
     m_noteRect = QRectF(right, 0, edge - right, height());
+    m_places.push_back({m_noteRect, m_state.note});
     right -= 12;
   }
   const Token dot = m_state.failed || !m_state.late.isEmpty() || m_state.silent > kSilent ? Token::Error
@@ -383,6 +399,13 @@ void StatusLine::paintEvent(QPaintEvent*) {
   painter.setPen(Qt::NoPen);
   painter.setBrush(theme[m_state.ready ? dot : Token::Muted]);
   painter.drawEllipse(QPointF(16, height() / 2.0), 4, 4);
+  paintParts(painter, right);
+}
+
+/// From the left, as many as end before `right`.
+void StatusLine::paintParts(QPainter& painter, double right) {
+  const Theme& theme = Theme::current();
+  const QFont font = Theme::font(TextRole::Small);
   double x = 26;
   bool first = true;
   const std::vector<Part> parts = leftParts();
@@ -400,12 +423,26 @@ void StatusLine::paintEvent(QPaintEvent*) {
     if (x + w + 12 > right) break;  // no half words: what does not fit is left out
     if (!first) paintVerticalLine(painter, x - 8, 6, height() - 6, theme[Token::Line2]);
     first = false;
+    m_places.push_back({QRectF(x - 8, 0, w + 16, height()), part.tip});
     paintText(painter, QRectF(x, 0, strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.strong, font,
               theme[Token::Text]);
     paintText(painter, QRectF(x + strong, 0, w - strong + 1, height()), Qt::AlignLeft | Qt::AlignVCenter, part.weak,
               font, theme[Token::Text2]);
     x += w + 16;
   }
+}
+
+QString StatusLine::tipAt(const QPointF& at) const {
+  const auto place =
+      std::find_if(m_places.begin(), m_places.end(), [&](const Place& each) { return each.rect.contains(at); });
+  return place == m_places.end() ? QString() : place->tip;
+}
+
+bool StatusLine::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+  const auto* help = static_cast<QHelpEvent*>(event);
+  showTip(help->globalPos(), tipAt(help->pos()), this);
+  return true;
 }
 
 /// The note may be another one when the button comes up: what was read is what is meant.

@@ -51,11 +51,13 @@ class StatusLine : public QWidget {
   double drift() const;
   QStringList parts() const;                      ///< as shown, left to right
   QRectF noteRect() const { return m_noteRect; }  ///< as it was painted last; empty: there is none
+  QString tipAt(const QPointF& at) const;         ///< what the part there means; "" beside them
 
  Q_SIGNALS:
   void noteClicked(const QString& parameter);  ///< its address; "" where the note has none
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -64,6 +66,11 @@ class StatusLine : public QWidget {
   struct Part {
     QString strong, weak;
     QString strongRoom{}, weakRoom{};  ///< the widest that usually stands there: the place is as wide from the start
+    QString tip{};
+  };
+  struct Place {
+    QRectF rect;
+    QString tip;
   };
   void follow();
   void followWork();
@@ -76,6 +83,7 @@ class StatusLine : public QWidget {
   void followTool();
   Part toolPart() const;
   QString detail(size_t stage) const;
+  void paintParts(QPainter& painter, double right);
   Session& m_session;
   Viewport* m_view;
   QString m_fileText, m_noteAddress, m_late, m_headset, m_said;
@@ -94,6 +102,7 @@ class StatusLine : public QWidget {
   ToolContact m_tool;  ///< that a hand has led last, smoothed; without a body: none
   std::array<double, static_cast<size_t>(Stage::Count)> m_stages{};
   QRectF m_noteRect;
+  std::vector<Place> m_places;       ///< of what is painted
   QString m_shownAddress;            ///< of the note as it is painted
   std::optional<QString> m_pressed;  ///< the address of the note that the button went down on
   QTimer m_watch;
