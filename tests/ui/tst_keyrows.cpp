@@ -266,6 +266,37 @@ class TestKeyRows : public CurveWindowTest {
     QCOMPARE(text(), before);
   }
 
+  /// Its texts are shorter than its numbers: one that nobody changes leaves them as they are.
+  void aKeyThatIsTypedKeepsWhatIsNotTyped() {
+    m_window->activateWindow();
+    const double time = 12.3456789, value = 333.123456789;
+    const std::vector<TrackKey> one{TrackKey{time, value}};
+    QCOMPARE(document().setKeys({{kFloor, one}}, QStringLiteral("keys")), QString());
+    const std::string before = text();
+    const int steps = document().undoStack().count();
+    const auto enter = [this](const char* name, const QString& typed) {
+      choose(QStringLiteral("Set time and value…"), rows().placeOf(kFloor, 0));
+      for (QLineEdit* line : rows().findChildren<QLineEdit*>()) {
+        if (!line->isVisible() || line->accessibleName() != QLatin1String(name)) continue;
+        if (!typed.isEmpty()) line->setText(typed);
+        QTest::keyClick(line, Qt::Key_Return);
+        return;
+      }
+      QFAIL(name);
+    };
+    enter("Time of the key", {});
+    QCOMPARE(document().undoStack().count(), steps);
+    QCOMPARE(text(), before);
+    enter("Time of the key", QStringLiteral("15 s"));
+    QCOMPARE(keys(kFloor)[0].time, 15.0);
+    QCOMPARE(keys(kFloor)[0].value, value);
+    document().undoStack().undo();
+    QCOMPARE(text(), before);
+    enter("Value of the key", QStringLiteral("350 K"));
+    QCOMPARE(keys(kFloor)[0].time, time);
+    QVERIFY(std::abs(keys(kFloor)[0].value - 350) < 1e-9);
+  }
+
   /// Ahead of what is recorded the ruler says what a click does, and its menu has a marker for it.
   void theRulerAheadOfTheRunIsNoDeadEnd() {
     const QPoint ahead(static_cast<int>(rows().xOf(30)), rows().ruler() / 2);
