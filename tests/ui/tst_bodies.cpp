@@ -171,9 +171,9 @@ class TestBodies : public SampleWindowTest {
     QVERIFY(plotted());
     centimetres->click();
     const std::string small = document().project().bodies.back().id;
-    QCOMPARE(small, id);
     // What measures and animates it stays, with its curve.
-    QVERIFY(document().probe(probe) && document().track(power) && plotted());
+    QVERIFY(document().probe(probe) && document().track({Owner::Body, small, "heating_power"}) && plotted());
+    QCOMPARE(document().probe(probe)->body, small);
     QVERIFY(SolidForm(std::get<SolidShape>(document().body(small)->shape)).size().isApprox(metres / 100));
     QTRY_COMPARE(idsNow(session()).size(), 6000 + particlesOf(small));  // the matter follows
     document().undoStack().undo();

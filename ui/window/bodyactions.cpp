@@ -166,15 +166,20 @@ QString countText(const Body& body, const Document& document) {
   return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
-/// What went with a body that has come back at once, with the curves of its probes.
-void bringBack(Document& document, const std::vector<Track>& tracks, const std::vector<Probe>& probes,
+/// What went with a body that has come back at once, with the curves of its probes. It has another id by now: no id is
+/// given twice.
+void bringBack(Document& document, const std::string& body, const std::vector<Track>& tracks, std::vector<Probe> probes,
                const std::optional<std::vector<Graph>>& graphs) {
   for (const Track& track : tracks) {
-    const auto address = Address::parse(track.parameter);
-    if (address && !document.track(*address)) document.setKeys({{*address, track.keys}}, {});
+    auto address = Address::parse(track.parameter);
+    if (!address || document.track(*address)) continue;
+    address->id = body;
+    document.setKeys({{*address, track.keys}}, {});
   }
-  for (const Probe& probe : probes) {
-    if (!document.probe(probe.id)) document.addProbe(probe);
+  for (Probe& probe : probes) {
+    if (document.probe(probe.id)) continue;
+    probe.body = body;
+    document.addProbe(std::move(probe));
   }
   if (!graphs) return;  // they go by the probes
   for (const Graph& graph : *graphs) {
@@ -523,7 +528,7 @@ void BodyActions::setUnit(std::string id, double from, double to) {
   document.undoStack().beginMacro(QStringLiteral("unit of %1").arg(QString::fromStdString(body.name)));
   document.removeBody(id);
   const std::string anew = add(std::move(body), id);
-  if (anew == id) bringBack(document, tracks, probes, graphs);
+  bringBack(document, anew, tracks, probes, graphs);
   document.undoStack().endMacro();
   askUnit(anew, to);
 }
