@@ -235,6 +235,21 @@ class TestKeyRows : public CurveWindowTest {
     QCOMPARE(keys(kFloor).size(), size_t{5});
   }
 
+  /// Where all is shorter than a second a tenth would be far from the pointer. Within half a hundredth, half a frame of
+  /// a sixtieth, and a pixel.
+  void aDoubleClickInAShortSceneIsFiner() {
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    ProjectAbout about = document().about();
+    about.duration = 0.5;
+    document().setAbout(about, QStringLiteral("duration"));
+    QCOMPARE(document().putKey(kFloor, 0, 300), QString());
+    QTRY_VERIFY(rows().xOf(0.5) > rows().width() / 2);  // nothing that was recorded is longer
+    QTest::mouseDClick(&rows(), Qt::LeftButton, {},
+                       {static_cast<int>(rows().xOf(0.25)), rows().placeOf(kFloor, 0).y()});
+    QCOMPARE(keys(kFloor).size(), size_t{2});
+    QVERIFY2(std::abs(keys(kFloor)[1].time - 0.25) < 0.02, qPrintable(QString::number(keys(kFloor)[1].time)));
+  }
+
   /// By the menu of a key, also past another one.
   void aKeyIsTyped() {
     m_window->activateWindow();

@@ -256,7 +256,7 @@ void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
   if (at.x() < kLabel) {
     Q_EMIT curveWanted(Address(row->address));
   } else {
-    setKeyAt(Row(*row), timeToSet(secondsAt(at.x()), 2 * m_session.document().keySlack(), event->modifiers()));
+    setKeyAt(Row(*row), timeToSet(m_session, secondsAt(at.x()), event->modifiers()));
   }
 }
 
@@ -405,7 +405,7 @@ void KeyRows::contextMenuEvent(QContextMenuEvent* event) {
     connect(menu->addAction(QStringLiteral("Edit as a curve")), &QAction::triggered, this,
             [this, address = row->address] { Q_EMIT curveWanted(address); });
   } else if (byMouse && event->pos().x() >= kLabel) {
-    const double time = timeToSet(secondsAt(event->pos().x()), 2 * m_session.document().keySlack(), {});
+    const double time = timeToSet(m_session, secondsAt(event->pos().x()), {});
     connect(menu->addAction(QStringLiteral("Add marker here")), &QAction::triggered, this,
             [this, time] { m_session.document().addMarker(time); });
   }
