@@ -28,6 +28,8 @@
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 
+#include <algorithm>
+
 using namespace ps;
 
 class TestBodies : public SampleWindowTest {
@@ -154,8 +156,24 @@ class TestBodies : public SampleWindowTest {
     QVERIFY(centimetres);
     QTRY_VERIFY(centimetres->isVisible());
     picture(QStringLiteral("mesh-unit.png"));
+    Probe warmth;
+    warmth.quantity = "temperature";
+    warmth.body = id;
+    const std::string probe = document().plotProbe({}, warmth);
+    const Address power{Owner::Body, id, "heating_power"};
+    QCOMPARE(document().putKey(power, 0, 5), QString());
+    const auto plotted = [&] {
+      const std::vector<Graph> graphs = document().graphs();
+      return std::any_of(graphs.begin(), graphs.end(), [&](const Graph& graph) {
+        return std::find(graph.series.begin(), graph.series.end(), "probe/" + probe) != graph.series.end();
+      });
+    };
+    QVERIFY(plotted());
     centimetres->click();
     const std::string small = document().project().bodies.back().id;
+    // What measures and animates it stays, with its curve.
+    QVERIFY(document().probe(probe) && document().track({Owner::Body, small, "heating_power"}) && plotted());
+    QCOMPARE(document().probe(probe)->body, small);
     QVERIFY(SolidForm(std::get<SolidShape>(document().body(small)->shape)).size().isApprox(metres / 100));
     QTRY_COMPARE(idsNow(session()).size(), 6000 + particlesOf(small));  // the matter follows
     document().undoStack().undo();

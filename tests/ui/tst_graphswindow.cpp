@@ -232,6 +232,43 @@ class TestGraphsWindow : public SampleWindowTest {
     undoneAndRedone(before);
   }
 
+  /// Of a ring the middle is empty: its probe sees all of it.
+  void aProbeOfARingSeesAllOfIt() {
+    m_window->action(QStringLiteral("add.torus"))->trigger();
+    const std::string ring = document().project().bodies.back().id;
+    const auto isThere = [&] {
+      const SnapshotPtr shown = session().snapshot();
+      return std::any_of(shown->body.begin(), shown->body.end(),
+                         [&](uint32_t body) { return (*shown->bodyIds)[body] == ring; });
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isThere(), kLong);
+    m_window->selection().select(OutlineKind::Body, ring);
+    m_window->action(QStringLiteral("edit.probe"))->trigger();
+    const Probe* probe = document().probe(m_window->selection().id());
+    QVERIFY(probe && !probe->region);
+    QCOMPARE(probe->body, ring);
+  }
+
+  /// At the start its box means what stands in it then; later that would be other matter, and what is in it now counts.
+  void aProbeOfTheMiddleActsWhereTheBodyIs() {
+    toTheStart();
+    const auto made = [this] {
+      m_window->selection().select(OutlineKind::Body, "ice");
+      m_window->action(QStringLiteral("edit.probe"))->trigger();
+      return document().probe(m_window->selection().id());
+    };
+    QCOMPARE(made()->regionWhen, std::string(Probe::kAtStart));
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().snapshot()->stats.time > 0, kLong);
+    const Probe* later = made();
+    QCOMPARE(later->regionWhen, std::string(Probe::kNow));
+    const std::string id = later->id;
+    QTRY_VERIFY_WITH_TIMEOUT(
+        session().snapshot()->stats.measured && session().snapshot()->stats.measured->back().id == id, kLong);
+    QVERIFY(session().snapshot()->stats.probes.back() > 200);  // K, of ice: something is in the box
+    toTheStart();
+  }
+
   /// Beside the other temperatures, and once: a wall holds no matter that a probe would see.
   void theTemperatureOfAWallIsPlotted() {
     const std::string before = json();

@@ -235,6 +235,21 @@ class TestKeyRows : public CurveWindowTest {
     QCOMPARE(keys(kFloor).size(), size_t{5});
   }
 
+  /// Where all is shorter than a second a tenth would be far from the pointer. Within half a hundredth, half a frame of
+  /// a sixtieth, and a pixel.
+  void aDoubleClickInAShortSceneIsFiner() {
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    ProjectAbout about = document().about();
+    about.duration = 0.5;
+    document().setAbout(about, QStringLiteral("duration"));
+    QCOMPARE(document().putKey(kFloor, 0, 300), QString());
+    QTRY_VERIFY(rows().xOf(0.5) > rows().width() / 2);  // nothing that was recorded is longer
+    QTest::mouseDClick(&rows(), Qt::LeftButton, {},
+                       {static_cast<int>(rows().xOf(0.25)), rows().placeOf(kFloor, 0).y()});
+    QCOMPARE(keys(kFloor).size(), size_t{2});
+    QVERIFY2(std::abs(keys(kFloor)[1].time - 0.25) < 0.02, qPrintable(QString::number(keys(kFloor)[1].time)));
+  }
+
   /// By the menu of a key, also past another one.
   void aKeyIsTyped() {
     m_window->activateWindow();
@@ -264,6 +279,37 @@ class TestKeyRows : public CurveWindowTest {
     enter(QStringLiteral("soon"), QStringLiteral("400 K"));
     QCOMPARE(refused.count(), 1);
     QCOMPARE(text(), before);
+  }
+
+  /// Its texts are shorter than its numbers: one that nobody changes leaves them as they are.
+  void aKeyThatIsTypedKeepsWhatIsNotTyped() {
+    m_window->activateWindow();
+    const double time = 12.3456789, value = 333.123456789;
+    const std::vector<TrackKey> one{TrackKey{time, value}};
+    QCOMPARE(document().setKeys({{kFloor, one}}, QStringLiteral("keys")), QString());
+    const std::string before = text();
+    const int steps = document().undoStack().count();
+    const auto enter = [this](const char* name, const QString& typed) {
+      choose(QStringLiteral("Set time and value…"), rows().placeOf(kFloor, 0));
+      for (QLineEdit* line : rows().findChildren<QLineEdit*>()) {
+        if (!line->isVisible() || line->accessibleName() != QLatin1String(name)) continue;
+        if (!typed.isEmpty()) line->setText(typed);
+        QTest::keyClick(line, Qt::Key_Return);
+        return;
+      }
+      QFAIL(name);
+    };
+    enter("Time of the key", {});
+    QCOMPARE(document().undoStack().count(), steps);
+    QCOMPARE(text(), before);
+    enter("Time of the key", QStringLiteral("15 s"));
+    QCOMPARE(keys(kFloor)[0].time, 15.0);
+    QCOMPARE(keys(kFloor)[0].value, value);
+    document().undoStack().undo();
+    QCOMPARE(text(), before);
+    enter("Value of the key", QStringLiteral("350 K"));
+    QCOMPARE(keys(kFloor)[0].time, time);
+    QVERIFY(std::abs(keys(kFloor)[0].value - 350) < 1e-9);
   }
 
   /// Ahead of what is recorded the ruler says what a click does, and its menu has a marker for it.

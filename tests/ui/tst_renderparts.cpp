@@ -476,6 +476,14 @@ void TestRenderParts::outlinesNoDroplets() {
   };
   QCOMPARE(outlined(s), size_t{27 + 12});
   QCOMPARE(outlined(drops), size_t{6});
+  // A crumb that is a body of its own is outlined beside a large one.
+  for (int i = 0; i < 3; ++i) {
+    addParticle(s, {0.9 + 2 * kRadius * i, 0, 0}, kRadius, id++, api::Motion::Solid);
+    s.body.back() = 1;
+  }
+  QCOMPARE(outlined(s), size_t{27 + 12});
+  request.outlined = {1, 1};
+  QCOMPARE(outlined(s), size_t{27 + 12 + 3});
 }
 
 /// Along an axis the same for everybody; one that faces the viewer cuts away what is near, flipped what is far.

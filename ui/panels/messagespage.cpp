@@ -45,6 +45,16 @@ Token tokenOf(MessageLevel level) {
   return Token::Text2;
 }
 
+/// Whether a message is of the program and what it has, whatever project is open.
+bool isOfProgram(const QString& where) {
+  static const QStringList kNames{QStringLiteral("Program"), QStringLiteral("Scene view"), QStringLiteral("VR"),
+                                  QStringLiteral("Materials"), QStringLiteral("Favourite brushes")};
+  static const QStringList kBeginnings{QStringLiteral("Plugin "), QStringLiteral("The plugin "),
+                                       QStringLiteral("PhaseSketch ")};
+  return kNames.contains(where) || std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                                               [&](const QString& text) { return where.startsWith(text); });
+}
+
 /// As high as all words of a message, in the width of its column.
 class WrappedText : public QStyledItemDelegate {
  public:
@@ -111,8 +121,7 @@ MessagesPage::MessagesPage(Session& session, QWidget* parent)
 
 /// What was said just before a project came is of its opening; what the program says of itself is of none.
 bool MessagesPage::isOfFormer(const Message& message) const {
-  return m_opened.isValid() && message.time < m_opened.addMSecs(-kOpening) &&
-         message.where != QStringLiteral("Program") && !message.where.startsWith(QStringLiteral("Plugin "));
+  return m_opened.isValid() && message.time < m_opened.addMSecs(-kOpening) && !isOfProgram(message.where);
 }
 
 void MessagesPage::addLinks(int row, const Message& message) {

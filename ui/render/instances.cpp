@@ -139,8 +139,23 @@ class Evaluator {
   std::vector<uint32_t> m_match;
 };
 
+/// How many particles make a piece that gets an outline: a body that has fewer of them is no droplet of another.
+size_t leastPiece(const InstanceRequest& request) {
+  std::vector<size_t> counts(request.outlined.size());
+  for (size_t i = 0; i < request.now->body.size(); ++i) {
+    const uint32_t body = request.now->body[i];
+    if (body < counts.size() && request.outlined[body] != 0 && request.now->motion[i] != api::Motion::Gas)
+      ++counts[body];
+  }
+  size_t least = kPiece;
+  for (const size_t count : counts) {
+    if (count > 0) least = std::min(least, count);
+  }
+  return least;
+}
+
 // Puts the lists one after the other.
-void arrange(Instances& out) {
+void arrange(const InstanceRequest& request, Instances& out) {
   std::vector<Instance>& all = out.particles;
   const float lattice = 2 * out.radius, coarse = 4 * out.radius;
   out.spheres = exposedFirst(out.sphereExtent, out.radius, lattice, 1, all);
@@ -163,7 +178,8 @@ void arrange(Instances& out) {
   Extent extent;
   for (const Instance& p : out.outline) extent.add(p.x, p.y, p.z, p.radius);
   out.outline.resize(exposedFirst(extent, out.radius, lattice, 1, out.outline));
-  out.outlined = piecesFirst(extent, kTouching * out.radius, kPiece, out.outline);
+  out.outlined =
+      out.outline.empty() ? 0 : piecesFirst(extent, kTouching * out.radius, leastPiece(request), out.outline);
   out.outline.resize(out.outlined);
   for (const std::vector<Instance>* list : {&out.liquid, &out.vapour, &out.ghost, &out.outline})
     all.insert(all.end(), list->begin(), list->end());
@@ -263,7 +279,7 @@ void collectInstances(const InstanceRequest& request, Instances& out) {
   for (const Instance& p : liquids) out.liquidExtent.add(p.x, p.y, p.z, p.radius * 1.6f);
   for (const Instance& p : vapours) out.vapourExtent.add(p.x, p.y, p.z, p.radius * 8);
   collectGhost(request.ghost, request.section, out);
-  arrange(out);
+  arrange(request, out);
 }
 
 }  // namespace ps::render

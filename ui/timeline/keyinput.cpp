@@ -29,6 +29,13 @@ namespace {
 constexpr int kMeet = 4;   ///< px to a key that stays
 constexpr int kStill = 3;  ///< px that a hand moves which only clicks
 
+/// "12.5" of "12.5 s".
+QString withoutSeconds(const QString& text) {
+  QString bare = text.trimmed();
+  if (bare.endsWith(QLatin1Char('s'))) bare.chop(1);
+  return bare.trimmed();
+}
+
 }  // namespace
 
 std::optional<KeyRows::Chosen> KeyRows::keyUnder(const QPoint& at, double reach) const {
@@ -249,7 +256,7 @@ void KeyRows::mouseDoubleClickEvent(QMouseEvent* event) {
   if (at.x() < kLabel) {
     Q_EMIT curveWanted(Address(row->address));
   } else {
-    setKeyAt(Row(*row), timeToSet(secondsAt(at.x()), 2 * m_session.document().keySlack(), event->modifiers()));
+    setKeyAt(Row(*row), timeToSet(m_session, secondsAt(at.x()), event->modifiers()));
   }
 }
 
@@ -271,16 +278,18 @@ void KeyRows::typeKey(const Chosen& key) {
   const TrackKey& shown = keys[key.key];
   const bool toggle = declaration->kind == api::ParameterKind::Toggle;
   const QPoint at = placeOf(key.address, key.key);
-  keyInPlace(
-      *this, {at.x() + static_cast<int>(kGrip), at.y() - m_row / 2 + 1, 0, m_row - 2},
-      {formatShort(shown.time, 6) + QStringLiteral(" s"), toggle ? QString() : formatValue(*declaration, shown.value)},
-      [this, address = key.address, time = shown.time](const KeyTexts& typed) {
-        takeTyped(address, time, typed.time, typed.value);
-      });
+  const KeyTexts texts{formatShort(shown.time, 6) + QStringLiteral(" s"),
+                       toggle ? QString() : formatValue(*declaration, shown.value)};
+  // Texts are shorter than numbers: what nobody typed stays as it is, to the last digit.
+  const auto own = [](const QString& typed, const QString& before) { return typed == before ? QString() : typed; };
+  keyInPlace(*this, {at.x() + static_cast<int>(kGrip), at.y() - m_row / 2 + 1, 0, m_row - 2}, texts,
+             [this, address = key.address, time = shown.time, texts, own](const KeyTexts& typed) {
+               takeTyped(address, time, own(typed.time, texts.time), own(typed.value, texts.value));
+             });
 }
 
 /// The key of that time, which others may have moved or taken away meanwhile; with another time it takes the place of
-/// one that is there.
+/// one that is there. An empty text leaves what it is for.
 void KeyRows::takeTyped(const Address& address, double time, const QString& newTime, const QString& newValue) {
   Document& document = m_session.document();
   const api::ParameterDeclaration* declaration = document.keyDeclaration(address);
@@ -288,18 +297,23 @@ void KeyRows::takeTyped(const Address& address, double time, const QString& newT
   const auto place = keyAt(keys, time, 1e-6);
   if (!declaration || !place) return;
   TrackKey key = keys[*place];
-  QString bare = newTime.trimmed();
-  if (bare.endsWith(QLatin1Char('s'))) bare.chop(1);
-  const auto seconds = parseNumber(bare.trimmed());
-  if (!seconds || !(*seconds >= 0)) return tell(QStringLiteral("A time is a number of seconds from the start on."));
+  if (!newTime.isEmpty()) {
+    const auto seconds = parseNumber(withoutSeconds(newTime));
+    if (!seconds || !(*seconds >= 0)) return tell(QStringLiteral("A time is a number of seconds from the start on."));
+    key.time = std::round(*seconds * 1e6) / 1e6;
+  }
   if (!newValue.isEmpty()) {
     const Typed typed = parseTyped(newValue, *declaration, key.value);
     if (!typed.problem.isEmpty()) return tell(typed.problem);
     key.value = typed.value;
   }
-  key.time = std::round(*seconds * 1e6) / 1e6;
-  keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(*place));
-  const size_t now = putKey(keys, key, document.keySlack());
+  size_t now = *place;
+  if (newTime.isEmpty()) {
+    keys[now] = key;
+  } else {
+    keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(*place));
+    now = putKey(keys, key, document.keySlack());
+  }
   const QString problem =
       document.setKeys({{address, keys}}, QStringLiteral("key of %1").arg(document.trackTitle(address)));
   tell(problem);
@@ -391,7 +405,7 @@ void KeyRows::contextMenuEvent(QContextMenuEvent* event) {
     connect(menu->addAction(QStringLiteral("Edit as a curve")), &QAction::triggered, this,
             [this, address = row->address] { Q_EMIT curveWanted(address); });
   } else if (byMouse && event->pos().x() >= kLabel) {
-    const double time = timeToSet(secondsAt(event->pos().x()), 2 * m_session.document().keySlack(), {});
+    const double time = timeToSet(m_session, secondsAt(event->pos().x()), {});
     connect(menu->addAction(QStringLiteral("Add marker here")), &QAction::triggered, this,
             [this, time] { m_session.document().addMarker(time); });
   }

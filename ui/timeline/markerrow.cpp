@@ -141,8 +141,7 @@ void MarkerRow::mouseDoubleClickEvent(QMouseEvent* event) {
     editName(*marker);
     return;
   }
-  m_chosen = m_session.document().addMarker(
-      timeToSet(m_scale.secondsAt(at.x()), 2 * m_session.document().keySlack(), event->modifiers()));
+  m_chosen = m_session.document().addMarker(timeToSet(m_session, m_scale.secondsAt(at.x()), event->modifiers()));
   update();
 }
 

@@ -18,10 +18,16 @@ double timeAxisEnd(Session& session, double duration) {
   return last > 0 ? last : 1;
 }
 
-double timeToSet(double seconds, double frame, Qt::KeyboardModifiers modifiers) {
+double timeToSet(Session& session, double seconds, Qt::KeyboardModifiers modifiers) {
   constexpr double kTenths = 10;  // of a second
   if (modifiers & Qt::ShiftModifier) return seconds;
-  if (!(modifiers & Qt::ControlModifier)) seconds = std::round(seconds * kTenths) / kTenths;
+  if (!(modifiers & Qt::ControlModifier)) {
+    // Of a short axis a tenth of a second would be far from where one points.
+    const double end = timeAxisEnd(session, session.document().project().duration);
+    const double steps = std::max(kTenths, std::pow(10, std::ceil(std::log10(kTenths / end))));
+    seconds = std::round(seconds * steps) / steps;
+  }
+  const double frame = 2 * session.document().keySlack();
   return frame > 0 ? std::round(seconds / frame) * frame : seconds;
 }
 

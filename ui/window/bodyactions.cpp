@@ -166,14 +166,31 @@ QString countText(const Body& body, const Document& document) {
   return particlesAhead(particleCount(body, spacingOf(document)));
 }
 
-/// What went with a body that has come back at once.
-void bringBack(Document& document, const std::vector<Track>& tracks, const std::vector<Probe>& probes) {
+/// What went with a body that has come back at once, with the curves of its probes. It has another id by now: no id is
+/// given twice.
+void bringBack(Document& document, const std::string& body, const std::vector<Track>& tracks, std::vector<Probe> probes,
+               const std::optional<std::vector<Graph>>& graphs) {
   for (const Track& track : tracks) {
-    const auto address = Address::parse(track.parameter);
-    if (address && !document.track(*address)) document.setKeys({{*address, track.keys}}, {});
+    auto address = Address::parse(track.parameter);
+    if (!address || document.track(*address)) continue;
+    address->id = body;
+    document.setKeys({{*address, track.keys}}, {});
   }
-  for (const Probe& probe : probes) {
-    if (!document.probe(probe.id)) document.addProbe(probe);
+  for (Probe& probe : probes) {
+    if (document.probe(probe.id)) continue;
+    probe.body = body;
+    document.addProbe(std::move(probe));
+  }
+  if (!graphs) return;  // they go by the probes
+  for (const Graph& graph : *graphs) {
+    if (graph.kind != Graph::Kind::Time) continue;
+    const std::vector<Graph> now = document.graphs();
+    const auto same = std::find_if(now.begin(), now.end(), [&](const Graph& each) { return each.id == graph.id; });
+    for (const std::string& source : graph.series) {
+      if (same == now.end() || std::find(same->series.begin(), same->series.end(), source) != same->series.end())
+        continue;
+      document.plot(graph.id, source);
+    }
   }
 }
 
@@ -507,10 +524,11 @@ void BodyActions::setUnit(std::string id, double from, double to) {
   scale(solidOf(body), to / from);
   const std::vector<Track> tracks = document.project().tracks;
   const std::vector<Probe> probes = document.project().probes;
+  const std::optional<std::vector<Graph>> graphs = document.project().graphs;
   document.undoStack().beginMacro(QStringLiteral("unit of %1").arg(QString::fromStdString(body.name)));
   document.removeBody(id);
   const std::string anew = add(std::move(body), id);
-  if (anew == id) bringBack(document, tracks, probes);
+  bringBack(document, anew, tracks, probes, graphs);
   document.undoStack().endMacro();
   askUnit(anew, to);
 }

@@ -25,32 +25,36 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace ps {
 namespace {
 
-/// The middle third of a body as it is shown, along each axis, and no less than has particles in it; nothing where it
-/// has no matter.
+/// The middle third of a body as it is shown, along each axis, and no less than has particles in it; nothing where
+/// there is no matter of it, as in the hole of a ring.
 std::optional<Region> coreOf(const Snapshot* shown, const std::string& body) {
   if (!shown || !shown->bodyIds) return std::nullopt;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Vector3 low = Vector3::Constant(kNone), high = Vector3::Constant(-kNone);
   double radius = 0;
+  std::vector<Vector3> places;
   for (size_t i = 0; i < shown->position.size(); ++i) {
     const size_t of = shown->body[i];
     if (of >= shown->bodyIds->size() || (*shown->bodyIds)[of] != body || shown->motion[i] == api::Motion::Gas) continue;
-    const Vector3 place = vectorOf(shown->position[i]);
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
+    places.push_back(vectorOf(shown->position[i]));
+    low = low.cwiseMin(places.back());
+    high = high.cwiseMax(places.back());
     radius = std::max(radius, static_cast<double>(shown->position[i].w));
   }
-  if (radius == 0) return std::nullopt;
+  if (places.empty()) return std::nullopt;
   const Vector3 middle = 0.5 * (low + high);
   // Of two layers neither lies in the third between them.
   const Vector3 half = ((high - low) / 6).cwiseMax(1.1 * radius);
   Region core;
   core.minimum = middle - half;
   core.maximum = middle + half;
+  if (std::none_of(places.begin(), places.end(), [&](const Vector3& place) { return core.contains(place); }))
+    return std::nullopt;
   return core;
 }
 
@@ -81,8 +85,9 @@ void EditActions::makeProbeEntries(QMenu* menu) {
   QAction* probe =
       m_actions.add(menu, QStringLiteral("edit.probe"), QStringLiteral("Add probe"), {}, [this] { addProbe(false); });
   probe->setToolTip(
-      QStringLiteral("Measures the temperature in the middle of the body that is selected, or of all matter; its rows "
-                     "have its box and other quantities. Of a wall that has a temperature it plots that."));
+      QStringLiteral("Measures the temperature in the middle of the body that is selected, of all of it where that is "
+                     "empty, or of all matter; its rows have its box and other quantities. Of a wall that has a "
+                     "temperature it plots that."));
   QAction* all = m_actions.add(menu, QStringLiteral("edit.probeAll"), QStringLiteral("Add probe of all of it"), {},
                                [this] { addProbe(true); });
   all->setToolTip(QStringLiteral("Of the whole body or tap that is selected, or of all matter."));
@@ -175,8 +180,11 @@ void EditActions::addProbe(bool whole) {
   if (!probe.body.empty()) {
     const Owner owner = port ? Owner::Emitter : Owner::Body;
     probe.name = ownerLabel(m_document.project(), {owner, probe.body, ""}).toStdString();
-    if (!whole && !port) probe.region = coreOf(m_session.snapshot().get(), probe.body);
+    const SnapshotPtr shown = m_session.snapshot();
+    if (!whole && !port) probe.region = coreOf(shown.get(), probe.body);
     if (probe.region) probe.name += ", core";
+    // Where this matter stood at the start, which the box would mean, nobody knows later.
+    if (probe.region && shown->stats.time > 0) probe.regionWhen = Probe::kNow;
   }
   m_selection.select(OutlineKind::Probe, m_document.addProbe(std::move(probe)));
 }
