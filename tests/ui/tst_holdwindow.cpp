@@ -3,6 +3,7 @@
 #include "core/io/projectio.h"
 #include "core/scene/pose.h"
 #include "samplewindow.h"
+#include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
 #include "ui/tools/livestroke.h"
 #include "ui/tools/livetouch.h"
@@ -157,6 +158,21 @@ class TestHoldWindow : public SampleWindowTest {
     m_window->tools().selection().selectBody(id);
     separate->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
+  }
+
+  /// Where a sketch is selected, the menu of its row has it; where a block is, it has not.
+  void theRowOfASketchOffersSeparating() {
+    const std::string id = document().addBody(twoLumps(260));
+    const auto offers = [this](const std::string& body) {
+      m_window->tools().selection().selectBody(body);
+      Q_EMIT m_window->outliner()->menuRequested(m_window->mapToGlobal(QPoint(80, 200)));
+      QWidget* menu = QApplication::activePopupWidget();
+      const bool has = menu && menu->actions().contains(m_window->action(QStringLiteral("sketch.separate")));
+      if (menu) menu->close();
+      return has;
+    };
+    QVERIFY(offers(id));
+    QVERIFY(!offers("ice"));
   }
 
   void whatAHandErasesThroughBecomesBodies_data() {
