@@ -61,24 +61,23 @@ void eachNear(const std::vector<Vector3>& places, double distance, const Visit& 
   }
 }
 
-/// A body's particles by their rows in the store, and where they are.
+/// A body's particles by their rows in the scene, and where they are.
 struct Matter {
-  std::vector<uint32_t> rows;
+  std::vector<size_t> rows;
   std::vector<Vector3> places;  ///< m
   std::vector<uint32_t> tie;    ///< Solver::pieces() of each
 };
 
-Matter matterOf(const Engine& engine, const std::string& body) {
-  const std::vector<std::string>& ids = engine.bodyIds();
+Matter matterOf(const TiedScene& moment, const std::string& body) {
+  const Snapshot& scene = *moment.scene;
+  const std::vector<std::string>& ids = *scene.bodyIds;
   const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), body) - ids.begin());
-  const ParticleStore& store = engine.particles();
-  const std::vector<uint32_t> ties = engine.solver().pieces();
   Matter matter;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (store.body()[i] != index) continue;
+  for (size_t i = 0; i < scene.id.size(); ++i) {
+    if (scene.body[i] != index) continue;
     matter.rows.push_back(i);
-    matter.places.push_back(vectorOf(store.position()[i]));
-    matter.tie.push_back(ties[i]);
+    matter.places.push_back(vectorOf(scene.position[i]));
+    matter.tie.push_back(moment.ties[i]);
   }
   return matter;
 }
@@ -141,17 +140,24 @@ void addCells(std::vector<api::Cell>& cells, const VoxelShape& voxels, double sp
 
 }  // namespace
 
-std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) {
+TiedScene tiedScene(const Engine& engine) { return {engine.snapshot(), engine.solver().pieces()}; }
+
+bool isSolid(const TiedScene& moment, const std::string& body) {
+  const std::vector<size_t> rows = matterOf(moment, body).rows;
+  return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return api::holds(moment.scene->motion[row]); });
+}
+
+std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) { return piecesOf(tiedScene(engine), body); }
+
+std::vector<CellIndices> piecesOf(const TiedScene& moment, const Body& body) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
-  const SnapshotPtr now = engine.snapshot();
-  if (!voxels || !now->rest) return {};
-  const Matter matter = matterOf(engine, body.id);
-  const ParticleStore& store = engine.particles();
-  const std::vector<size_t> number = numbered(matter, kTouch * now->spacing, store.period().any());
+  const Snapshot& now = *moment.scene;
+  if (!voxels || !now.rest) return {};
+  const Matter matter = matterOf(moment, body.id);
+  const std::vector<size_t> number = numbered(matter, kTouch * now.spacing, now.period.any());
   std::vector<std::vector<api::Cell>> cells(number.empty() ? 0 : *std::max_element(number.begin(), number.end()) + 1);
   for (size_t k = 0; k < number.size(); ++k) {
-    if (const auto rest = now->rest->of(store.id()[matter.rows[k]]))
-      addCells(cells[number[k]], *voxels, now->spacing, *rest);
+    if (const auto rest = now.rest->of(now.id[matter.rows[k]])) addCells(cells[number[k]], *voxels, now.spacing, *rest);
   }
   std::vector<CellIndices> pieces;
   CellSet taken;  // a cell whose matter has melted away may have been drawn again
@@ -162,6 +168,31 @@ std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) {
     pieces.push_back(own.indices());
   }
   return pieces;
+}
+
+std::vector<CellIndices> cutOff(const std::vector<CellIndices>& before, const std::vector<CellIndices>& after,
+                                size_t least) {
+  std::vector<std::pair<CellIndex, size_t>> known;
+  for (size_t k = 0; k < before.size(); ++k) {
+    for (const CellIndex& cell : before[k]) known.emplace_back(cell, k);
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<bool> isThere(before.size());  // a piece that it has come to; the first of each is the largest
+  std::vector<CellIndices> off;
+  for (const CellIndices& piece : after) {
+    if (piece.size() < least) continue;
+    std::vector<size_t> shares(before.size());
+    for (const CellIndex& cell : piece) {
+      const auto found = std::lower_bound(known.begin(), known.end(), std::pair(cell, size_t{0}));
+      if (found != known.end() && found->first == cell) ++shares[found->second];
+    }
+    const auto most = std::max_element(shares.begin(), shares.end());
+    if (most == shares.end() || *most == 0) continue;
+    const auto from = static_cast<size_t>(most - shares.begin());
+    if (isThere[from]) off.push_back(piece);
+    isThere[from] = true;
+  }
+  return off;
 }
 
 }  // namespace ps

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "core/simulation/command.h"
+#include "core/simulation/snapshot.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace ps {
@@ -14,5 +18,21 @@ class Engine;
 /// smaller is of the piece that it touches, else of the first. Where nothing is tied, matter that touches is a piece.
 /// In a periodic box, where a gap is no gap at its faces, ties alone decide.
 std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body);
+
+/// A scene at a moment with what ties its matter together. The engine's thread gives it at once; what pieces there are
+/// takes longer, and may be found on any thread.
+struct TiedScene {
+  SnapshotPtr scene;           ///< nullptr: none was asked for
+  std::vector<uint32_t> ties;  ///< Solver::pieces() of its particles
+};
+TiedScene tiedScene(const Engine& engine);
+/// Whether some of a body is solid.
+bool isSolid(const TiedScene& moment, const std::string& body);
+std::vector<CellIndices> piecesOf(const TiedScene& moment, const Body& body);  ///< as above
+
+/// The pieces of a body that have come off since it was of the pieces `before`: of those that one of these has come to,
+/// all but the largest. One of fewer than `least` cells is a crumb, and has come off nothing.
+std::vector<CellIndices> cutOff(const std::vector<CellIndices>& before, const std::vector<CellIndices>& after,
+                                size_t least);
 
 }  // namespace ps

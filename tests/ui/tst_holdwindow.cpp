@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is sketched is held in the air until it is made real, while all else in the window goes on.
+#include "core/io/projectio.h"
 #include "core/scene/pose.h"
 #include "samplewindow.h"
+#include "ui/panels/outliner.h"
+#include "ui/session/preferences.h"
+#include "ui/tools/livestroke.h"
+#include "ui/tools/livetouch.h"
 #include "ui/tools/tooltable.h"
 
 #include <QtGui/QAction>
@@ -155,7 +160,204 @@ class TestHoldWindow : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
   }
 
+  /// Where a sketch is selected, the menu of its row has it; where a block is, it has not.
+  void theRowOfASketchOffersSeparating() {
+    const std::string id = document().addBody(twoLumps(260));
+    const auto offers = [this](const std::string& body) {
+      m_window->tools().selection().selectBody(body);
+      Q_EMIT m_window->outliner()->menuRequested(m_window->mapToGlobal(QPoint(80, 200)));
+      QWidget* menu = QApplication::activePopupWidget();
+      const bool has = menu && menu->actions().contains(m_window->action(QStringLiteral("sketch.separate")));
+      if (menu) menu->close();
+      return has;
+    };
+    QVERIFY(offers(id));
+    QVERIFY(!offers("ice"));
+  }
+
+  void whatAHandErasesThroughBecomesBodies_data() {
+    QTest::addColumn<bool>("runs");
+    QTest::newRow("paused at the start") << false;
+    QTest::newRow("while it runs") << true;
+  }
+
+  /// The stroke's step, then one that makes the smaller piece a body: saved and opened they are two, and undone one
+  /// after the other all is as it was.
+  void whatAHandErasesThroughBecomesBodies() {
+    QFETCH(bool, runs);
+    const std::string id = add(bar(true));
+    const size_t bodies = document().project().bodies.size(), all = count(id);
+    const std::string before = writeProject(document().project());
+    const int64_t steps = document().undoStack().position();
+    if (runs) {
+      playOn(0.1);
+      session().play();
+    }
+    erase({{0.07, 0.58, 0.03}, {0.07, 0.68, 0.03}});
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), bodies + 1, kLong);
+    session().pause();
+    QCOMPARE(document().undoStack().position(), steps + 2);
+    QVERIFY(document().undoStack().undoText().contains(QStringLiteral("separating")));
+    const Body other = document().project().bodies.back();
+    QCOMPARE(document().body(id)->name, std::string("Bar"));
+    QCOMPARE(other.name, std::string("Bar 2"));
+    QTRY_VERIFY_WITH_TIMEOUT(count(other.id) > 8 && count(id) > count(other.id), kLong);
+    QVERIFY(count(id) + count(other.id) < all);
+    opensAsItIs(other.id);
+    const std::string text = writeProject(document().project());
+    document().undoStack().undo();
+    QCOMPARE(document().project().bodies.size(), bodies);
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("erasing stroke"));
+    document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
+    QTRY_COMPARE_WITH_TIMEOUT(count(id), all, kLong);
+    document().undoStack().redo();
+    document().undoStack().redo();
+    QCOMPARE(writeProject(document().project()), text);
+    QTRY_VERIFY_WITH_TIMEOUT(count(other.id) > 8, kLong);
+  }
+
+  /// Without a gap, where nothing falls: as long as time passes the brush cuts.
+  void whatAHandCutsThroughBecomesBodies() {
+    QCOMPARE(document().setParameter({Owner::Scene, "", "gravity"}, 0.0), QString());
+    const std::string id = add(bar(false));
+    const size_t bodies = document().project().bodies.size(), all = count(id);
+    const int64_t steps = document().undoStack().position();
+    session().play();
+    cut(0.08);
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), bodies + 1, kLong);
+    session().pause();
+    QCOMPARE(document().undoStack().position(), steps + 2);
+    const std::string other = document().project().bodies.back().id;
+    QTRY_COMPARE_WITH_TIMEOUT(count(id) + count(other), all, kLong);
+    QVERIFY(count(other) > 8 && count(id) > count(other));
+    document().undoStack().undo();
+    QCOMPARE(document().undoStack().undoText(), QStringLiteral("Cut matter"));
+    document().undoStack().undo();
+    QTRY_COMPARE_WITH_TIMEOUT(count(id), all, kLong);
+  }
+
+  /// What was apart before a hand came stays one body, and a crumb stays with what it was of; all does where nobody
+  /// wants it otherwise.
+  void whatAHandDidNotPartStaysABody() {
+    Body lumps = twoLumps(260);
+    lumps.constraints.push_back({"bonds", {}, {}});
+    std::get<VoxelShape>(lumps.shape).origin = {0.01, 0.61, -0.19};
+    add(lumps);
+    add(bar(true));
+    const size_t bodies = document().project().bodies.size();
+    const int64_t steps = document().undoStack().position();
+    erase({{-0.02, 0.58, -0.17}, {-0.02, 0.68, -0.17}});  // a side of a lump
+    erase({Vector3(0.15, 0.675, 0.03)});                  // the upper third of the bar's end, then what held the rest
+    erase({{0.11, 0.58, 0.03}, {0.11, 0.68, 0.03}});
+    QTest::qWait(1000);
+    QCOMPARE(document().undoStack().position(), steps + 3);
+    preferences::setPiecesBecomeBodies(false);
+    erase({{-0.05, 0.58, 0.03}, {-0.05, 0.68, 0.03}});
+    QTest::qWait(1000);
+    preferences::setPiecesBecomeBodies(true);
+    QCOMPARE(document().undoStack().position(), steps + 4);
+    QCOMPARE(document().project().bodies.size(), bodies);
+  }
+
+  /// A comb without its back.
+  void manyPiecesAreToldOf() {
+    add(comb());
+    const size_t bodies = document().project().bodies.size();
+    std::vector<Vector3> back;
+    for (int k = 0; k <= 16; ++k) back.push_back({-0.32 + 0.04 * k, 0.62, 0.01});
+    erase(back);
+    const auto told = [this] { return m_window->notice()->text().contains(QStringLiteral("“Comb” is in 22 pieces.")); };
+    QTRY_VERIFY_WITH_TIMEOUT(told(), kLong);
+    QCOMPARE(document().project().bodies.size(), bodies);
+    QPushButton* separate = noticeButton(*m_window, QStringLiteral("Separate pieces"));
+    QVERIFY(separate);
+    separate->click();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), bodies + 21, kLong);
+    QVERIFY(!told());
+  }
+
  private:
+  /// In the scene by now, paused at the start.
+  std::string add(const Body& body) {
+    const std::string id = document().addBody(body);
+    toTheStart();
+    return id;
+  }
+  /// Saved and opened by others.
+  void opensAsItIs(const std::string& id) {
+    const std::string text = writeProject(document().project());
+    const Project opened = parseProject(text, "what was written", *session().plugins()).project;
+    QCOMPARE(writeProject(opened), text);
+    const Engine engine(opened, *session().plugins());
+    QCOMPARE(std::count(engine.bodyIds().begin(), engine.bodyIds().end(), id), ptrdiff_t{1});
+  }
+  size_t count(const std::string& id) {
+    return onEngine<size_t>(session(), [id](Engine& engine) {
+      const std::vector<std::string>& ids = engine.bodyIds();
+      const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+      const uint32_t* first = engine.particles().body();
+      return static_cast<size_t>(std::count(first, first + engine.particles().size(), index));
+    });
+  }
+  /// With a cube of three cells.
+  void erase(const std::vector<Vector3>& way) {
+    Toolbox& tools = m_window->tools();
+    tools.takeBrush("cube");
+    BrushSettings settings = tools.brush();
+    settings.radius = 0.035;
+    settings.symmetry = {};
+    tools.setBrush(settings);
+    LiveStroke stroke(tools);
+    QCOMPARE(stroke.begin(true, *session().newest(), way.front(), {0, 1, 0}, 1.0), QString());
+    for (size_t k = 1; k < way.size(); ++k) stroke.move(way[k], 0.05 * static_cast<double>(k), 1.0);
+    QCOMPARE(stroke.finish(), QString());
+  }
+  /// Across x, seen from above.
+  void cut(double x) {
+    Toolbox& tools = m_window->tools();
+    tools.takeBrush("cut");
+    BrushSettings settings = tools.brush();
+    settings.radius = 0.15;
+    tools.setBrush(settings);
+    LiveTouch touch(tools, [](const QString&) {});
+    QCOMPARE(touch.begin(settings, false, {x, 0.63, 0.12}, {0, 1, 0}, {0, -1, 0}, 1.0), QString());
+    for (int k = 1; k <= 8; ++k) {
+      QTest::qWait(20);
+      QCOMPARE(touch.move({x, 0.63, 0.12 - 0.03 * k}, 0.02 * k, 1.0), QString());
+    }
+    QCOMPARE(touch.finish(), QString());
+    tools.takeBrush("cube");
+  }
+  /// Of ice, 15 cells long, three wide and high.
+  Body bar(bool held) {
+    std::vector<VoxelShape::Run> runs;
+    for (int k = 0; k < 9; ++k) runs.push_back({-7, k % 3, k / 3, 15, 0});
+    return sketched("Bar", std::move(runs), held);
+  }
+  /// Eleven teeth to either side of a back that runs along x.
+  Body comb() {
+    std::vector<VoxelShape::Run> runs;
+    for (int z = -8; z <= 8; ++z) {
+      for (int y = 0; y < 2; ++y) {
+        if (z == 0) runs.push_back({-15, y, z, 31, 0});
+        for (int x = -15; x <= 15 && z != 0; x += 3) runs.push_back({x, y, z, 1, 0});
+      }
+    }
+    return sketched("Comb", std::move(runs), true);
+  }
+  /// On the lattice that brushes have here.
+  Body sketched(const std::string& name, std::vector<VoxelShape::Run> runs, bool held) {
+    Body body = twoLumps(260);
+    body.id = "parted";
+    body.name = name;
+    body.constraints.push_back({"bonds", {}, {}});
+    body.parameters.values["held"] = held;
+    auto& voxels = std::get<VoxelShape>(body.shape);
+    voxels.origin = {0.01, 0.61, 0.01};
+    voxels.runs = std::move(runs);
+    return body;
+  }
   /// Three cells wide each, five apart.
   Body twoLumps(double temperature) {
     Body lumps;

@@ -149,6 +149,15 @@ class TestPreferences : public SampleWindowTest {
     while (document().undoStack().canUndo()) document().undoStack().undo();
   }
 
+  void piecesMayStayWithTheirBody() {
+    QVERIFY(preferences::piecesBecomeBodies());
+    openDialog();
+    pick("Pieces that are cut off", "Stay with their body");
+    QVERIFY(!preferences::piecesBecomeBodies());
+    pick("Pieces that are cut off", "Become bodies");
+    QVERIFY(preferences::piecesBecomeBodies());
+  }
+
   /// A value that is none of those offered is shown, and stays.
   void otherValuesAreShown() {
     preferences::setAutosaveInterval(45);

@@ -2,6 +2,7 @@
 // How a sketched body stands by now, found from places of its matter against where that was made.
 #include "core/base/error.h"
 #include "core/base/statestream.h"
+#include "core/simulation/bodypieces.h"
 #include "core/simulation/restplaces.h"
 #include "core/simulation/standing.h"
 
@@ -181,6 +182,22 @@ class TestStanding : public QObject {
     writer.array("scene/rest_places", std::vector<float>{0, 0, 0});
     writer.finish();
     QVERIFY_THROWS_EXCEPTION(InputError, RestPlaces::read(StateReader(damaged.bytes())));
+  }
+
+  /// Of a body in two pieces one has come to three: two came off, and one of them is a crumb. What was apart before has
+  /// not come off anything, nor has what nobody knew.
+  void piecesThatComeOff() {
+    const auto row = [](int from, int count) {
+      CellIndices cells;
+      for (int x = from; x < from + count; ++x) cells.push_back({x, 0, 0});
+      return cells;
+    };
+    const std::vector<CellIndices> before = {row(0, 40), row(50, 20)};
+    const std::vector<CellIndices> after = {row(50, 19), row(0, 18), row(20, 12), row(34, 3), row(90, 9)};
+    QCOMPARE(cutOff(before, after, 8), (std::vector<CellIndices>{row(20, 12)}));
+    QCOMPARE(cutOff(before, after, 3), (std::vector<CellIndices>{row(20, 12), row(34, 3)}));
+    QVERIFY(cutOff(before, before, 8).empty());
+    QVERIFY(cutOff({}, after, 8).empty());
   }
 };
 

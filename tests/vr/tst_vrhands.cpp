@@ -83,6 +83,7 @@ class VrHandsTest : public VrWindowTest {
   void strokesEndWhereBodiesPartAndGo_data();
   void strokesEndWhereBodiesPartAndGo();
   void bothHandsDrawAtOnce();
+  void aHandThatErasesPartsABody();
   void oneHandErases_data();
   void oneHandErases();
   void preferencesActAtOnce();
@@ -409,6 +410,46 @@ void VrHandsTest::bothHandsDrawAtOnce() {
   QVERIFY(drawn(left.x()));
   document().undoStack().undo();
   QCOMPARE(bodies(), m_before);
+}
+
+/// Through a bar in the air: its smaller piece is a body then, which undo takes back before the stroke.
+void VrHandsTest::aHandThatErasesPartsABody() {
+  Toolbox& tools = m_window->tools();
+  tools.takeBrush("cube");
+  BrushSettings cube = tools.brush();
+  const double radius = std::exchange(cube.radius, 0.035), spacing = tools.spacing();
+  tools.setBrush(cube);
+  Body bar;
+  bar.id = "bar", bar.material = "water";
+  bar.constraints.push_back({"bonds", {}, {}});
+  bar.parameters.values["temperature"] = 260.0;
+  VoxelShape cells;
+  cells.origin = Vector3::Constant(spacing / 2);
+  cells.spacing = spacing;
+  cells.palette = {{"water", 260}};
+  for (int k = 0; k < 4; ++k) cells.runs.push_back({-8, 30 + k % 2, k / 2, 17, 0});
+  bar.shape = cells;
+  document().addBody(bar);
+  const size_t all = idsNow(session()).size();
+  QTRY_VERIFY_WITH_TIMEOUT(session().newest()->position.size() == all, kLong);
+  const std::string before = writeProject(document().project());
+  const int begun = steps();
+
+  VrHands hands(session(), tools);
+  vr::HandsSeen seen;
+  const auto at = [&](int k) { return spacing * Vector3(4.5, 29 + k, 1); };
+  actAt(hands, seen, vr::kLeft, at(0), 0);
+  for (int k = 0; k < 5; ++k) actAt(hands, seen, vr::kLeft, at(k), 1);
+  actAt(hands, seen, vr::kLeft, at(4), 0);
+  QCOMPARE(document().undoStack().undoText(), QStringLiteral("erasing stroke"));
+  QTRY_COMPARE_WITH_TIMEOUT(bodies(), m_before + 2, kLong);
+  QCOMPARE(steps(), begun + 2);
+  document().undoStack().undo();
+  QCOMPARE(bodies(), m_before + 1);
+  document().undoStack().undo();
+  QCOMPARE(writeProject(document().project()), before);
+  cube.radius = radius;
+  tools.setBrush(cube);
 }
 
 void VrHandsTest::oneHandErases_data() {

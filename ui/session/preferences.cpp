@@ -18,8 +18,8 @@ constexpr const char *kMemory = "recording/memory", *kUndo = "undo/memory", *kDi
                      *kMouse = "look/mouse", *kPivot = "handles/pivot", *kSnap = "handles/snap",
                      *kSurfaces = "handles/surfaces", *kMoveStep = "handles/moveStep", *kTurnStep = "handles/turnStep",
                      *kScaleStep = "handles/scaleStep", *kBrushes = "sketch/favouriteBrushes",
-                     *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye", *kLeftHanded = "vr/leftHanded",
-                     *kOneHanded = "vr/oneHanded", *kSeated = "vr/seatedHeight";
+                     *kPieces = "sketch/piecesBecomeBodies", *kVibration = "vr/vibration", *kShowsEye = "vr/showsEye",
+                     *kLeftHanded = "vr/leftHanded", *kOneHanded = "vr/oneHanded", *kSeated = "vr/seatedHeight";
 constexpr const char* kFolders[] = {"folders/projects", "folders/presets", "folders/plugins"};
 constexpr int kUsualUndo = 512, kUsualDisk = 8192, kMost = 1 << 24;  // MiB
 constexpr double kMostStep = 1e4;
@@ -126,6 +126,9 @@ void setSeatedHeight(int centimetres) { set(kSeated, centimetres); }
 
 bool showsEye() { return QSettings().value(QLatin1String(kShowsEye), false).toBool(); }
 void setShowsEye(bool on) { set(kShowsEye, on); }
+
+bool piecesBecomeBodies() { return QSettings().value(QLatin1String(kPieces), true).toBool(); }
+void setPiecesBecomeBodies(bool on) { set(kPieces, on); }
 
 QByteArray favouriteBrushes() { return QSettings().value(QLatin1String(kBrushes)).toByteArray(); }
 void setFavouriteBrushes(const QByteArray& text) { set(kBrushes, text); }

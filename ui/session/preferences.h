@@ -71,6 +71,10 @@ void setSeatedHeight(int centimetres);
 bool showsEye();
 void setShowsEye(bool on);
 
+/// Whether what a hand cuts off a sketched body becomes a body of its own.
+bool piecesBecomeBodies();
+void setPiecesBecomeBodies(bool on);
+
 /// As textOf() of ui/tools/favouritebrush.h has them; "": none.
 QByteArray favouriteBrushes();
 void setFavouriteBrushes(const QByteArray& text);

@@ -473,6 +473,7 @@ void SceneLink::repaint(const StrokeRecord& stroke, std::vector<std::array<int, 
 }
 
 void SceneLink::erase(const StrokeRecord& stroke, std::vector<std::array<int, 3>> cells) {
+  Q_EMIT parting(stroke.matter, {});
   m_engine.apply(TakeCells{stroke.lattice, std::move(cells), lockedBodies(), draws(stroke)});
   Q_EMIT matterEdited();
 }
@@ -488,6 +489,12 @@ std::vector<std::string> SceneLink::lockedBodies() const {
 void SceneLink::touch(const StrokeRecord& stroke, TouchMatter touch) {
   touch.key = keyOf(stroke.matter);
   touch.spared = lockedBodies();
+  std::vector<api::Touch> cuts;
+  for (const auto* touches : {&touch.path, &touch.still}) {
+    std::copy_if(touches->begin(), touches->end(), std::back_inserter(cuts),
+                 [](const api::Touch& one) { return one.kind == api::TouchKind::Cut; });
+  }
+  if (!cuts.empty()) Q_EMIT parting(stroke.matter, cuts);
   m_engine.apply(std::move(touch));
   Q_EMIT matterEdited();
 }

@@ -56,6 +56,8 @@ class SceneLink : public QObject {
   SnapshotPtr scene() const;
   /// Whether time passes in the scene.
   bool runs() const;
+  /// Whether a hand draws or erases, by a stroke that the document does not know yet.
+  bool isDrawing() const { return any(m_drawn); }
   /// Strokes of which neither the project's bodies nor its state know: they erased or painted after the start, where
   /// matter no longer stands where bodies put it, or drew where there is no room at the start.
   size_t strokesOfTheRun() const;
@@ -63,6 +65,9 @@ class SceneLink : public QObject {
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
 
  Q_SIGNALS:
+  /// The stroke of this matter is about to erase, or to cut there, and not for the first time perhaps: who asks the
+  /// engine now sees it as it is before.
+  void parting(const ps::MatterRef& stroke, const std::vector<ps::api::Touch>& cuts);
   void matterEdited();  ///< as it stands now: a hand wants to see it
 
  private:

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <variant>
 #include <vector>
 
 namespace ps {
@@ -157,6 +158,9 @@ void EditActions::openItemMenu(const QPoint& global) const {
     if (placed) add("view.frame");
     menu->addSeparator();
     for (const char* name : {"edit.cut", "edit.copy", "edit.paste", "edit.duplicate", "edit.delete"}) add(name);
+    if (const Body* sketch = body ? m_document.body(m_selection.body()) : nullptr;
+        sketch && std::holds_alternative<VoxelShape>(sketch->shape))
+      add("sketch.separate");
     menu->addSeparator();
     if (kind != OutlineKind::Probe && kind != OutlineKind::Pin) {
       add("edit.group");

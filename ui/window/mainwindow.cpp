@@ -36,6 +36,7 @@
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
 #include "ui/window/handleactions.h"
+#include "ui/window/handparting.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
 #include "ui/window/loosematter.h"
@@ -272,6 +273,9 @@ void MainWindow::makeMenus() {
   makeSimulationMenu(bar->addMenu(QStringLiteral("Simulation")));
   QMenu* sketch = bar->addMenu(QStringLiteral("Sketch"));
   m_sketch->makeMenu(sketch);
+  new HandParting(
+      *m_session, *m_selection, *m_notices, *m_actions.find(QStringLiteral("sketch.separate")),
+      [this](const std::string& body) { return m_sketch->hasOtherCells(body); }, this);
   adding->addSeparator();
   for (const char* name : {"sketch.tap", "sketch.drain", "edit.probe", "edit.probeAll"})
     adding->addAction(m_actions.find(QString::fromLatin1(name)));

@@ -72,6 +72,7 @@ class Preferences : public QDialog {
                     const std::function<QString(int)>& text, const std::function<void(int)>& set);
   void addTheme();
   void addHeadset();
+  void addSketch();
   void addAutosave();
   void addUndo();
   void addRecording();
@@ -97,6 +98,7 @@ Preferences::Preferences(MainWindow& window) : QDialog(&window), m_window(window
   m_grid->setColumnStretch(1, 1);
   addTheme();
   addHeadset();
+  addSketch();
   addAutosave();
   addUndo();
   addRecording();
@@ -195,6 +197,18 @@ void Preferences::addHeadset() {
       QStringLiteral("In the window"), QStringLiteral("What it shows while the headset is on."),
       {{QStringLiteral("The view, as without"), 0}, {QStringLiteral("What the left eye sees"), 1}}, mirror->isChecked(),
       [](int) { return QString(); }, [mirror](int eye) { mirror->setChecked(eye == 1); });
+}
+
+void Preferences::addSketch() {
+  heading(QStringLiteral("Sketch"));
+  choice(
+      QStringLiteral("Pieces that are cut off"),
+      QStringLiteral("What a hand parts of a sketched body by erasing or cutting, also in a headset. Crumbs of fewer "
+                     "than 8 cells stay with it, and what breaks or melts apart by itself does until Sketch > Separate "
+                     "pieces."),
+      {{QStringLiteral("Become bodies"), 1}, {QStringLiteral("Stay with their body"), 0}},
+      preferences::piecesBecomeBodies() ? 1 : 0, [](int) { return QString(); },
+      [](int become) { preferences::setPiecesBecomeBodies(become == 1); });
 }
 
 void Preferences::addAutosave() {
@@ -375,6 +389,7 @@ std::vector<DialogRow> preferenceRows() {
           {QStringLiteral("Hands in use"), QStringLiteral("headset VR one-handed palette wrist")},
           {QStringLiteral("Seated height"), QStringLiteral("headset VR sitting chair offset")},
           {QStringLiteral("In the window"), QStringLiteral("headset VR mirror eye")},
+          {QStringLiteral("Pieces that are cut off"), QStringLiteral("sketch erase cut parts bodies separate")},
           {QStringLiteral("Copy it"), QStringLiteral("unsaved work autosave crash")},
           {QStringLiteral("Keeps at most"), QStringLiteral("undo memory steps")},
           {QStringLiteral("In memory, at most"), QStringLiteral("recording of a run")},

@@ -31,17 +31,6 @@ namespace ps {
 namespace {
 const Address kGravity{Owner::Scene, "", "gravity"};
 constexpr double kEarth = 9.81;  // m/s^2
-
-/// Some of a body.
-bool isSolid(const Engine& engine, const std::string& id) {
-  const std::vector<std::string>& bodies = engine.bodyIds();
-  const auto index = static_cast<uint32_t>(std::find(bodies.begin(), bodies.end(), id) - bodies.begin());
-  const ParticleStore& store = engine.particles();
-  for (size_t i = 0; i < store.size(); ++i) {
-    if (store.body()[i] == index && api::holds(store.motion()[i])) return true;
-  }
-  return false;
-}
 }  // namespace
 
 QString materialAction(int number) { return QStringLiteral("sketch.material%1").arg(number + 1); }
@@ -202,8 +191,9 @@ void SketchActions::separate() {
   if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({}, resized);
   // The engine's thread may come to it when the window has gone.
   m_session.engine()->ask([self = QPointer(this), bodies, resized, all = chosen.empty()](const Engine& engine) mutable {
+    const TiedScene moment = tiedScene(engine);
     for (Pieces& one : bodies) {
-      if (!all || isSolid(engine, one.body.id)) one.cells = piecesOf(engine, one.body);
+      if (!all || isSolid(moment, one.body.id)) one.cells = piecesOf(moment, one.body);
     }
     QMetaObject::invokeMethod(QCoreApplication::instance(), [self, resized, bodies = std::move(bodies)] {
       if (self) self->part(bodies, resized);

@@ -35,6 +35,8 @@ class SketchActions : public QObject {
   void addBrushes();  ///< once plugins are there
   void addGravity(QMenu* menu);
 
+  bool hasOtherCells(const std::string& body) const;  ///< than its matter was made of
+
   QAction* makeReal() const { return m_makeReal; }  ///< enabled while something is held
 
  Q_SIGNALS:
@@ -56,7 +58,6 @@ class SketchActions : public QObject {
   };
   void part(const std::vector<Pieces>& bodies, const QString& resized);
   void noteSize(const std::string& body, double factor);
-  bool hasOtherCells(const std::string& body) const;  ///< than its matter was made of
   void turnGravity();
   QList<QKeySequence> keysOf(const std::string& brush) const;
 
