@@ -432,7 +432,8 @@ namespace {
 
 /// N, of what the hand feels; 0: nothing.
 double effortOf(const Engine& engine) {
-  const std::vector<ToolContact>& all = engine.snapshot()->tools;
+  const SnapshotPtr snapshot = engine.snapshot();
+  const std::vector<ToolContact>& all = snapshot->tools;
   const auto found = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.body == contactOf(kKey); });
   return found == all.end() ? 0 : found->force.norm();
 }
