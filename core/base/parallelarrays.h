@@ -12,10 +12,21 @@
 // longer for a dozen such arrays than all threads for the rest of new lists.
 namespace ps {
 
+/// Makes it as long as that. What it held is lost where there was no room; resize() would copy it, and take twice as
+/// much.
+template <class T>
+void lengthen(std::vector<T>& values, size_t count, size_t spare = 0) {
+  if (count > values.capacity()) {
+    std::vector<T>().swap(values);
+    values.reserve(count + spare);
+  }
+  values.resize(count);
+}
+
 /// As values.assign(count, value).
 template <class T>
 void assignAll(std::vector<T>& values, size_t count, const T& value) {
-  values.resize(count);
+  lengthen(values, count);
   forChunks(count, grain::kNumbers,
             [&](size_t first, size_t last) { std::fill(values.data() + first, values.data() + last, value); });
 }
@@ -23,16 +34,16 @@ void assignAll(std::vector<T>& values, size_t count, const T& value) {
 /// As values.assign(from.begin(), from.end()).
 template <class T>
 void assignAll(std::vector<T>& values, std::span<const T> from) {
-  values.resize(from.size());
+  lengthen(values, from.size());
   forChunks(from.size(), grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(from.data() + first, from.data() + last, values.data() + first);
   });
 }
 
-/// As values.assign(), with `one` and then `other`.
+/// As values.assign(), with `one` and then `other`, whose numbers come and go.
 template <class T>
 void assignBoth(std::vector<T>& values, std::span<const T> one, std::span<const T> other) {
-  values.resize(one.size() + other.size());
+  lengthen(values, one.size() + other.size(), (one.size() + other.size()) / 32);
   forChunks(values.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) values[k] = k < one.size() ? one[k] : other[k - one.size()];
   });
