@@ -552,8 +552,9 @@ class TestWindow : public QObject {
 
   /// Where there is nothing to see it is said what to do. Outliner, panels, run and searches have tests of their own.
   void emptyPlacesHaveTheirSentences() {
-    MessageLog log;
-    MessagesPage page(log);
+    Session idle({.autosave = false, .pluginPaths = {}, .autosaveDirectory = {}});
+    MessageLog& log = idle.log();
+    MessagesPage page(idle);
     page.show();
     const auto says = [](const QWidget& widget, const QString& text) {
       const auto labels = widget.findChildren<QLabel*>();
