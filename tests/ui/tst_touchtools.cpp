@@ -545,6 +545,10 @@ class TestTouchTools : public ToolTest {
     m_tools->takeBrush("grab");
     m_tools->activate("erase");
     QCOMPARE(m_tools->brush().shape, std::string("cube"));
+    QCOMPARE(m_tools->active(), std::string("erase"));
+    m_tools->takeBrush("fill");
+    QCOMPARE(m_tools->active(), std::string(kBrushTool));
+    QCOMPARE(m_tools->brush().shape, std::string("fill"));
     m_tools->takeBrush("stir");
     m_tools->activate(kSelectTool);
     QCOMPARE(m_tools->brush().shape, std::string("stir"));
