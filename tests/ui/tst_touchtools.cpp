@@ -491,6 +491,47 @@ class TestTouchTools : public ToolTest {
     QCOMPARE(m_document->undoStack().count(), 0);
   }
 
+  void erasingNothingLeavesNoStep_data() {
+    QTest::addColumn<bool>("later");
+    QTest::newRow("at the start") << false;
+    QTest::newRow("in a run") << true;
+  }
+  /// On the floor beside the block there is nothing, which is said; what is locked is said to be so.
+  void erasingNothingLeavesNoStep() {
+    QFETCH(bool, later);
+    if (later) {
+      m_engine->stepOnce();
+      QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->stats.frame == 1; }));
+    }
+    take("sphere", 1.5 * m_tools->spacing());
+    m_tools->activate("erase");
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    const int steps = m_document->undoStack().count();
+    const size_t all = m_engine->snapshot()->position.size();
+    const auto eraseAt = [&](const Vector3& place) {
+      m_tools->tool().press(at(place));
+      m_tools->tool().release(at(place));
+    };
+    eraseAt({-0.2, 0, 0.2});
+    QCOMPARE(m_document->undoStack().count(), steps);
+    QCOMPARE(refused.count(), 1);
+    QCOMPARE(refused[0][0].toString(), QStringLiteral("The matter stays as it is."));
+    QCOMPARE(refused[0][1].toString(), QStringLiteral("Nothing is there to erase."));
+    QCOMPARE(heaters(), 0.0);  // of all that was asked before
+    QCOMPARE(m_engine->snapshot()->position.size(), all);
+    eraseAt(kTop);
+    QCOMPARE(m_document->undoStack().count(), steps + 1);
+    QCOMPARE(m_document->undoStack().undoText(), QStringLiteral("erasing stroke"));
+    QTRY_VERIFY(m_engine->snapshot()->position.size() < all);
+    m_document->undoStack().undo();
+    QTRY_COMPARE(m_engine->snapshot()->position.size(), all);
+    m_document->setLocked({{Owner::Body, "ice", ""}}, true);
+    const int locked = m_document->undoStack().count();
+    eraseAt(kTop);
+    QCOMPARE(m_document->undoStack().count(), locked);
+    QCOMPARE(refused.last()[1].toString(), QStringLiteral("What is there is locked."));
+  }
+
   /// The way to a brush that draws, and from the eraser, is the one that the keys go.
   void drawingComesBack() {
     m_tools->activate("erase");
@@ -504,6 +545,10 @@ class TestTouchTools : public ToolTest {
     m_tools->takeBrush("grab");
     m_tools->activate("erase");
     QCOMPARE(m_tools->brush().shape, std::string("cube"));
+    QCOMPARE(m_tools->active(), std::string("erase"));
+    m_tools->takeBrush("fill");
+    QCOMPARE(m_tools->active(), std::string(kBrushTool));
+    QCOMPARE(m_tools->brush().shape, std::string("fill"));
     m_tools->takeBrush("stir");
     m_tools->activate(kSelectTool);
     QCOMPARE(m_tools->brush().shape, std::string("stir"));

@@ -84,6 +84,7 @@ class VrHandsTest : public VrWindowTest {
   void strokesEndWhereBodiesPartAndGo();
   void bothHandsDrawAtOnce();
   void aHandThatErasesPartsABody();
+  void aHandThatErasesNothingLeavesNoStep();
   void oneHandErases_data();
   void oneHandErases();
   void preferencesActAtOnce();
@@ -450,6 +451,26 @@ void VrHandsTest::aHandThatErasesPartsABody() {
   QCOMPARE(writeProject(document().project()), before);
   cube.radius = radius;
   tools.setBrush(cube);
+}
+
+/// In the air, which is said.
+void VrHandsTest::aHandThatErasesNothingLeavesNoStep() {
+  Toolbox& tools = m_window->tools();
+  tools.takeBrush("cube");
+  QSignalSpy refused(&tools, &Toolbox::refused);
+  const int begun = steps();
+  const size_t all = idsNow(session()).size();
+  VrHands hands(session(), tools);
+  vr::HandsSeen seen;
+  const Vector3 from(-0.2, 0.42, -0.2);
+  actAt(hands, seen, vr::kLeft, from, 0);
+  for (int k = 0; k <= 4; ++k) actAt(hands, seen, vr::kLeft, from + Vector3(0.03 * k, 0, 0), 1);
+  actAt(hands, seen, vr::kLeft, from + Vector3(0.12, 0, 0), 0);
+  QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
+  QCOMPARE(refused[0][0].toString(), QStringLiteral("The matter stays as it is."));
+  QCOMPARE(refused[0][1].toString(), QStringLiteral("Nothing is there to erase."));
+  QCOMPARE(steps(), begun);
+  QCOMPARE(idsNow(session()).size(), all);
 }
 
 void VrHandsTest::oneHandErases_data() {

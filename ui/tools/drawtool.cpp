@@ -283,9 +283,10 @@ bool DrawTool::cancel() {
 
 void DrawTool::refuse(const QString& why, bool kept) {
   m_said = !why.isEmpty();
-  box().refuse(kept            ? QStringLiteral("The stroke ends here.")
-               : meetsMatter() ? QStringLiteral("The matter stays as it is.")
-                               : QStringLiteral("Nothing was drawn."),
+  const bool leaves = meetsMatter() || m_stroke.erasedNothing();
+  box().refuse(kept     ? QStringLiteral("The stroke ends here.")
+               : leaves ? QStringLiteral("The matter stays as it is.")
+                        : QStringLiteral("Nothing was drawn."),
                why);
 }
 

@@ -101,7 +101,7 @@ void HandBrush::cancel() {
 void HandBrush::say(const QString& problem, bool kept) {
   if (problem.isEmpty()) return;
   if (kept) return m_box.refuse(QStringLiteral("The stroke ends here."), problem);
-  const bool draws = m_always.empty() && !m_box.touchesMatter() && !m_box.reworks();
+  const bool draws = m_always.empty() && !m_box.touchesMatter() && !m_box.reworks() && !m_stroke.erasedNothing();
   m_box.refuse(draws ? QStringLiteral("Nothing was drawn.") : QStringLiteral("The matter stays as it is."), problem);
 }
 

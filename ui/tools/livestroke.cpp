@@ -140,6 +140,7 @@ QString LiveStroke::whyNot(bool erase, const Snapshot& now, const Vector3& up) c
 }
 
 QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point, const Vector3& up, const Held& held) {
+  m_erasedNothing = false;
   if (const QString problem = whyNot(erase, now, up); !problem.isEmpty()) return problem;
   m_brush = m_box.brush();
   m_atStart = now.stats.frame == 0;
@@ -149,6 +150,7 @@ QString LiveStroke::begin(bool erase, const Snapshot& now, const Vector3& point,
   m_problem.clear();
   m_filled.clear();
   m_smooths = false;
+  m_met = Met::Nothing;
   m_record = std::make_shared<StrokeRecord>();
   m_record->erase = erase;
   m_record->lattice.origin = m_setup.grid.origin;
@@ -293,6 +295,7 @@ void LiveStroke::take() {
   if (m_kind == api::EditKind::Smooth) return smooth(fresh);
   const std::vector<std::array<int, 3>> cells = CellSet(fresh).indices();
   if (m_record->erase) {
+    meet(fresh);
     m_box.link()->erase(*m_record, cells);
   } else if (m_kind == api::EditKind::Add || m_kind == api::EditKind::Fill) {
     m_box.link()->paint(*m_record, m_body, cells);
@@ -328,16 +331,6 @@ void LiveStroke::collectPaint(StrokeRecord& record) const {
   }
 }
 
-void LiveStroke::collectErasure(StrokeRecord& record) const {
-  const Project& project = m_box.document().project();
-  const std::vector<VoxelShape::Stroke> strokes = pieces();
-  for (size_t i = 0; i < project.bodies.size(); ++i) {
-    if (project.bodies[i].locked) continue;
-    auto edit = eraseEdit(project.bodies[i], i, record.lattice, record.cells, strokes);
-    if (edit) record.edits.push_back(std::move(*edit));
-  }
-}
-
 void LiveStroke::lift() {
   if (!m_record) return;
   m_thread->lift();
@@ -346,7 +339,7 @@ void LiveStroke::lift() {
 }
 
 QString LiveStroke::finish() {
-  m_kept = false;
+  m_kept = m_erasedNothing = false;
   stopEnding();
   if (!m_record) return std::exchange(m_problem, {});
   m_thread->lift();
@@ -362,9 +355,10 @@ QString LiveStroke::finish() {
   m_thread.reset();
   m_sight.show(nullptr);
   const bool isLost = !stands();
-  m_kept = m_record && !isLost && !m_cells.empty();
-  if (isLost)
-    cancel();
+  if (m_record && m_problem.isEmpty() && !isLost) m_problem = whyNothingErased();
+  m_kept = m_record && !isLost && !m_erasedNothing && !m_cells.empty();
+  if (isLost || m_erasedNothing)
+    cancel();  // gives back what came into its way unseen
   else if (m_record)
     keep();  // what came so far stays, unless the brush failed
   return std::exchange(m_problem, {});

@@ -56,6 +56,8 @@ class LiveStroke {
   /// "" or why what is being drawn flows, though the brush is to hold it together.
   QString whatFlows() const;
   bool kept() const { return m_kept; }  ///< finish() has left something of it
+  /// finish() has left nothing of a stroke that erases, as it took nothing.
+  bool erasedNothing() const { return m_erasedNothing; }
   /// Something has gone wrong since, and nothing more is drawn: finish() says what. `call` is called when it does.
   bool troubled() const { return !m_problem.isEmpty(); }
   void onTrouble(std::function<void()> call) { m_onTrouble = std::move(call); }
@@ -89,6 +91,8 @@ class LiveStroke {
   QString putAside(const char* why);
   std::vector<VoxelShape::Stroke> pieces() const;
   std::string groupOfSelection() const;
+  void meet(const std::vector<api::Cell>& fresh);
+  QString whyNothingErased();
   void collectErasure(StrokeRecord& record) const;
   void collectPaint(StrokeRecord& record) const;
 
@@ -106,7 +110,9 @@ class LiveStroke {
   QString m_problem;
   std::function<void()> m_onTrouble, m_onEnd;
   bool m_ends = false;
-  bool m_kept = false;
+  bool m_kept = false, m_erasedNothing = false;
+  enum class Met { Nothing, Locked, Matter };
+  Met m_met = Met::Nothing;  ///< where an erasing stroke went
   StrokeSetup m_setup;
   Sight m_sight;
   Vector3 m_up{0, 1, 0};  ///< in the scene, away from what is drawn on

@@ -245,7 +245,9 @@ void Toolbox::setHandles(const HandleSettings& settings) {
 }
 
 void Toolbox::takeBrush(const std::string& id) {
-  if (!draws(id) && tool().usesBrush()) activate(kBrushTool);
+  // An eraser of one particle at a time is not what one means who chooses to fill.
+  const bool onlyAdds = m_active == kEraseTool && can(api::kFillsHollows, id);
+  if ((onlyAdds || !draws(id)) && tool().usesBrush()) activate(kBrushTool);
   BrushSettings brush = m_brush;
   brush.shape = id;
   setBrush(brush);
