@@ -172,8 +172,13 @@ class TestHelp : public SampleWindowTest {
         return button->property("shape").toString() == QLatin1String(shape);
       });
     };
-    for (QScrollArea* area : bar->findChildren<QScrollArea*>()) area->ensureWidgetVisible(of("paint"));
-    QTest::mouseMove(of("paint"), of("paint")->rect().center());
+    dialog()->hide();  // it may lie over the bar
+    const auto pointAtPaint = [&] {
+      for (QScrollArea* area : bar->findChildren<QScrollArea*>()) area->ensureWidgetVisible(of("paint"));
+      QTest::mouseMove(of("paint"), of("paint")->rect().center());
+      return QApplication::widgetAt(QCursor::pos()) == of("paint");
+    };
+    QTRY_VERIFY(pointAtPaint());  // the bar has just been laid out
     f1();
     QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
     const auto isOnTop = [&](const char* words) { return topOf(words) > -8 && topOf(words) < 40; };  // px
