@@ -37,6 +37,21 @@ class TestKeyRows : public CurveWindowTest {
     m_steps = document().undoStack().count();
   }
 
+  /// Where all is shorter than a second a tenth would be far from the pointer. Within half a hundredth, half a frame of
+  /// a sixtieth, and a pixel.
+  void aDoubleClickInAShortSceneIsFiner() {
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    ProjectAbout about = document().about();
+    about.duration = 0.5;
+    document().setAbout(about, QStringLiteral("duration"));
+    QCOMPARE(document().putKey(kFloor, 0, 300), QString());
+    QTRY_VERIFY(rows().xOf(0.5) > rows().width() / 2);  // the first of all: nothing that was recorded is longer
+    QTest::mouseDClick(&rows(), Qt::LeftButton, {},
+                       {static_cast<int>(rows().xOf(0.25)), rows().placeOf(kFloor, 0).y()});
+    QCOMPARE(keys(kFloor).size(), size_t{2});
+    QVERIFY2(std::abs(keys(kFloor)[1].time - 0.25) < 0.02, qPrintable(QString::number(keys(kFloor)[1].time)));
+  }
+
   /// A box around three of four keys in two rows; they go as one, and with Delete.
   void keysInABoxGoTogether() {
     const std::string before = text();
@@ -233,21 +248,6 @@ class TestKeyRows : public CurveWindowTest {
     QVERIFY(std::abs(tenth - 15) < 0.5 && isWhole(10 * tenth));
     QVERIFY(std::abs(frame - 30) < 0.5 && isWhole(60 * frame));
     QCOMPARE(keys(kFloor).size(), size_t{5});
-  }
-
-  /// Where all is shorter than a second a tenth would be far from the pointer. Within half a hundredth, half a frame of
-  /// a sixtieth, and a pixel.
-  void aDoubleClickInAShortSceneIsFiner() {
-    while (document().undoStack().canUndo()) document().undoStack().undo();
-    ProjectAbout about = document().about();
-    about.duration = 0.5;
-    document().setAbout(about, QStringLiteral("duration"));
-    QCOMPARE(document().putKey(kFloor, 0, 300), QString());
-    QTRY_VERIFY(rows().xOf(0.5) > rows().width() / 2);  // nothing that was recorded is longer
-    QTest::mouseDClick(&rows(), Qt::LeftButton, {},
-                       {static_cast<int>(rows().xOf(0.25)), rows().placeOf(kFloor, 0).y()});
-    QCOMPARE(keys(kFloor).size(), size_t{2});
-    QVERIFY2(std::abs(keys(kFloor)[1].time - 0.25) < 0.02, qPrintable(QString::number(keys(kFloor)[1].time)));
   }
 
   /// By the menu of a key, also past another one.

@@ -438,7 +438,7 @@ void VrHandsTest::aHandThatErasesPartsABody() {
 
   VrHands hands(session(), tools);
   vr::HandsSeen seen;
-  const auto at = [&](int k) { return spacing * Vector3(4.5, 29 + k, 1); };
+  const auto at = [&](int k) -> Vector3 { return spacing * Vector3(4.5, 29 + k, 1); };
   actAt(hands, seen, vr::kLeft, at(0), 0);
   for (int k = 0; k < 5; ++k) actAt(hands, seen, vr::kLeft, at(k), 1);
   actAt(hands, seen, vr::kLeft, at(4), 0);

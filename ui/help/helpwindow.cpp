@@ -7,13 +7,17 @@
 #include <QtCore/QEvent>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QUrl>
+#include <QtGui/QAbstractTextDocumentLayout>
 #include <QtGui/QTextBlock>
 #include <QtGui/QTextCursor>
 #include <QtGui/QTextDocument>
 #include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QTextBrowser>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
 
 namespace ps {
 namespace {
@@ -119,6 +123,10 @@ void HelpWindow::showPage(const HelpPage& page, const QString& section) {
     anchor.setAnchor(true);
     anchor.setAnchorNames({section});
     first.mergeCharFormat(anchor);
+    // Long pages are laid out bit by bit, and the scroll bar would not reach so far yet.
+    const QTextDocument& all = *m_text->document();
+    const double end = all.documentLayout()->blockBoundingRect(all.lastBlock()).bottom() + all.documentMargin();
+    m_text->verticalScrollBar()->setMaximum(std::max(0, static_cast<int>(end) - m_text->viewport()->height()));
     return m_text->scrollToAnchor(section);
   }
 }
