@@ -461,7 +461,9 @@ class TestWindow : public QObject {
     for (const QAction* action : menu->actions()) names << action->text();
     QApplication::activePopupWidget()->close();
     QCOMPARE(names.front(), QStringLiteral("Ellipsoid"));  // what Ctrl+K calls "Add body: ellipsoid"
-    for (const QMenu* each : menu->findChildren<QMenu*>() << const_cast<QMenu*>(menu))
+    QList<QMenu*> menus = menu->findChildren<QMenu*>();
+    menus << const_cast<QMenu*>(menu);
+    for (const QMenu* each : std::as_const(menus))
       for (const QAction* action : each->actions())
         QVERIFY2(!action->text().contains(QLatin1Char(':')), qPrintable(action->text()));
     for (const char* name : {"Wall", "Tool", "Place a tap", "Place a drain", "Add probe"})
