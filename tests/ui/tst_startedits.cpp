@@ -107,6 +107,7 @@ class TestStartEdits : public SampleWindowTest {
     brush.material = "iron";
     m_window->tools().setBrush(brush);
     m_window->action(QStringLiteral("sketch.shape.paint"))->trigger();
+    QTest::qWait(600);  // what the test before has undone is made by then
     const uint64_t start = startHash(), revision = session().newest()->revision;
     // The hand rests amid the stroke for longer than a drag does: nothing of it is lost.
     const double spacing = std::get<double>(document().value(kSpacing));
