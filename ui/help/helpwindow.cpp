@@ -7,17 +7,13 @@
 #include <QtCore/QEvent>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QUrl>
-#include <QtGui/QAbstractTextDocumentLayout>
 #include <QtGui/QTextBlock>
 #include <QtGui/QTextCursor>
 #include <QtGui/QTextDocument>
 #include <QtWidgets/QHBoxLayout>
-#include <QtWidgets/QScrollBar>
 #include <QtWidgets/QTextBrowser>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
-
-#include <algorithm>
 
 namespace ps {
 namespace {
@@ -115,7 +111,10 @@ void HelpWindow::showPage(const HelpPage& page, const QString& section) {
   m_text->document()->setDefaultStyleSheet(sheet());
   m_text->setHtml(page.html ? page.text : htmlOf(page.text));
   const QString words = page.sections.value(section);
-  for (QTextBlock line = m_text->document()->begin(); line.isValid() && !words.isEmpty(); line = line.next()) {
+  if (words.isEmpty()) return;
+  // Qt lays a long page out bit by bit, and what is changed meanwhile keeps it from ever coming to the end.
+  m_text->document()->pageCount();
+  for (QTextBlock line = m_text->document()->begin(); line.isValid(); line = line.next()) {
     if (!line.text().startsWith(words)) continue;
     QTextCursor first(line);
     first.movePosition(QTextCursor::NextCharacter, QTextCursor::KeepAnchor);
@@ -123,10 +122,6 @@ void HelpWindow::showPage(const HelpPage& page, const QString& section) {
     anchor.setAnchor(true);
     anchor.setAnchorNames({section});
     first.mergeCharFormat(anchor);
-    // Long pages are laid out bit by bit, and the scroll bar would not reach so far yet.
-    const QTextDocument& all = *m_text->document();
-    const double end = all.documentLayout()->blockBoundingRect(all.lastBlock()).bottom() + all.documentMargin();
-    m_text->verticalScrollBar()->setMaximum(std::max(0, static_cast<int>(end) - m_text->viewport()->height()));
     return m_text->scrollToAnchor(section);
   }
 }

@@ -94,8 +94,8 @@ void Help::open(const QString& id) {
     });
     connect(&m_window.tools(), &Toolbox::mouseChanged, dialog, &HelpWindow::refresh);
   }
-  dialog->show();  // first: where a section stands depends on how wide it is
   dialog->open(id);
+  dialog->show();
   dialog->raise();
 }
 
