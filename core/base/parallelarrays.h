@@ -3,6 +3,7 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,8 +50,13 @@ void assignBoth(std::vector<T>& values, std::span<const T> one, std::span<const 
   });
 }
 
-/// Each number becomes the sum of all up to it; `sums` is room for one of each chunk.
-inline void sumUp(std::span<uint32_t> numbers, std::vector<uint32_t>& sums) {
+/// Returns what the number was. Threads come in any order: who uses that as a place sorts what is there.
+inline uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
+
+/// Each number becomes the sum of all up to it.
+inline void sumUp(std::span<uint32_t> numbers) {
+  static thread_local std::vector<uint32_t> room;
+  std::vector<uint32_t>& sums = room;  // this thread's, whoever helps it
   const size_t count = numbers.size();
   sums.assign(chunkCount(count, grain::kNumbers), 0);
   forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {

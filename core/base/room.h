@@ -43,7 +43,7 @@ void zeroFrom(RoomVector<T>& values, size_t from) {
 template <class T>
 void makeRoomFor(RoomVector<T>& values, size_t count) {
   if (count <= values.size()) return;
-  values = {};  // before there is the next one
+  RoomVector<T>().swap(values);  // before there is the next one; {} would keep its memory
   values.resize(count + count / 32);
   zeroFrom(values, 0);
 }

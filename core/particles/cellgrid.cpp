@@ -3,15 +3,11 @@
 
 #include "core/base/parallelarrays.h"
 
-#include <atomic>
-
 namespace ps {
 namespace {
 
 /// Places from which on several threads sort them: below that, sharing the work costs more than it saves.
 constexpr size_t kMany = 1 << 16;
-
-uint32_t next(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
 
 }  // namespace
 
@@ -70,16 +66,16 @@ void CellGrid::sortTogether() {
     std::fill(m_starts.begin() + static_cast<ptrdiff_t>(first), m_starts.begin() + static_cast<ptrdiff_t>(last), 0);
   });
   forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) next(m_starts[m_cellOf[i] + 1]);
+    for (size_t i = first; i < last; ++i) addOne(m_starts[m_cellOf[i] + 1]);
   });
-  sumUp(m_starts, m_sums);
+  sumUp(m_starts);
   m_next.resize(cells);
   forChunks(cells, grain::kNumbers, [&](size_t first, size_t last) {
     std::copy(m_starts.begin() + static_cast<ptrdiff_t>(first), m_starts.begin() + static_cast<ptrdiff_t>(last),
               m_next.begin() + static_cast<ptrdiff_t>(first));
   });
   forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) m_order[next(m_next[m_cellOf[i]])] = static_cast<uint32_t>(i);
+    for (size_t i = first; i < last; ++i) m_order[addOne(m_next[m_cellOf[i]])] = static_cast<uint32_t>(i);
   });
   forChunks(cells, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t c = first; c < last; ++c) std::sort(m_order.data() + m_starts[c], m_order.data() + m_starts[c + 1]);

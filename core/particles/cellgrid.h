@@ -114,7 +114,7 @@ class CellGrid {
   int m_cells[3] = {1, 1, 1};
   bool m_repeats[3] = {false, false, false};
   std::vector<Bounds> m_bounds;  ///< by chunk
-  std::vector<uint32_t> m_starts, m_order, m_cellOf, m_next, m_sums;
+  std::vector<uint32_t> m_starts, m_order, m_cellOf, m_next;
   bool m_sorted = false;
 };
 

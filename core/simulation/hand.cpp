@@ -23,20 +23,6 @@ constexpr size_t kMarks = 3;     // moves of a hand over which the velocity is t
 constexpr double kThrown = 0.1;  // s of simulated time after the last one in which it throws
 constexpr double kFelt = 0.1;    // s over which its effort is smoothed: what is held shakes from frame to frame
 
-/// kg m/s that some changes of velocity give.
-Vector3 impulseOf(const ParticleStore& store, const std::vector<Vector3>& change) {
-  Vector3 sum(0, 0, 0);
-  for (size_t row = 0; row < change.size(); ++row) sum += double{store.mass()[row]} * change[row];
-  return sum;
-}
-
-/// Likewise, whichever way.
-double effortOf(const ParticleStore& store, const std::vector<Vector3>& change) {
-  double sum = 0;
-  for (size_t row = 0; row < change.size(); ++row) sum += double{store.mass()[row]} * change[row].norm();
-  return sum;
-}
-
 bool heats(const api::Touch& touch) { return touch.kind == api::TouchKind::Heat; }
 
 /// How firmly a hand holds each particle when it begins, 0 .. 1: those within the ball, and less and less what is tied
@@ -164,25 +150,21 @@ void Hand::push(Engine& engine, const std::vector<uint8_t>& isSpared) {
   const Reachable among = reachableBy(api::TouchKind::Push, engine, isSpared);
   const auto holds = [](const api::Touch& touch) { return touch.kind == api::TouchKind::Hold; };
   const bool moved = std::exchange(m_moved, false);
-  const SolverSettings settings = compileSettings(engine.project());
-  const double dt = settings.dt;
+  const double dt = compileSettings(engine.project()).dt;
   if (among.rows.empty() && m_letGo.empty() && std::none_of(m_still.begin(), m_still.end(), holds)) return feel({}, dt);
   std::vector<Vector3> change(engine.particles().size(), Vector3(0, 0, 0));
   forEach([&](const api::Touch& touch, double share) {
     if (touch.kind == api::TouchKind::Push) addPush(engine, touch, dt * share, among, change);
   });
   Effort effort;
-  effort.push = effortOf(engine.particles(), change) / dt;
-  const Vector3 pushed = impulseOf(engine.particles(), change);
+  for (const uint32_t row : among.rows) effort.push += double{engine.particles().mass()[row]} * change[row].norm() / dt;
   for (size_t k = 0; k < m_still.size(); ++k) {
     if (!holds(m_still[k])) continue;
     if (!m_held[k]) m_held[k] = take(engine, m_first[k], isSpared);
     if (moved) note(engine, vectorOf(m_still[k].centre), *m_held[k]);
     m_held[k]->force = m_still[k].force;
-    hold(engine, m_still[k], *m_held[k], change);
-    effort.pull += meanOf(engine, *m_held[k], vectorOf(m_still[k].centre)).mass * vectorOf(settings.gravity);
+    effort.pull += hold(engine, m_still[k], *m_held[k], change) / dt;
   }
-  effort.pull += (impulseOf(engine.particles(), change) - pushed) / dt;
   feel(effort, dt);
   for (const Grip& grip : std::exchange(m_letGo, {})) throwOn(engine, grip, change);
   engine.addVelocities(change);
@@ -204,8 +186,9 @@ Hand::Grip Hand::take(const Engine& engine, const api::Touch& touch, const std::
   return taken;
 }
 
-/// Brings what is held to where it was about the hand, without its weight, as far as the force reaches.
-void Hand::hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change) {
+/// Brings what is held to where it was about the hand, without its weight, as far as the force reaches. kg m/s that it
+/// gives beyond that weight.
+Vector3 Hand::hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change) {
   const ParticleStore& store = engine.particles();
   double total = 0;
   for (const Held& one : grip.held) {
@@ -213,13 +196,17 @@ void Hand::hold(const Engine& engine, const api::Touch& touch, const Grip& grip,
   }
   const SolverSettings settings = compileSettings(engine.project());
   const Vector3 weight = settings.dt * vectorOf(settings.gravity);
+  Vector3 pulled(0, 0, 0);
   for (const Held& one : grip.held) {
     const size_t row = store.indexOf(one.id);
     if (row >= store.size()) continue;
     const Vector3 speed = atMost(kFollows / settings.dt * (one.offset - offsetOf(store, row, touch.centre)), kFastest);
     const Vector3 wanted = speed - weight - vectorOf(store.velocity()[row]) - change[row];
-    change[row] += atMost(wanted, touch.force * settings.dt * one.weight / total);
+    const Vector3 given = atMost(wanted, touch.force * settings.dt * one.weight / total);
+    change[row] += given;
+    pulled += double{store.mass()[row]} * (given + weight);
   }
+  return pulled;
 }
 
 Hand::Mean Hand::meanOf(const Engine& engine, const Grip& grip, const Vector3& near) {

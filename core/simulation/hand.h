@@ -68,7 +68,7 @@ class Hand {
   HeatById heat(Engine& engine, const std::vector<uint8_t>& isSpared) const;
   void push(Engine& engine, const std::vector<uint8_t>& isSpared);
   static Grip take(const Engine& engine, const api::Touch& touch, const std::vector<uint8_t>& isSpared);
-  static void hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change);
+  static Vector3 hold(const Engine& engine, const api::Touch& touch, const Grip& grip, std::vector<Vector3>& change);
   /// What of it is still there. Its mean place, m, in the image nearest to `near`; its mean velocity, m/s.
   struct Mean {
     double mass = 0;  ///< kg; 0: nothing

@@ -15,7 +15,7 @@ enum class StepFlag : unsigned {
   NotFinite = 1,     ///< a NaN or infinity: raise substeps, or undo the last change of a stiffness or temperature
   LostParticle = 2,  ///< a particle left the bounds: raise substeps, or close the scene with walls
   Diverged = 4,      ///< density error above 50 %, in the mean over liquid that is 1 % of what moves, or more: raise
-                     ///< iterations, lower the relaxation
+                     ///< substeps (finersteps.h)
   PluginFault = 8,   ///< a plugin threw: see the message; the scene goes on without it
   EnergyOpen = 16,   ///< heat balance open by more than 1e-6 of what was exchanged: report a bug in the thermal model
   Unphysical = 32,   ///< a temperature below 0 K, shares outside 0 .. 1, a leap across the scene: see who is named

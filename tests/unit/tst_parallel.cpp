@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loops that threads share: each chunk once and no other, whoever shares at the same time, also after a throw and after
 // the threads have gone to sleep. What they gain is measured by tests/bench and `phasesketch-cli bench`.
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
+#include "core/base/room.h"
 #include "core/base/workers.h"
 
 #include <QTest>
 
 #include <chrono>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -40,6 +42,46 @@ class TestParallel : public QObject {
  private Q_SLOTS:
   void init() { setThreadCount(4); }
   void cleanup() { setThreadCount(0); }
+
+  void wholeArrays_data() {
+    QTest::addColumn<int>("count");
+    for (const int count : {0, 1, int(grain::kNumbers), 3 * int(grain::kNumbers) + 5})
+      QTest::newRow(qPrintable(QString::number(count))) << count;
+  }
+  /// As the standard library does it, also into memory that held something longer, and with no more room than asked.
+  void wholeArrays() {
+    QFETCH(int, count);
+    std::vector<uint32_t> numbers(static_cast<size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), 1u);
+    std::vector<uint32_t> sums(numbers), found(7, 3);
+    assignAll<uint32_t>(found, numbers);
+    QVERIFY(found == numbers);
+    const std::vector<uint32_t> some{8, 9};
+    assignBoth<uint32_t>(found, some, numbers);
+    std::vector<uint32_t> both(some);
+    both.insert(both.end(), numbers.begin(), numbers.end());
+    QVERIFY(found == both);
+    std::partial_sum(sums.begin(), sums.end(), sums.begin());
+    assignAll<uint32_t>(found, numbers);
+    sumUp(found);
+    QVERIFY(found == sums);
+    assignAll(found, numbers.size(), 5u);
+    QVERIFY(found == std::vector<uint32_t>(numbers.size(), 5));
+    std::vector<float> fresh;
+    for (const size_t size : {numbers.size(), numbers.size() + 1}) assignAll(fresh, size, 1.0f);
+    QCOMPARE(fresh.capacity(), numbers.size() + 1);
+  }
+
+  /// Zeros, and a thirty-second part more; it never gets smaller.
+  void roomIsZeroed() {
+    RoomVector<uint32_t> room;
+    makeRoomFor(room, 200000);
+    QCOMPARE(room.size(), size_t{200000 + 200000 / 32});
+    QVERIFY(std::all_of(room.begin(), room.end(), [](uint32_t number) { return number == 0; }));
+    const uint32_t* const before = room.data();
+    makeRoomFor(room, 1000);
+    QVERIFY(room.data() == before);
+  }
 
   void everyChunkRunsOnce_data() {
     QTest::addColumn<int>("threads");

@@ -41,7 +41,7 @@ std::optional<MouseBinding> bindingFor(MousePreset preset, bool draws, Qt::Mouse
 QString nameOf(MousePreset preset);
 /// "Drag to turn it, Shift+Drag to move it, the wheel to come closer.", said of the view while nothing is drawn.
 QString howToLook(MousePreset preset);
-/// "Alt+Drag", which turns the view while something is drawn.
+/// "Middle-drag or Alt+Drag", which turns the view while something is drawn.
 QString turningKeys(MousePreset preset);
 
 }  // namespace ps

@@ -5,7 +5,6 @@
 #include "core/solver/contact/nearneighbours.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace ps {
@@ -59,14 +58,13 @@ void LiquidContact::findLiquids(const ParticleStore& store, const Neighbours& ne
 
 /// The same pairs as the liquid sees them.
 void LiquidContact::addSolidsOfLiquids(size_t particles) {
-  const auto addOne = [](uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); };
   const size_t solids = m_contacts.size(), pairs = m_partner.size();
   assignAll(m_next, particles, 0u);
   forChunks(pairs, grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t q = first; q < last; ++q) addOne(m_next[m_partner[q]]);
   });
   findIndices(particles, m_liquids, [&](size_t j) { return m_next[j] != 0; });
-  sumUp(m_next, m_sums);
+  sumUp(m_next);
   m_contacts.resize(solids + m_liquids.size());
   forChunks(m_liquids.size(), grain::kNumbers, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {

@@ -51,9 +51,9 @@ class LiquidContact {
   std::vector<Chunk> m_chunks;
   std::vector<Contact> m_contacts;  ///< solids, then liquids, both ascending
   std::vector<uint32_t> m_partner;
-  std::vector<uint32_t> m_next;             ///< by particle, while lists are made
-  std::vector<uint32_t> m_liquids, m_sums;  ///< likewise
-  std::vector<uint8_t> m_touching;          ///< partners too near, by particle
+  std::vector<uint32_t> m_next;     ///< by particle, while lists are made
+  std::vector<uint32_t> m_liquids;  ///< likewise
+  std::vector<uint8_t> m_touching;  ///< partners too near, by particle
   std::vector<api::Float4> m_moves;
   ChunkSum m_fromFixed;
   ExternalImpulse m_externalImpulse;

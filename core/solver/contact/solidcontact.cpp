@@ -2,7 +2,6 @@
 #include "core/solver/contact/solidcontact.h"
 
 #include "core/base/parallelarrays.h"
-
 #include "core/solver/contact/handover.h"
 #include "core/solver/contact/nearneighbours.h"
 

@@ -76,8 +76,7 @@ const StructureGraph& ConstraintSystem::graph(size_t particles) {
   eachConstraint([&](std::span<const uint32_t> tied) {
     for (const uint32_t i : tied) begin[i + size_t{1}] += static_cast<uint32_t>(tied.size()) - 1;
   });
-  static thread_local std::vector<uint32_t> sums;
-  sumUp(begin, sums);
+  sumUp(begin);
   m_graph.partner.resize(begin[particles]);
   assignAll<uint32_t>(m_newIndex, begin);
   eachConstraint([&](std::span<const uint32_t> tied) {
