@@ -470,6 +470,16 @@ void TestTouch::aHandFeelsHowHardItWorks() {
   pushing.apply(still(push));
   run(pushing, 6);
   QVERIFY2(effortOf(pushing) > 10.5 && effortOf(pushing) < 12.8, qPrintable(QString::number(effortOf(pushing))));
+  Engine along(project, m_plugins);
+  for (int frame = 0; frame < 6; ++frame) {
+    along.apply(TouchMatter{{push}, 1, {}, {}, kKey});
+    run(along, 1);
+    QVERIFY(along.hands().empty());
+    along.apply(letGo());  // it has not come far enough for another place
+  }
+  QCOMPARE(effortOf(along), effortOf(pushing));
+  run(along, 60);
+  QCOMPARE(effortOf(along), 0.0);
   stirring.apply(still(stir));  // all round: no way is the stronger one
   run(stirring, 2);
   QVERIFY2(effortOf(stirring) > 5 && effortOf(stirring) < 31, qPrintable(QString::number(effortOf(stirring))));
