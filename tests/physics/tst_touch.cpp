@@ -442,7 +442,8 @@ double effortOf(const Engine& engine) {
 
 /// While it speeds up what it holds, and not its weight: a tenth of that is left of a block that shakes, twice over. A
 /// push of 20 N is felt as 12.6 after a tenth of a second, by the share 1 - 1/e of what is smoothed over as long; the
-/// push itself is 90 to 100 % of the force. Where a hand is gone nothing is felt.
+/// push itself is 90 to 100 % of the force. One that pushes as it goes is at work in some frames only, and feels that
+/// until it fades. Where a hand is gone nothing is felt.
 void TestTouch::aHandFeelsHowHardItWorks() {
   const double weight = 917 * std::pow(6 * kSpacing, 3) * 9.81;
   Engine lifting(twoBlocks(), m_plugins);
