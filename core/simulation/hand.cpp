@@ -83,6 +83,7 @@ void Hand::move(const TouchMatter& command) {
       if (grip) m_letGo.push_back(std::move(*grip));
     }
     m_held.clear();
+    m_effort.pull = Vector3(0, 0, 0);
   }
   m_moved = true;
   m_still = command.still;

@@ -32,14 +32,18 @@ class Hand {
   /// What it does in one frame, at its start. Matter within several balls gets heat from each, as far as their limits
   /// go.
   HandDeeds act(Engine& engine);
-  /// It has let go, and all that it did is done.
-  bool isGone() const { return m_path.empty() && m_still.empty() && m_letGo.empty(); }
+  /// There is something that it does, or is yet to do.
+  bool isAtWork() const { return !m_path.empty() || !m_still.empty() || !m_letGo.empty(); }
+  /// It has let go, all that it did is done, and it feels that no longer. A hand that pushes as it goes is at work in
+  /// some frames only.
+  bool isGone() const { return !isAtWork() && effort() < kUnfelt; }
   bool hasLetGo() const { return m_still.empty(); }
   /// N, how hard it works, over the last tenth of a second: what pulls at what it holds, without its weight, and how it
   /// pushes and stirs, whichever way.
   double effort() const { return m_effort.pull.norm() + m_effort.push; }
 
  private:
+  static constexpr double kUnfelt = 0.1;  ///< N, below which it feels nothing
   struct Path {
     std::vector<api::Touch> touches;
     double share;  ///< of the time of all paths, for each touch

@@ -113,7 +113,7 @@ std::vector<MatterKey> NamedMatter::keys() const {
 std::vector<MatterKey> NamedMatter::hands() const {
   std::vector<MatterKey> keys;
   for (const auto& [key, entry] : m_entries) {
-    if (entry.hand) keys.push_back(key);
+    if (entry.hand && entry.hand->isAtWork()) keys.push_back(key);
   }
   return keys;
 }
@@ -147,7 +147,7 @@ void NamedMatter::act(Engine& engine, Entry& entry) {
 /// not find there what it gave to it.
 void NamedMatter::finishHands(Engine& engine) {
   for (auto& [key, entry] : m_entries) {
-    if (entry.hand && entry.hand->hasLetGo()) act(engine, entry);
+    if (entry.hand && entry.hand->isAtWork() && entry.hand->hasLetGo()) act(engine, entry);
   }
 }
 

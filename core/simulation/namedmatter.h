@@ -36,7 +36,7 @@ class NamedMatter {
   std::shared_ptr<const MatterBytes> bytes() const;
   /// The keys of hands that are in matter: neither is that in a state.
   std::vector<MatterKey> hands() const;
-  /// How hard those work by now, called as contactOf() says.
+  /// How hard hands work by now, called as contactOf() says; also those that have just done so.
   std::vector<ToolContact> contacts() const;
   /// What hands do in a frame, before it.
   void act(Engine& engine);

@@ -442,7 +442,8 @@ double effortOf(const Engine& engine) {
 
 /// While it speeds up what it holds, and not its weight: a tenth of that is left of a block that shakes, twice over. A
 /// push of 20 N is felt as 12.6 after a tenth of a second, by the share 1 - 1/e of what is smoothed over as long; the
-/// push itself is 90 to 100 % of the force. Where a hand is gone nothing is felt.
+/// push itself is 90 to 100 % of the force. One that pushes as it goes is at work in some frames only, and feels that
+/// until it fades. Where a hand is gone nothing is felt.
 void TestTouch::aHandFeelsHowHardItWorks() {
   const double weight = 917 * std::pow(6 * kSpacing, 3) * 9.81;
   Engine lifting(twoBlocks(), m_plugins);
@@ -470,6 +471,16 @@ void TestTouch::aHandFeelsHowHardItWorks() {
   pushing.apply(still(push));
   run(pushing, 6);
   QVERIFY2(effortOf(pushing) > 10.5 && effortOf(pushing) < 12.8, qPrintable(QString::number(effortOf(pushing))));
+  Engine along(project, m_plugins);
+  for (int frame = 0; frame < 6; ++frame) {
+    along.apply(TouchMatter{{push}, 1, {}, {}, kKey});
+    run(along, 1);
+    QVERIFY(along.hands().empty());
+    along.apply(letGo());  // it has not come far enough for another place
+  }
+  QCOMPARE(effortOf(along), effortOf(pushing));
+  run(along, 60);
+  QCOMPARE(effortOf(along), 0.0);
   stirring.apply(still(stir));  // all round: no way is the stronger one
   run(stirring, 2);
   QVERIFY2(effortOf(stirring) > 5 && effortOf(stirring) < 31, qPrintable(QString::number(effortOf(stirring))));
