@@ -489,7 +489,6 @@ class TestContentWindow : public SampleWindowTest {
     QTRY_COMPARE(probeDetail(QStringLiteral("Ice core")), QStringLiteral("−10.0 °C"));
   }
 
-  /// A digit less moves nothing that stands beside it.
   /// Each number of it says what it is.
   void theStatusLineExplainsItself() {
     auto* line = m_window->findChild<StatusLine*>();
@@ -504,6 +503,7 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(line->tipAt({1, 1}).isEmpty());
   }
 
+  /// A digit less moves nothing that stands beside it.
   void theStatusLineStandsStill() {
     auto* line = m_window->findChild<StatusLine*>();
     StatusLine::State state = line->state();
