@@ -701,7 +701,6 @@ class TestContentWindow : public SampleWindowTest {
     }
   }
 
-  /// A row may be told of another quantity than its own, whose unit is then said.
   /// A low view has a legend too, whose bar is shorter; in one without room for it there is none.
   void aLowViewHasALegend() {
     OverlayState state;
@@ -718,6 +717,7 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(bar(150).isEmpty());
   }
 
+  /// A row may be told of another quantity than its own, whose unit is then said.
   void limitsHaveTheirOwnUnits() {
     const Address address{Owner::Solver, "", "particle_spacing"};
     const Limit limit{"solver.particle_spacing", 0.25, 0.3, "m³"};
