@@ -223,22 +223,10 @@ class TestBrushWindow : public SampleWindowTest {
     auto* form = m_window->findChild<QDialog*>(QStringLiteral("psBrushes"));
     QVERIFY(form);
     auto* list = form->findChild<QListWidget*>();
-    const auto click = [&](const char* text) {
-      const QList<QPushButton*> all = form->findChildren<QPushButton*>();
-      const auto found = std::find_if(all.begin(), all.end(), [&](const QPushButton* one) {
-        return one->text().startsWith(QString::fromUtf8(text));
-      });
-      QVERIFY2(found != all.end() && (*found)->isEnabled(), text);
-      (*found)->click();
-    };
-    const auto said = [&] {
-      const auto* label = form->findChild<QLabel*>(QStringLiteral("psDone"));
-      return label->isVisible() ? label->text() : QString();
-    };
-    QCOMPARE(said(), QString());
-    click("Keep this brush");
+    QCOMPARE(said(*form), QString());
+    click(*form, "Keep this brush");
     QCOMPARE(list->count(), 1);
-    QVERIFY2(said().contains(QStringLiteral("is kept")), qPrintable(said()));
+    QVERIFY2(said(*form).contains(QStringLiteral("is kept")), qPrintable(said(*form)));
     auto* field = list->findChild<QLineEdit*>();
     QVERIFY(field);
     field->setText(QStringLiteral(" my <b>chalk</b> "));
@@ -252,39 +240,25 @@ class TestBrushWindow : public SampleWindowTest {
     const QString path = folder.filePath(QStringLiteral("mine.json"));
     hands::answerDialog(path);
     QCOMPARE(list->selectedItems().size(), 1);
-    click("Export all");
+    click(*form, "Export all");
     QVERIFY(QFile::exists(path));
-    QCOMPARE(said(), QStringLiteral("“%1” is in the file %2.").arg(name, QDir::toNativeSeparators(path)));
-    click("Forget");
-    QCOMPARE(said(), QString());
+    QCOMPARE(said(*form), QStringLiteral("“%1” is in the file %2.").arg(name, QDir::toNativeSeparators(path)));
+    click(*form, "Forget");
+    QCOMPARE(said(*form), QString());
     QVERIFY(favourites.all().empty() && list->count() == 0);
-    click("Bring back");
+    click(*form, "Bring back");
     QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
     favourites.forget(kept);
     hands::answerDialog(path);
-    click("Import");
+    click(*form, "Import");
     QVERIFY(favourites.all() == std::vector<FavouriteBrush>{kept});
-    QVERIFY2(said().contains(QStringLiteral("from the file")), qPrintable(said()));
+    QVERIFY2(said(*form).contains(QStringLiteral("from the file")), qPrintable(said(*form)));
     QCOMPARE(favourites.importFrom(path), QString());  // the same one again
     QCOMPARE(favourites.all().size(), size_t{1});
     QVERIFY(favourites.importFrom(kSample).contains(QStringLiteral("holds no brushes")));
-    // Another brush of the same name comes under a name of its own, which nobody else may have.
-    BrushSettings brush = kept.brush;
-    brush.radius *= 2;
-    favourites.restore({name, brush});
-    QCOMPARE(favourites.all().at(1).name, name + QStringLiteral(" (2)"));
-    QVERIFY(!favourites.rename(favourites.all()[1], name).isEmpty());
-    QCOMPARE(favourites.rename(favourites.all()[1], QStringLiteral("wide")), QString());
-    QCOMPARE(favourites.all()[1].name, QStringLiteral("wide"));
+    anotherIsCalledOtherwise(kept);
     form->close();
-    m_window->action(QStringLiteral("sketch.brushes"))->trigger();  // one is chosen, and what is exported counts
-    form = m_window->findChildren<QDialog*>(QStringLiteral("psBrushes")).back();
-    list = form->findChild<QListWidget*>();
-    QVERIFY(list->count() == 2 && list->item(0)->isSelected() && !list->item(1)->isSelected());
-    hands::answerDialog(folder.filePath(QStringLiteral("one.json")));
-    click("Export 1");
-    QVERIFY2(said().startsWith(QStringLiteral("“%1” is in").arg(name)), qPrintable(said()));
-    form->close();
+    whatIsChosenIsExported(folder.filePath(QStringLiteral("one.json")), name);
     preferences::setFavouriteBrushes({});
   }
 
@@ -478,6 +452,41 @@ class TestBrushWindow : public SampleWindowTest {
     if (!QTest::qWaitFor([&] { return document().undoStack().index() > steps; }, kLong)) return {};
     const auto* voxels = std::get_if<VoxelShape>(&document().project().bodies.back().shape);
     return voxels && !voxels->strokes.empty() ? voxels->strokes.back() : VoxelShape::Stroke{};
+  }
+  static void click(const QDialog& form, const char* text) {
+    const QList<QPushButton*> all = form.findChildren<QPushButton*>();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const QPushButton* one) {
+      return one->text().startsWith(QString::fromUtf8(text));
+    });
+    QVERIFY2(found != all.end() && (*found)->isEnabled(), text);
+    (*found)->click();
+  }
+  /// By a form, of what it has done.
+  static QString said(const QDialog& form) {
+    const auto* label = form.findChild<QLabel*>(QStringLiteral("psDone"));
+    return label->isVisible() ? label->text() : QString();
+  }
+  /// Another brush of the same name comes under a name of its own, which nobody else may have.
+  void anotherIsCalledOtherwise(const FavouriteBrush& kept) {
+    FavouriteBrushes& favourites = m_window->favourites();
+    BrushSettings brush = kept.brush;
+    brush.radius *= 2;
+    favourites.restore({kept.name, brush});
+    QCOMPARE(favourites.all().at(1).name, kept.name + QStringLiteral(" (2)"));
+    QVERIFY(!favourites.rename(favourites.all()[1], kept.name).isEmpty());
+    QCOMPARE(favourites.rename(favourites.all()[1], QStringLiteral("wide")), QString());
+    QCOMPARE(favourites.all()[1].name, QStringLiteral("wide"));
+  }
+  /// One of two, as the form begins, and its button counts it.
+  void whatIsChosenIsExported(const QString& path, const QString& name) {
+    m_window->action(QStringLiteral("sketch.brushes"))->trigger();
+    QDialog* form = m_window->findChildren<QDialog*>(QStringLiteral("psBrushes")).back();
+    const auto* list = form->findChild<QListWidget*>();
+    QVERIFY(list->count() == 2 && list->item(0)->isSelected() && !list->item(1)->isSelected());
+    hands::answerDialog(path);
+    click(*form, "Export 1");
+    QVERIFY2(said(*form).startsWith(QStringLiteral("“%1” is in").arg(name)), qPrintable(said(*form)));
+    form->close();
   }
   static constexpr QPoint kMiddle{0, 0};  // of the view
   QPoint at(const QPoint& from) { return view()->rect().center() + from; }

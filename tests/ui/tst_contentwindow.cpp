@@ -489,7 +489,6 @@ class TestContentWindow : public SampleWindowTest {
     QTRY_COMPARE(probeDetail(QStringLiteral("Ice core")), QStringLiteral("−10.0 °C"));
   }
 
-  /// A digit less moves nothing that stands beside it.
   /// Each number of it says what it is.
   void theStatusLineExplainsItself() {
     auto* line = m_window->findChild<StatusLine*>();
@@ -504,6 +503,7 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(line->tipAt({1, 1}).isEmpty());
   }
 
+  /// A digit less moves nothing that stands beside it.
   void theStatusLineStandsStill() {
     auto* line = m_window->findChild<StatusLine*>();
     StatusLine::State state = line->state();
@@ -701,7 +701,6 @@ class TestContentWindow : public SampleWindowTest {
     }
   }
 
-  /// A row may be told of another quantity than its own, whose unit is then said.
   /// A low view has a legend too, whose bar is shorter; in one without room for it there is none.
   void aLowViewHasALegend() {
     OverlayState state;
@@ -718,6 +717,7 @@ class TestContentWindow : public SampleWindowTest {
     QVERIFY(bar(150).isEmpty());
   }
 
+  /// A row may be told of another quantity than its own, whose unit is then said.
   void limitsHaveTheirOwnUnits() {
     const Address address{Owner::Solver, "", "particle_spacing"};
     const Limit limit{"solver.particle_spacing", 0.25, 0.3, "m³"};

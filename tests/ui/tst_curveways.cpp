@@ -103,7 +103,6 @@ class TestCurveWays : public CurveWindowTest {
     shoot("handles");
   }
 
-  /// Slopes that lead where the property cannot be are refused with a sentence, and the last ones stay.
   /// A point that is typed out of sight is in sight at once, and one in sight leaves the view as it is.
   void aTypedValueStaysInSight() {
     threePoints();
@@ -119,6 +118,7 @@ class TestCurveWays : public CurveWindowTest {
     for (const size_t k : {size_t{0}, size_t{1}, size_t{2}}) QVERIFY(curve().plot().contains(place(k)));
   }
 
+  /// Slopes that lead where the property cannot be are refused with a sentence, and the last ones stay.
   void slopesThatOvershootAreRefused() {
     curves().choose({Owner::Material, "water", "yield_stress"});
     QVERIFY(curves().set(curveThrough({{260, 1}, {310, 1}}), QStringLiteral("Points")));

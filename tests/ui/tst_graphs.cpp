@@ -464,8 +464,6 @@ void TestGraphs::unitsTakePrefixes() {
   QVERIFY2(graph.summary().contains(QStringLiteral("In matter  76.40 MJ")), qPrintable(graph.summary()));
 }
 
-/// 20,000 samples in three lines: the aim is 4 ms on the reference machine; ten times that catches a walk over all
-/// samples on a slow one.
 /// Samples without a value, or of no mass at all, leave the plot to its sentence.
 void TestGraphs::nothingIsNoData() {
   GraphView graph;

@@ -314,85 +314,28 @@ class TestTouchTools : public ToolTest {
   /// A cup of cells runs full to where one points, as a body of its own; further where the stroke goes up. The strokes
   /// make the same cells again. What would run out is refused, and nothing is left of it.
   void aCupRunsFull() {
-    Body cup;
-    cup.id = "cup", cup.material = m_document->project().materials[0].id;
-    cup.parameters.values["fixed"] = true;
-    VoxelShape walls;
-    walls.spacing = kSpacing;
-    walls.origin = Vector3::Constant(kSpacing / 2) + Vector3(8 * kSpacing, 0, 0);
-    walls.palette = {{cup.material, 260}};
-    for (int z = -3; z <= 3; ++z) {
-      for (int y = 0; y <= 6; ++y) {
-        if (y == 0 || std::abs(z) == 3) {
-          walls.runs.push_back({-3, y, z, 7, 0});
-        } else {
-          walls.runs.push_back({-3, y, z, 1, 0});
-          walls.runs.push_back({3, y, z, 1, 0});
-        }
-      }
-    }
-    cup.shape = walls;
-    m_document->addBody(cup);
+    const VoxelShape walls = addCup();
     const size_t without = count();
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->position.size() == without; }));
     m_tools->activate(kBrushTool);
     take("fill");
     const Vector3 bottom = walls.origin + Vector3(0, 2 * kSpacing, 0);
-    BrushSettings brush = m_tools->brush();
-    setValueOf(brush, "draw_on", std::string("level"));
-    setValueOf(brush, "plane_at", bottom.y());
-    m_tools->setBrush(brush);
+    drawOnLevel(bottom.y());
     paintAt(bottom);
     QCOMPARE(count(), without + 25 * 2);
     QCOMPARE(m_document->project().bodies.size(), size_t{3});
-    const auto drawn = [this] { return std::get<VoxelShape>(m_document->project().bodies[2].shape); };
-    for (const VoxelShape::Run& run : drawn().runs) QVERIFY(run.length == 5 && run.y >= 1 && run.y <= 2);
+    for (const VoxelShape::Run& run : filled().runs) QVERIFY(run.length == 5 && run.y >= 1 && run.y <= 2);
     QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot()->position.size() == without + 25 * 2; }));
-    setValueOf(brush, "plane_at", bottom.y() + kSpacing);
-    m_tools->setBrush(brush);
+    drawOnLevel(bottom.y() + kSpacing);
     paintAt(bottom + Vector3(0, kSpacing, 0));
     QCOMPARE(count(), without + 25 * 3);
     m_document->undoStack().undo();
     QCOMPARE(count(), without + 25 * 2);
     m_document->undoStack().redo();
     QCOMPARE(count(), without + 25 * 3);
-    const Environment& environment = m_document->project().environment;
-    const FreeOf besideTheCup = [&](const SketchGrid& grid, const CellSet& cells) {
-      const CellSet cupCells = VoxelCanvas(walls.runs).cells();
-      std::vector<api::Cell> free;
-      for (const api::Cell& cell : cells.cells()) {
-        if (isInScene(environment, grid, cell) && !cupCells.contains(gridOf(walls).cellAt(grid.centreOf(cell))))
-          free.push_back(cell);
-      }
-      return CellSet(free);
-    };
-    QCOMPARE(m_document->project().bodies.size(), size_t{3});
-    const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
-    QVERIFY(redrawn(drawn(), kSpacing, besideTheCup, brushOf, environment.gravity).runs == drawn().runs);
-    const VoxelShape fine = redrawn(drawn(), kSpacing / 2, besideTheCup, brushOf, environment.gravity);
-    QVERIFY(VoxelCanvas(fine.runs).size() > size_t{25 * 3 * 6});
-    // Of a cup that is hidden the walls hold all the same.
-    setValueOf(brush, "plane_at", bottom.y() + 4 * kSpacing);
-    m_tools->setBrush(brush);
-    m_document->setVisible({{Owner::Body, "cup", ""}}, false);
-    const auto seen = std::make_shared<Snapshot>();
-    seen->bodyIds = m_engine->snapshot()->bodyIds, seen->spacing = kSpacing;
-    Pointer over = at(bottom + Vector3(0, 4 * kSpacing, 0));
-    over.scene = seen;
-    m_tools->tool().press(over);
-    m_tools->tool().release(over);
-    QCOMPARE(count(), without + 25 * 6);
-    m_document->undoStack().undo();
-    m_document->undoStack().undo();
-    QCOMPARE(count(), without + 25 * 3);
-    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
-    setValueOf(brush, "plane_at", 0.9);
-    m_tools->setBrush(brush);
-    const int steps = m_document->undoStack().count();
-    paintAt(Vector3(0, 0.9, 0));
-    QTRY_COMPARE(refused.count(), 1);
-    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("run full")), qPrintable(refused[0][1].toString()));
-    QCOMPARE(m_document->undoStack().count(), steps);
+    isFilledAgain(walls);
+    isFilledWhileTheCupIsHidden(bottom + Vector3(0, 4 * kSpacing, 0), without);
+    fillingTheSceneIsRefused();
     QCOMPARE(count(), without + 25 * 3);
   }
 
@@ -763,6 +706,80 @@ class TestTouchTools : public ToolTest {
   void paintAt(const Vector3& place) {
     m_tools->tool().press(at(place));
     m_tools->tool().release(at(place));
+  }
+  /// Beside the block, held in place: seven cells wide and high, its walls one thick.
+  VoxelShape addCup() {
+    Body cup;
+    cup.id = "cup", cup.material = m_document->project().materials[0].id;
+    cup.parameters.values["fixed"] = true;
+    VoxelShape walls;
+    walls.spacing = kSpacing;
+    walls.origin = Vector3::Constant(kSpacing / 2) + Vector3(8 * kSpacing, 0, 0);
+    walls.palette = {{cup.material, 260}};
+    for (int z = -3; z <= 3; ++z) {
+      for (int y = 0; y <= 6; ++y) {
+        if (y == 0 || std::abs(z) == 3) {
+          walls.runs.push_back({-3, y, z, 7, 0});
+        } else {
+          walls.runs.push_back({-3, y, z, 1, 0});
+          walls.runs.push_back({3, y, z, 1, 0});
+        }
+      }
+    }
+    cup.shape = walls;
+    m_document->addBody(cup);
+    return walls;
+  }
+  /// m, of what is pointed at.
+  void drawOnLevel(double height) {
+    BrushSettings brush = m_tools->brush();
+    setValueOf(brush, "draw_on", std::string("level"));
+    setValueOf(brush, "plane_at", height);
+    m_tools->setBrush(brush);
+  }
+  /// What the cup holds.
+  VoxelShape filled() const { return std::get<VoxelShape>(m_document->project().bodies[2].shape); }
+  /// From its strokes, and on a finer lattice.
+  void isFilledAgain(const VoxelShape& walls) {
+    const Environment& environment = m_document->project().environment;
+    const FreeOf besideTheCup = [&](const SketchGrid& grid, const CellSet& cells) {
+      const CellSet cupCells = VoxelCanvas(walls.runs).cells();
+      std::vector<api::Cell> free;
+      for (const api::Cell& cell : cells.cells()) {
+        if (isInScene(environment, grid, cell) && !cupCells.contains(gridOf(walls).cellAt(grid.centreOf(cell))))
+          free.push_back(cell);
+      }
+      return CellSet(free);
+    };
+    QCOMPARE(m_document->project().bodies.size(), size_t{3});
+    const BrushOf brushOf = [this](const std::string& id) { return m_plugins->brush(id); };
+    QVERIFY(redrawn(filled(), kSpacing, besideTheCup, brushOf, environment.gravity).runs == filled().runs);
+    const VoxelShape fine = redrawn(filled(), kSpacing / 2, besideTheCup, brushOf, environment.gravity);
+    QVERIFY(VoxelCanvas(fine.runs).size() > size_t{25 * 3 * 6});
+  }
+  /// Its walls hold all the same; undone, it stands as full as before.
+  void isFilledWhileTheCupIsHidden(const Vector3& top, size_t without) {
+    drawOnLevel(top.y());
+    m_document->setVisible({{Owner::Body, "cup", ""}}, false);
+    const auto seen = std::make_shared<Snapshot>();
+    seen->bodyIds = m_engine->snapshot()->bodyIds, seen->spacing = kSpacing;
+    Pointer over = at(top);
+    over.scene = seen;
+    m_tools->tool().press(over);
+    m_tools->tool().release(over);
+    QCOMPARE(count(), without + 25 * 6);
+    m_document->undoStack().undo();
+    m_document->undoStack().undo();
+    QCOMPARE(count(), without + 25 * 3);
+  }
+  void fillingTheSceneIsRefused() {
+    QSignalSpy refused(m_tools.get(), &Toolbox::refused);
+    drawOnLevel(0.9);
+    const int steps = m_document->undoStack().count();
+    paintAt(Vector3(0, 0.9, 0));
+    QTRY_COMPARE(refused.count(), 1);
+    QVERIFY2(refused[0][1].toString().contains(QStringLiteral("run full")), qPrintable(refused[0][1].toString()));
+    QCOMPARE(m_document->undoStack().count(), steps);
   }
   /// Particles of the second material.
   size_t iron() {

@@ -79,7 +79,6 @@ class WrappedText : public QStyledItemDelegate {
 
 MessagesPage::MessagesPage(Session& session, QWidget* parent)
     : QWidget(parent),
-      m_session(session),
       m_log(session.log()),
       m_model(new QStandardItemModel(this)),
       m_view(new QTreeView),
@@ -108,10 +107,10 @@ MessagesPage::MessagesPage(Session& session, QWidget* parent)
   });
   connect(&m_log, &MessageLog::changed, this, &MessagesPage::refresh);
   m_path = session.document().path();
-  connect(&session.files(), &DocumentFiles::saved, this, [this] { m_path = m_session.document().path(); });
-  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+  connect(&session.files(), &DocumentFiles::saved, this, [this, &session] { m_path = session.document().path(); });
+  connect(&session.document(), &Document::changed, this, [this, &session](const ChangeEvent& event) {
     if (!std::holds_alternative<ProjectOpened>(event)) return;
-    const QString before = std::exchange(m_path, m_session.document().path());
+    const QString before = std::exchange(m_path, session.document().path());
     if (!m_path.isEmpty() && m_path == before) return;  // read again
     m_opened = QDateTime::currentDateTime();
     refresh();

@@ -32,7 +32,6 @@ class MessagesPage : public QWidget {
   void setWidths();
   bool isOfFormer(const Message& message) const;
   void addLinks(int row, const Message& message);
-  Session& m_session;
   MessageLog& m_log;
   QString m_path;      ///< of the present project; "": never saved
   QDateTime m_opened;  ///< when the present project came in the place of another

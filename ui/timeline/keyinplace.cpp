@@ -9,7 +9,6 @@
 #include <QtWidgets/QLineEdit>
 
 #include <algorithm>
-#include <utility>
 
 namespace ps {
 namespace {

@@ -6,31 +6,27 @@
 #include "ui/tools/livestroke.h"
 #include "ui/tools/toolbox.h"
 
-#include <algorithm>
-#include <array>
-
 namespace ps {
 namespace {
 
-/// Cells, and those that are up to `margin` beside them.
+/// Places in cells, and in those that are up to `margin` beside them.
 class Reach {
  public:
-  Reach(const std::vector<api::Cell>& cells, int margin) : m_cells(cells), m_margin(margin) {
-    m_low = m_high = {cells.front().x, cells.front().y, cells.front().z};
+  Reach(const SketchGrid& grid, const std::vector<api::Cell>& cells, int margin)
+      : m_grid(grid), m_cells(cells), m_margin(margin), m_low(grid.centreOf(cells.front())), m_high(m_low) {
     for (const api::Cell& cell : cells) {
-      const std::array<int, 3> place{cell.x, cell.y, cell.z};
-      for (size_t axis = 0; axis < 3; ++axis) {
-        m_low[axis] = std::min(m_low[axis], place[axis] - margin);
-        m_high[axis] = std::max(m_high[axis], place[axis] + margin);
-      }
+      m_low = m_low.cwiseMin(grid.centreOf(cell));
+      m_high = m_high.cwiseMax(grid.centreOf(cell));
     }
+    // However they are turned: half a diagonal is less than an edge.
+    const Vector3 most = Vector3::Constant((1 + 2 * margin) * grid.spacing);
+    m_low -= most;
+    m_high += most;
   }
-  bool has(const api::Cell& cell) const {
-    const std::array<int, 3> place{cell.x, cell.y, cell.z};
-    // Most of a scene is far from a stroke.
-    for (size_t axis = 0; axis < 3; ++axis) {
-      if (place[axis] < m_low[axis] || place[axis] > m_high[axis]) return false;
-    }
+  bool has(const Vector3& place) const {
+    // Most of a scene is far from a stroke, and turning each place into its cell would take far longer.
+    if ((place.array() < m_low.array()).any() || (place.array() > m_high.array()).any()) return false;
+    const api::Cell cell = m_grid.cellAt(place);
     for (int x = -m_margin; x <= m_margin; ++x) {
       for (int y = -m_margin; y <= m_margin; ++y) {
         for (int z = -m_margin; z <= m_margin; ++z) {
@@ -42,9 +38,10 @@ class Reach {
   }
 
  private:
+  const SketchGrid& m_grid;
   CellSet m_cells;
   int m_margin;
-  std::array<int, 3> m_low, m_high;
+  Vector3 m_low, m_high;
 };
 
 }  // namespace
@@ -56,9 +53,9 @@ void LiveStroke::meet(const std::vector<api::Cell>& fresh) {
   const SnapshotPtr scene = m_box.link()->scene();
   if (!scene) m_met = Met::Matter;  // there may be some
   if (!scene || fresh.empty()) return;
-  const Reach reach(fresh, m_box.link()->runs() ? 1 : 0);
+  const Reach reach(m_setup.grid, fresh, m_box.link()->runs() ? 1 : 0);
   for (size_t i = 0; i < scene->position.size(); ++i) {
-    if (!reach.has(m_setup.grid.cellAt(vectorOf(scene->position[i])))) continue;
+    if (!reach.has(vectorOf(scene->position[i]))) continue;
     const bool isNamed = scene->bodyIds && i < scene->body.size() && scene->body[i] < scene->bodyIds->size();
     const Body* body = isNamed ? m_box.document().body((*scene->bodyIds)[scene->body[i]]) : nullptr;
     m_met = body && body->locked ? Met::Locked : Met::Matter;
