@@ -144,6 +144,11 @@ bool isSolid(const TiedScene& moment, const std::string& body) {
 
 std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) { return piecesOf(tiedScene(engine), body); }
 
+bool mayComeApart(const Body& body) {
+  return std::holds_alternative<VoxelShape>(body.shape) && !body.locked &&
+         !toggleOf(body.parameters, bodyParameters(), "fixed");
+}
+
 std::vector<CellIndices> piecesOf(const TiedScene& moment, const Body& body) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);
   const Snapshot& now = *moment.scene;

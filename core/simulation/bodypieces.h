@@ -28,6 +28,8 @@ struct TiedScene {
 TiedScene tiedScene(const Engine& engine);
 /// Whether some of a body is solid.
 bool isSolid(const TiedScene& moment, const std::string& body);
+/// Whether a body is sketched, and its pieces could go anywhere: those of what is locked or held in place cannot.
+bool mayComeApart(const Body& body);
 std::vector<CellIndices> piecesOf(const TiedScene& moment, const Body& body);  ///< as above
 
 /// The pieces of a body that have come off since it was of the pieces `before`: of those that one of these has come to,

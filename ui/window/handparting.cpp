@@ -2,9 +2,7 @@
 #include "ui/window/handparting.h"
 
 #include "core/scene/shownname.h"
-#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
-#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/preferences.h"
 #include "ui/session/scenelink.h"
@@ -99,13 +97,10 @@ void HandParting::onChanged(const ChangeEvent& event) {
   }
 }
 
-/// What stands has no pieces that would go anywhere.
 std::vector<Body> HandParting::candidates() const {
   std::vector<Body> bodies;
   for (const Body& body : m_session.document().project().bodies) {
-    const bool stands = toggleOf(body.parameters, bodyParameters(), "fixed");
-    if (stands || body.locked || !std::holds_alternative<VoxelShape>(body.shape) || m_hasOtherCells(body.id)) continue;
-    bodies.push_back(body);
+    if (mayComeApart(body) && !m_hasOtherCells(body.id)) bodies.push_back(body);
   }
   return bodies;
 }
