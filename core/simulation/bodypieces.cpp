@@ -142,8 +142,6 @@ bool isSolid(const TiedScene& moment, const std::string& body) {
   return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return api::holds(moment.scene->motion[row]); });
 }
 
-std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) { return piecesOf(tiedScene(engine), body); }
-
 bool mayComeApart(const Body& body) {
   return std::holds_alternative<VoxelShape>(body.shape) && !body.locked &&
          !toggleOf(body.parameters, bodyParameters(), "fixed");
