@@ -59,7 +59,7 @@ void HandParting::listen() { connect(m_session.link(), &SceneLink::parting, this
 
 /// What the scene is before the first of it; the engine gives that without much ado.
 void HandParting::begin(const MatterRef& matter, const std::vector<api::Touch>& cuts) {
-  std::erase_if(m_strokes, [](const StrokePtr& one) { return one->matter.expired(); });  // given up
+  dropGivenUp();
   auto found =
       std::find_if(m_strokes.begin(), m_strokes.end(), [&](const auto& one) { return one->matter.lock() == matter; });
   if (found == m_strokes.end()) {
@@ -78,7 +78,13 @@ void HandParting::begin(const MatterRef& matter, const std::vector<api::Touch>& 
   }
 }
 
+/// With the scenes that were kept for them: strokes that were cancelled, or that took nothing.
+void HandParting::dropGivenUp() {
+  std::erase_if(m_strokes, [](const StrokePtr& one) { return one->matter.expired(); });
+}
+
 void HandParting::onChanged(const ChangeEvent& event) {
+  dropGivenUp();
   if (std::holds_alternative<ProjectOpened>(event)) {
     for (const StrokePtr& stroke : m_strokes) stroke->undone = true;
     m_strokes.clear();

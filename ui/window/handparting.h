@@ -51,6 +51,7 @@ class HandParting : public QObject {
   void listen();
   void begin(const MatterRef& matter, const std::vector<api::Touch>& cuts);
   void onChanged(const ChangeEvent& event);
+  void dropGivenUp();
   std::vector<Body> candidates() const;
   bool mayPart(const Stroke& stroke) const;
   bool isEarly(Stroke& stroke) const;
