@@ -126,16 +126,11 @@ std::vector<size_t> numbered(const Matter& matter, double touch, bool byTiesAlon
 /// The cells of a sketch that a particle was made of: where particles stand farther apart than its cells, all that lie
 /// about it.
 void addCells(std::vector<api::Cell>& cells, const VoxelShape& voxels, double spacing, const Vector3& rest) {
-  const double ratio = spacing / voxels.spacing;
   const SketchGrid drawn{voxels.origin, voxels.spacing}, made{resampledOrigin(voxels, spacing), spacing};
-  if (ratio < 1 + 1e-9) return cells.push_back(drawn.cellAt(rest));
-  const api::Cell at = made.cellAt(rest);
-  const auto first = [ratio](int32_t k) { return static_cast<int32_t>(std::ceil(k * ratio - 0.5 - 1e-9)); };
-  for (int32_t z = first(at.z); z < first(at.z + 1); ++z) {
-    for (int32_t y = first(at.y); y < first(at.y + 1); ++y) {
-      for (int32_t x = first(at.x); x < first(at.x + 1); ++x) cells.push_back({x, y, z});
-    }
-  }
+  if (spacing < voxels.spacing * (1 + 1e-9)) return cells.push_back(drawn.cellAt(rest));
+  const api::Cell cell = made.cellAt(rest);
+  const CellIndex at{cell.x, cell.y, cell.z};
+  for (const CellIndex& c : resampled({at}, spacing, voxels.spacing)) cells.push_back({c[0], c[1], c[2]});
 }
 
 }  // namespace
@@ -147,7 +142,10 @@ bool isSolid(const TiedScene& moment, const std::string& body) {
   return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return api::holds(moment.scene->motion[row]); });
 }
 
-std::vector<CellIndices> piecesOf(const Engine& engine, const Body& body) { return piecesOf(tiedScene(engine), body); }
+bool mayComeApart(const Body& body) {
+  return std::holds_alternative<VoxelShape>(body.shape) && !body.locked &&
+         !toggleOf(body.parameters, bodyParameters(), "fixed");
+}
 
 std::vector<CellIndices> piecesOf(const TiedScene& moment, const Body& body) {
   const auto* voxels = std::get_if<VoxelShape>(&body.shape);

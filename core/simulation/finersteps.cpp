@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/simulation/finersteps.h"
 
+#include "core/scene/track.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,9 +19,7 @@ double solverNumber(const Project& project, const char* key) {
 }
 
 bool hasTrack(const Project& project, const char* key) {
-  const std::string address = std::string("solver/") + key;
-  return std::any_of(project.tracks.begin(), project.tracks.end(),
-                     [&](const Track& track) { return track.parameter == address; });
+  return findTrack(project.tracks, std::string("solver/") + key) != nullptr;
 }
 
 int mostSubsteps() { return static_cast<int>(findDeclaration(solverParameters(), "substeps")->hardMaximum); }

@@ -472,7 +472,7 @@ class TestGoingOn : public ToolTest {
   }
   std::vector<CellIndices> pieces(const std::string& id) {
     return tests::onEngine<std::vector<CellIndices>>(
-        *m_engine, [body = *m_document->body(id)](Engine& engine) { return piecesOf(engine, body); });
+        *m_engine, [body = *m_document->body(id)](Engine& engine) { return piecesOf(tiedScene(engine), body); });
   }
   void brush(const char* shape, double temperature, const char* material = "water") {
     take(shape, 0.06);

@@ -61,6 +61,16 @@ std::optional<Region> coreOf(const Snapshot* shown, const std::string& body) {
 
 }  // namespace
 
+EditActions::EditActions(Session& session, Selection& selection, Outliner& outliner, Inspector& inspector,
+                         const Actions& actions, Notices& notices)
+    : m_session(session),
+      m_document(session.document()),
+      m_selection(selection),
+      m_outliner(outliner),
+      m_inspector(inspector),
+      m_actions(actions),
+      m_notices(notices) {}
+
 void EditActions::makeMenu(QMenu* menu) {
   menu->addAction(m_actions.find(QStringLiteral("edit.undo")));
   menu->addAction(m_actions.find(QStringLiteral("edit.redo")));

@@ -23,15 +23,8 @@ class Session;
 /// What is done with the scene's things: the menu Edit but for undo, and the walls.
 class EditActions {
  public:
-  EditActions(Session& session, Document& document, Selection& selection, Outliner& outliner, Inspector& inspector,
-              const Actions& actions, Notices& notices)
-      : m_session(session),
-        m_document(document),
-        m_selection(selection),
-        m_outliner(outliner),
-        m_inspector(inspector),
-        m_actions(actions),
-        m_notices(notices) {}
+  EditActions(Session& session, Selection& selection, Outliner& outliner, Inspector& inspector, const Actions& actions,
+              Notices& notices);
   void makeMenu(QMenu* menu);
   void makeWallMenu(QMenu* menu);
   void openItemMenu(const QPoint& global) const;  ///< of what is selected

@@ -2,9 +2,7 @@
 #include "ui/window/handparting.h"
 
 #include "core/scene/shownname.h"
-#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
-#include "ui/document/declared.h"
 #include "ui/document/document.h"
 #include "ui/session/preferences.h"
 #include "ui/session/scenelink.h"
@@ -26,12 +24,11 @@
 namespace ps {
 namespace {
 
-constexpr size_t kCrumb = 8;    // cells, that are no crumb
-constexpr size_t kMost = 20;    // pieces of a body, that it becomes without being asked
-constexpr int kAgain = 20;      // ms
-constexpr int kMostLooks = 50;  // for frames of a scene that may have stopped
-constexpr uint64_t kFrames =
-    3;  // after a cut: it is made in the next one, and what it parts is known in those after it
+constexpr size_t kCrumb = 8;     // cells, that are no crumb
+constexpr size_t kMost = 20;     // pieces of a body, that it becomes without being asked
+constexpr int kAgain = 20;       // ms
+constexpr int kMostLooks = 50;   // for frames of a scene that may have stopped
+constexpr uint64_t kFrames = 4;  // after the end of a cut: see isEarly()
 const QString kTopic = QStringLiteral("pieces");
 
 size_t countOf(const Snapshot& scene, const std::string& body, const std::function<bool(const Vector3&)>& counts) {
@@ -62,7 +59,7 @@ void HandParting::listen() { connect(m_session.link(), &SceneLink::parting, this
 
 /// What the scene is before the first of it; the engine gives that without much ado.
 void HandParting::begin(const MatterRef& matter, const std::vector<api::Touch>& cuts) {
-  std::erase_if(m_strokes, [](const StrokePtr& one) { return one->matter.expired(); });  // given up
+  dropGivenUp();
   auto found =
       std::find_if(m_strokes.begin(), m_strokes.end(), [&](const auto& one) { return one->matter.lock() == matter; });
   if (found == m_strokes.end()) {
@@ -81,7 +78,13 @@ void HandParting::begin(const MatterRef& matter, const std::vector<api::Touch>& 
   }
 }
 
+/// With the scenes that were kept for them: strokes that were cancelled, or that took nothing.
+void HandParting::dropGivenUp() {
+  std::erase_if(m_strokes, [](const StrokePtr& one) { return one->matter.expired(); });
+}
+
 void HandParting::onChanged(const ChangeEvent& event) {
+  dropGivenUp();
   if (std::holds_alternative<ProjectOpened>(event)) {
     for (const StrokePtr& stroke : m_strokes) stroke->undone = true;
     m_strokes.clear();
@@ -99,13 +102,10 @@ void HandParting::onChanged(const ChangeEvent& event) {
   }
 }
 
-/// What stands has no pieces that would go anywhere.
 std::vector<Body> HandParting::candidates() const {
   std::vector<Body> bodies;
   for (const Body& body : m_session.document().project().bodies) {
-    const bool stands = toggleOf(body.parameters, bodyParameters(), "fixed");
-    if (stands || body.locked || !std::holds_alternative<VoxelShape>(body.shape) || m_hasOtherCells(body.id)) continue;
-    bodies.push_back(body);
+    if (mayComeApart(body) && !m_hasOtherCells(body.id)) bodies.push_back(body);
   }
   return bodies;
 }
@@ -116,6 +116,15 @@ bool HandParting::mayPart(const Stroke& stroke) const {
          !m_session.document().undoStack().canRedo();
 }
 
+/// The frame that is being computed may not have the cut yet; the next one makes it, and what it parts is known in
+/// those after it.
+bool HandParting::isEarly(Stroke& stroke) const {
+  const SnapshotPtr now = m_session.newest();
+  if (!stroke.cuts || !now || stroke.looks == kMostLooks) return false;
+  if (stroke.looks++ == 0) stroke.due = now->stats.frame + kFrames;
+  return now->stats.frame < stroke.due;
+}
+
 void HandParting::lookIn(int milliseconds, const StrokePtr& stroke) {
   QTimer::singleShot(milliseconds, this, [this, stroke] { look(stroke); });
 }
@@ -123,7 +132,7 @@ void HandParting::lookIn(int milliseconds, const StrokePtr& stroke) {
 /// Not while another hand draws on a body that might become two.
 void HandParting::look(const StrokePtr& stroke) {
   const bool goesOn = mayPart(*stroke);
-  if (goesOn && m_session.link()->isDrawing()) return lookIn(kAgain, stroke);
+  if (goesOn && (m_session.link()->isDrawing() || isEarly(*stroke))) return lookIn(kAgain, stroke);
   const std::vector<Body> bodies = goesOn ? candidates() : std::vector<Body>();
   if (bodies.empty()) {
     std::erase(m_strokes, stroke);
@@ -140,10 +149,6 @@ void HandParting::look(const StrokePtr& stroke) {
 
 void HandParting::take(const StrokePtr& stroke, const std::shared_ptr<const TiedScene>& after,
                        const std::vector<Body>& bodies) {
-  const uint64_t frame = after->scene->stats.frame;
-  if (stroke->looks == 0) stroke->frame = frame;
-  const bool isEarly = stroke->cuts && frame < stroke->frame + kFrames;
-  if (isEarly && ++stroke->looks < kMostLooks) return lookIn(kAgain, stroke);
   m_session.worker().run([self = QPointer(this), stroke, after, bodies] {
     auto found = partedBy(*stroke, *after, bodies);
     QMetaObject::invokeMethod(QCoreApplication::instance(), [self, stroke, found = std::move(found)] {

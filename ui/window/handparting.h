@@ -38,8 +38,8 @@ class HandParting : public QObject {
     bool cuts = false;                                                  ///< rather than erases
     std::weak_ptr<StrokeRecord> record{};                               ///< once it has ended
     bool undone = false;
-    uint64_t frame = 0;  ///< of the scene when it had ended
-    int looks = 0;
+    uint64_t due = 0;  ///< frame in which it is known what a cut has parted
+    int looks = 0;     ///< for that
   };
   using StrokePtr = std::shared_ptr<Stroke>;
   struct Parted {
@@ -51,8 +51,10 @@ class HandParting : public QObject {
   void listen();
   void begin(const MatterRef& matter, const std::vector<api::Touch>& cuts);
   void onChanged(const ChangeEvent& event);
+  void dropGivenUp();
   std::vector<Body> candidates() const;
   bool mayPart(const Stroke& stroke) const;
+  bool isEarly(Stroke& stroke) const;
   void lookIn(int milliseconds, const StrokePtr& stroke);
   void look(const StrokePtr& stroke);
   void take(const StrokePtr& stroke, const std::shared_ptr<const TiedScene>& after, const std::vector<Body>& bodies);

@@ -238,8 +238,7 @@ void MainWindow::makeMiddle() {
 
 void MainWindow::makeMenus() {
   QMenuBar* bar = m_top->menus();
-  m_edit = std::make_unique<EditActions>(*m_session, m_session->document(), *m_selection, *outliner(), *m_inspector,
-                                         m_actions, *m_notices);
+  m_edit = std::make_unique<EditActions>(*m_session, *m_selection, *outliner(), *m_inspector, m_actions, *m_notices);
   m_views = std::make_unique<ViewActions>(*m_session, viewport(), *m_layout, m_actions);
   m_bodies = new BodyActions(*m_session, *m_selection, m_actions, *m_notices, this);
   new LooseMatter(*m_session, *m_notices, this);

@@ -5,7 +5,6 @@
 #include "core/scene/shownname.h"
 #include "core/scene/track.h"
 #include "core/simulation/bodypieces.h"
-#include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
@@ -172,8 +171,7 @@ bool SketchActions::hasOtherCells(const std::string& body) const {
          std::abs(found->second.factor - 1) > kSame;
 }
 
-/// What is held in place has no pieces that would go anywhere. Drops part and meet all the time: those of what flows
-/// are told apart where somebody has chosen it.
+/// Drops part and meet all the time: those of what flows are told apart where somebody has chosen it.
 void SketchActions::separate() {
   const Document& document = m_session.document();
   const std::vector<std::string> chosen = m_tools.selection().bodies();
@@ -181,8 +179,7 @@ void SketchActions::separate() {
   QString resized;
   for (const Body& body : document.project().bodies) {
     const bool wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), body.id) != chosen.end();
-    const bool stands = toggleOf(body.parameters, bodyParameters(), "fixed");
-    if (!wanted || stands || body.locked || !std::holds_alternative<VoxelShape>(body.shape)) continue;
+    if (!wanted || !mayComeApart(body)) continue;
     if (hasOtherCells(body.id))
       resized = QString::fromStdString(shownName(body));
     else
