@@ -8,6 +8,7 @@
 #include "core/geometry/solidsurface.h"
 #include "core/solver/truesurface.h"
 
+#include <cmath>
 #include <string>
 
 namespace ps {
@@ -17,6 +18,9 @@ api::Float4* fieldOf(ParticleStore& store) {
   return static_cast<api::Float4*>(store.find(field::kTrueSurface, api::FieldType::Float4));
 }
 
+/// How deep below a face the outermost layer of a block's lattice lies at least, in spacings: nearer to it, and the
+/// spheres that single solids are swept against would stand out of it (SweptClamp).
+constexpr double kLeastDepth = 0.455;
 /// How far from a shape its facets may lie, in spacings.
 constexpr double kFacetError = 0.01;
 
@@ -35,11 +39,29 @@ uint64_t stampOf(const SolidShape& solid) {
   return hash.value();
 }
 
+bool isTurnedBlock(const SolidShape& solid) {
+  const SolidForm form(solid);
+  return form.kind() == SolidForm::Kind::Block && form.isTurned();
+}
+
+/// Whether a particle of a block is in the outermost layer of one face and of no other: across an edge tangent planes
+/// would be blended to a bevel, where those of a lattice are round. What is one layer thick has two faces there.
+bool isInOneFace(const SolidForm& block, const Vector3& own, double spacing) {
+  int faces = 0;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double size = block.size()[a], depth = size / 2 - std::abs(own[a]);
+    if (!(depth < spacing)) continue;
+    if (depth < kLeastDepth * spacing || layersAlong(size, spacing) < 2) return false;
+    ++faces;
+  }
+  return faces == 1;
+}
+
 }  // namespace
 
 bool hasTrueSurface(const Body& body) {
   const auto* solid = std::get_if<SolidShape>(&body.shape);
-  return solid && isPacked(*solid) && toggleOf(body.parameters, bodyParameters(), "fixed") &&
+  return solid && (isPacked(*solid) || isTurnedBlock(*solid)) && toggleOf(body.parameters, bodyParameters(), "fixed") &&
          body.velocity == Vector3::Zero() && body.spin == Vector3::Zero();
 }
 
@@ -48,10 +70,13 @@ void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const 
   api::Float4* noted = fieldOf(store);
   const SolidSurface surface(std::get<SolidShape>(body.shape));
   const SolidForm& form = surface.form();
+  const bool isBlock = form.kind() == SolidForm::Kind::Block;
   forChunks(ids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const size_t i = store.indexOf(ids[k]);
-      const SolidSurface::Near near = surface.at(form.toOwn(vectorOf(store.position()[i])));
+      const Vector3 own = form.toOwn(vectorOf(store.position()[i]));
+      if (isBlock && !isInOneFace(form, own, spacing)) continue;
+      const SolidSurface::Near near = surface.at(own);
       if (near.distance > -spacing && near.distance < 0)
         noted[i] = float4Of(form.toScene(near.normal) - form.middle(), static_cast<float>(-near.distance));
     }

@@ -11,8 +11,9 @@
 
 namespace ps {
 
-/// Whether contact may follow a body's shape: a packed solid that is fixed and stands. On a lattice its particles lie
-/// as far out as the surface itself, where what is fast would meet them first.
+/// Whether contact may follow a body's shape: a solid that is fixed and stands, and is packed or a turned block, whose
+/// lattice lies along its faces. Else on a lattice its particles lie as far out as the surface itself, where what is
+/// fast would meet them first.
 bool hasTrueSurface(const Body& body);
 /// Writes field::kTrueSurface of a body's particles that lie within a spacing of its surface.
 void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing);
