@@ -64,7 +64,11 @@ class TestTouchTools : public ToolTest {
     m_document->undoStack().redo();
     QVERIFY(std::abs(heaters() - given) < 1e-6 * given);
     // At the start nothing of it is there, and there is nothing to take back.
+    QSignalSpy left(m_link.get(), &SceneLink::strokesLeft);
+    QTRY_COMPARE(m_link->strokesHomeLeaves(), size_t{1});
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{0});
     m_link->reset();
+    QCOMPARE(left.count(), 1);
     m_document->undoStack().undo();
     QCOMPARE(heaters(), 0.0);
   }
