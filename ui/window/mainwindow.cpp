@@ -533,6 +533,10 @@ bool MainWindow::cancelLongWork() {
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
+    // Nothing else wanted it: it is meant to let go of what is held, and there is none.
+    const bool enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+    if (enter && leadsTab(QApplication::focusWidget()) && !m_sketch->makeReal()->isEnabled())
+      m_status->say(QStringLiteral("Nothing is held. What is drawn is, while Hold what is drawn (L) is on."));
     QMainWindow::keyPressEvent(event);
   } else if (m_tour->running()) {
     m_tour->end();
