@@ -383,7 +383,9 @@ void MainWindow::connectTools() {
   connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_tools.get(), &Toolbox::working, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
-  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
+  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuseTool);
+  for (const auto signal : {&Toolbox::brushChanged, &Toolbox::toolChanged})
+    connect(m_tools.get(), signal, m_notices, &Notices::toolChanged);
   connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
     m_session->plugins()->fault(brush.toStdString(), problem.toStdString());
     m_plugins->refresh();
