@@ -250,8 +250,11 @@ class Flood {
   }
   bool isTooMuch() const { return m_wet.size() + m_filled.size() > m_most; }
   [[noreturn]] void refuse() const {
-    throw InputError("From here more than " + std::to_string(m_most) +
-                     " particles would run full: begin lower, close what is open, or make the particle spacing larger");
+    std::string most = std::to_string(m_most);
+    for (size_t k = 3; k < most.size(); k += 4) most.insert(most.size() - k, ",");
+    throw InputError("From here more than " + most +
+                     " particles would run full, which is the most of one stroke. Close the gap where it is open; else "
+                     "begin lower and go on above that with another stroke, or make the particle spacing larger");
   }
   [[noreturn]] static void refuseEdge() {
     throw InputError(

@@ -50,6 +50,31 @@ class TestBrushWindow : public SampleWindowTest {
   void cleanup() { m_window->tools().setMouse(MousePreset::PhaseSketch); }
   void cleanupTestCase() { m_window.reset(); }
 
+  /// What a notice says of a brush that is too large holds until the brush, or the spacing, is another one.
+  void whatStoodInTheWayGoesWithIt() {
+    const BrushSettings usual = m_window->tools().brush();
+    const auto said = [this] {
+      return m_window->notice()->isVisible() && m_window->notice()->text().contains(QStringLiteral("One stamp of"));
+    };
+    const auto refuse = [&] {
+      m_window->tools().takeBrush("cube");
+      BrushSettings brush = m_window->tools().brush();
+      brush.radius = kBrushMaximum;
+      m_window->tools().setBrush(brush);
+      stroke(view()->rect().center(), {20, 0}, true);
+      QVERIFY2(said(), qPrintable(m_window->notice()->text()));
+      QTest::qWait(1);
+      QVERIFY(said());
+    };
+    refuse();
+    m_window->tools().setBrush(usual);
+    QVERIFY(!said());
+    refuse();
+    QCOMPARE(document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.03), QString());
+    QVERIFY(!said());
+    m_window->tools().setBrush(usual);
+  }
+
   void aDragMakesTheBrushLarger_data() {
     QTest::addColumn<int>("preset");
     QTest::addColumn<Qt::KeyboardModifiers>("keys");

@@ -14,6 +14,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/excerpt.h"
 #include "ui/session/scenelink.h"
+#include "ui/session/transitions.h"
 #include "ui/session/worker.h"
 
 #include <QtCore/QTemporaryDir>
@@ -80,6 +81,25 @@ class TestContent : public QObject {
     m_link.reset();
     m_engine.reset();
     m_document.reset();
+  }
+
+  /// What legends mark is of the first material that there is any of.
+  void changesOfPhaseAreOfWhatIsThere() {
+    constexpr double kIce = 273.15, kTin = 505.08;  // K
+    Transitions transitions(*m_document);
+    Body ingot = scenes::block("ingot", 2, 0.03, {0.3, 0.5, 0}, 293.15);
+    ingot.material = m_document->addMaterial("tin");
+    ingot.constraints.clear();
+    const std::string id = m_document->addBody(ingot);
+    QVERIFY(std::abs(transitions.melts() - kIce) < 0.1);
+    for (const char* body : {"ice", "second"}) QCOMPARE(m_document->removeBody(body), QString());
+    QVERIFY2(std::abs(transitions.melts() - kTin) < 0.5, qPrintable(QString::number(transitions.melts())));
+    QCOMPARE(m_document->removeBody(id), QString());
+    QVERIFY(std::abs(transitions.melts() - kIce) < 0.1);  // of what is drawn with first
+    m_document->undoStack().undo();
+    QVERIFY(std::abs(transitions.melts() - kTin) < 0.5);
+    m_document->undoStack().undo();
+    QVERIFY(std::abs(transitions.melts() - kIce) < 0.1);
   }
 
   void aDeletedBodyComesBackWhole_data() {

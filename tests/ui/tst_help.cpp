@@ -195,6 +195,31 @@ class TestHelp : public SampleWindowTest {
     m_window->tools().activate("select");
   }
 
+  /// Of one that draws it is the keys that one asks for.
+  void f1InTheViewTellsOfTheBrushThatWorksOnMatter() {
+    m_window->tools().activate("brush");
+    for (const auto& [brush, words] :
+         {std::pair("heat", "Heat and cool:"), {"grab", "Grab:"}, {"cut", "Cut:"}, {"paint", "Paint:"}}) {
+      m_window->tools().takeBrush(brush);
+      if (dialog()) dialog()->hide();  // it may lie over the view
+      view()->setFocus();
+      QTest::mouseMove(view(), view()->rect().center());
+      f1();
+      QCOMPARE(dialog()->current(), QStringLiteral("sketching"));
+      auto* text = dialog()->findChild<QTextBrowser*>();
+      QTextCursor found = text->document()->find(QString::fromLatin1(words), 0, QTextDocument::FindCaseSensitively);
+      found.setPosition(found.selectionStart());
+      const int top = text->cursorRect(found).top();
+      QVERIFY2(top > -8 && top < 40, qPrintable(QStringLiteral("%1 %2").arg(QLatin1String(brush)).arg(top)));
+    }
+    m_window->tools().takeBrush("sphere");
+    dialog()->hide();
+    QTest::mouseMove(view(), view()->rect().center() + QPoint(4, 0));
+    f1();
+    QCOMPARE(dialog()->current(), QStringLiteral("tool/brush"));
+    m_window->tools().activate("select");
+  }
+
   void allValuesAreListed() {
     m_window->help().open(QStringLiteral("values"));
     QVERIFY(dialog()->text().contains(QStringLiteral("Conductivity")));

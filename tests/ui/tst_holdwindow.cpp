@@ -8,6 +8,7 @@
 #include "ui/tools/livestroke.h"
 #include "ui/tools/livetouch.h"
 #include "ui/tools/tooltable.h"
+#include "ui/window/statusline.h"
 
 #include <QtGui/QAction>
 #include <QtTest/QSignalSpy>
@@ -83,6 +84,26 @@ class TestHoldWindow : public SampleWindowTest {
     QTest::mouseClick(button(), Qt::LeftButton);
     playOn(0.1);
     QVERIFY(heightOf(id) < height);
+  }
+
+  /// A key that does nothing looks broken.
+  void enterSaysThatNothingIsHeld() {
+    StatusLine& status = *m_window->findChild<StatusLine*>();
+    status.say({});
+    QTest::keyClick(view(), Qt::Key_Return);
+    QVERIFY2(status.state().note.startsWith(QStringLiteral("Nothing is held.")), qPrintable(status.state().note));
+    QTest::keyClick(view(), Qt::Key_B);
+    QTest::keyClick(view(), Qt::Key_L);
+    drawn();
+    status.say({});
+    QTest::keyClick(view(), Qt::Key_Enter);
+    QVERIFY(!status.state().note.startsWith(QStringLiteral("Nothing is held.")));
+    QLineEdit field(m_window.get());
+    field.show();
+    field.setFocus();
+    QTRY_VERIFY(field.hasFocus());
+    QTest::keyClick(&field, Qt::Key_Return);
+    QVERIFY(!status.state().note.startsWith(QStringLiteral("Nothing is held.")));
   }
 
   /// Elsewhere Enter is what it always is.

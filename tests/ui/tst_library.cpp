@@ -85,6 +85,21 @@ class TestLibrary : public SampleWindowTest {
     }
   }
 
+  /// What was looked for the last time would hide what is looked for now; while the library is open the words stay.
+  void theSearchBeginsAnewWhereTheLibraryIsOpened() {
+    const qsizetype all = page()->shown().size();
+    search(QStringLiteral("iron"));
+    QVERIFY(page()->shown().size() < all);
+    m_window->action(QStringLiteral("add.library"))->trigger();
+    QVERIFY(page()->shown().size() < all);
+    button(QStringLiteral("Back to the scene"))->click();
+    QVERIFY(!page()->isVisible());
+    m_window->action(QStringLiteral("add.library"))->trigger();
+    QVERIFY(page()->isVisible());
+    QCOMPARE(field(QStringLiteral("Search materials"))->text(), QString());
+    QCOMPARE(page()->shown().size(), all);
+  }
+
   void phasesAtAGlance() {
     QCOMPARE(transitionsText(*entry(QStringLiteral("Water"))), QStringLiteral("melts at 0 °C, boils at 100 °C"));
     QVERIFY(transitionsText(*entryOf("co2")).startsWith(QStringLiteral("turns to gas at ")));

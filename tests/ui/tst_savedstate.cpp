@@ -11,6 +11,7 @@
 #include "ui/session/scenelink.h"
 #include "ui/timeline/transport.h"
 #include "ui/window/noticebar.h"
+#include "ui/window/statusline.h"
 
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QAction>
@@ -255,6 +256,35 @@ class TestSavedState : public QObject {
     session().link()->erase(*stroke, stroke->cells);  // what there is at 0 s
     save();
     QVERIFY(!told());
+  }
+
+  /// What was drawn meanwhile stays at the start; what was erased does not, and no word would make that look lost.
+  void homeTellsOfWhatBelongsToTheRun() {
+    const auto note = [this] { return m_window->findChild<StatusLine*>()->state().note; };
+    const auto home = [this] {
+      action("simulation.reset")->trigger();
+      QTRY_COMPARE_WITH_TIMEOUT(session().newest()->stats.frame, uint64_t{0}, kLong);
+    };
+    hashAfter(session(), kKept);
+    paint(8);
+    home();
+    QVERIFY2(!note().contains(QStringLiteral("belong")), qPrintable(note()));
+    hashAfter(session(), kKept);
+    std::vector<std::shared_ptr<StrokeRecord>> strokes;
+    for (const int x : {0, 1}) {
+      const auto stroke = strokes.emplace_back(std::make_shared<StrokeRecord>());
+      stroke->erase = true;
+      stroke->lattice.spacing = 0.03;
+      stroke->lattice.origin = {0, 0.015, 0};
+      stroke->cells = {{x, 1, 0}};
+      session().link()->erase(*stroke, stroke->cells);
+      document().addStroke(stroke);
+    }
+    QTRY_COMPARE_WITH_TIMEOUT(session().newest()->erasedOrPainted.size(), size_t{2}, kLong);
+    home();
+    QVERIFY2(note().startsWith(QStringLiteral("2 edits made while it ran belong to that run: the start is as it was.")),
+             qPrintable(note()));
+    QCOMPARE(session().log().messages().back().text, note());
   }
 
   void aStateOfAProjectThatHasGoneIsDropped() {

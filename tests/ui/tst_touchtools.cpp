@@ -9,6 +9,7 @@
 #include "tests/shared/scenes.h"
 #include "tests/ui/tooltesting.h"
 #include "ui/tools/handbrush.h"
+#include "ui/tools/livetouch.h"
 #include "ui/tools/sight.h"
 
 #include <QtCore/QElapsedTimer>
@@ -64,7 +65,11 @@ class TestTouchTools : public ToolTest {
     m_document->undoStack().redo();
     QVERIFY(std::abs(heaters() - given) < 1e-6 * given);
     // At the start nothing of it is there, and there is nothing to take back.
+    QSignalSpy left(m_link.get(), &SceneLink::strokesLeft);
+    QTRY_COMPARE(m_link->strokesHomeLeaves(), size_t{1});
+    QCOMPARE(m_link->strokesOfTheRun(), size_t{0});
     m_link->reset();
+    QCOMPARE(left.count(), 1);
     m_document->undoStack().undo();
     QCOMPARE(heaters(), 0.0);
   }
@@ -175,6 +180,54 @@ class TestTouchTools : public ToolTest {
     QVERIFY(std::abs(heaters()) < 1e-3);
     m_tools->tool().release(at(kTop));
     QCOMPARE(m_document->undoStack().count(), 0);
+  }
+
+  /// With the power that a brush for heat begins with, where heat is as fast as it really is.
+  void iceBeginsToMeltWithinTwoSeconds() {
+    Project project = scenes::iceOnPlate(5, 263.15, 1);
+    project.environment = scenes::tray(0.6, 1.2);
+    close();
+    open(project);
+    QVERIFY(QTest::qWaitFor([&] { return m_engine->snapshot() != nullptr; }));
+    take("heat");
+    QVERIFY(standardValues(*m_document, "heat").values.empty());
+    m_engine->play();
+    QVERIFY(m_tools->tool().press(at(kTop)));
+    const double start = time();
+    const auto melts = [this] {
+      const std::vector<api::Phase>& phase = m_engine->snapshot()->phase;
+      return std::any_of(phase.begin(), phase.end(), [](api::Phase one) { return one != api::Phase::Solid; });
+    };
+    QVERIFY(QTest::qWaitFor(melts, 30000));
+    QVERIFY2(time() < start + 2, qPrintable(QString::number(time() - start)));
+    m_tools->tool().release(at(kTop));
+  }
+
+  /// The same power by the clock that people look at.
+  void powersGoByTheSpeedOfHeat() {
+    const auto power = [this](const char* brush) {
+      return std::get<double>(standardValues(*m_document, brush).values.at("power"));
+    };
+    QVERIFY(std::abs(power("heat") - 10000 / kScale) < 1e-9 && std::abs(power("cool") - 10000 / kScale) < 1e-9);
+    QVERIFY(standardValues(*m_document, "grab").values.empty());
+    QCOMPARE(m_document->setParameter({Owner::Solver, "", "thermal_time_scale"}, 3000.0), QString());
+    QVERIFY(std::abs(power("heat") - 3.3) < 1e-9);
+  }
+
+  void brushesForHeatTellHowWarmItIs() {
+    const auto told = [this](const char* brush, const Vector3& place) {
+      take(brush);
+      m_tools->tool().hover(at(place));
+      m_tools->tool().see(m_engine->snapshot().get());
+      const auto tag = m_tools->tool().picture().tag;
+      return tag ? tag->value : QString();
+    };
+    for (const char* brush : {"heat", "cool"}) {
+      QVERIFY2(told(brush, kTop).contains(QStringLiteral("°C")), brush);
+      QVERIFY(m_tools->tool().words().contains(QStringLiteral("°C")));
+      QCOMPARE(told(brush, Vector3(0.25, 0, 0.25)), QString());  // on the floor, where nothing is
+    }
+    for (const char* brush : {"cut", "sphere"}) QCOMPARE(told(brush, kTop), QString());
   }
 
   void lockedBodiesAreSpared() {

@@ -523,6 +523,18 @@ class TestSketch : public QObject {
     QVERIFY_EXCEPTION_THROWN(redrawn(shape, 1, all, brushOf), InputError);
   }
 
+  void whatIsTooMuchToFillSaysWhatToDo() {
+    const FreeOf endless = [](const SketchGrid&, const CellSet& cells) { return cells; };
+    try {
+      flooded({{0.5, 0.5, 0.5}, 0.1}, cellsOf({{0, 3, 0}}), {}, Vector3(0, -9.81, 0), endless);
+      QFAIL("it has no end");
+    } catch (const InputError& error) {
+      const QString said = QString::fromUtf8(error.what());
+      for (const char* way : {"32,768 particles", "Close the gap", "another stroke", "spacing larger"})
+        QVERIFY2(said.contains(QString::fromLatin1(way)), qPrintable(said));
+    }
+  }
+
   /// Two arms joined at the bottom, 4 cells high, one cell thick all around, between panes: they run full to one level,
   /// whichever arm one points into, as by pieces of a stroke that rises; what is above the rim runs out.
   void hollowsRunFull() {

@@ -311,6 +311,8 @@ void LibraryPage::setTag(const QString& tag) {
   filter();
 }
 
+void LibraryPage::clearSearch() { m_search->clear(); }
+
 void LibraryPage::filter() {
   for (int i = 0; i < m_cards->count(); ++i) {
     QListWidgetItem* item = m_cards->item(i);

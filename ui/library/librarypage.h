@@ -35,6 +35,7 @@ class LibraryPage : public QWidget {
   QTreeWidget* table() const { return m_table; }
   void setTag(const QString& tag);  ///< "": all
   void choose(const QString& label, bool beside = false);
+  void clearSearch();
   void refresh();  ///< cards and table anew, in the unit that people prefer
 
  Q_SIGNALS:

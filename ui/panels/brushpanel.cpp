@@ -9,6 +9,7 @@
 #include "ui/theme/paint.h"
 #include "ui/tools/becoming.h"
 #include "ui/tools/coarsebrush.h"
+#include "ui/tools/livetouch.h"
 #include "ui/tools/toolbox.h"
 
 #include <QtWidgets/QBoxLayout>
@@ -65,6 +66,7 @@ BrushPanel::BrushPanel(Toolbox& tools, QWidget* parent)
     if (std::holds_alternative<ProjectOpened>(event)) refresh();
     const auto* parameter = std::get_if<ParameterChanged>(&event);
     if (parameter && parameter->address.text() == kSpacing) showCoarse();
+    if (parameter && parameter->address.key == "thermal_time_scale") refresh();
     if (std::holds_alternative<MaterialsChanged>(event) || m_tools.stampsShape()) showMaterial();
   });
   if (tools.document().plugins()) refresh();  // made later than they came
@@ -126,7 +128,9 @@ void BrushPanel::rebuild() {
   std::vector<RowModel> common = rowModels(brushParameters(), valuesOf(brush));
   for (RowModel& row : common) row.choiceLabels = labelsOf(row.key);
   rows.push_back(std::move(common.front()));
-  for (RowModel& own : rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn)) rows.push_back(std::move(own));
+  const ParameterSet standard = standardValues(m_tools.document(), brush.shape);
+  for (RowModel& own : rowModels(ownParameters(), brush.shapeParameters(), standard, kOwn))
+    rows.push_back(std::move(own));
   rows.insert(rows.end(), std::make_move_iterator(common.begin() + 1), std::make_move_iterator(common.end()));
   setModel(std::move(rows));
 }
@@ -134,8 +138,9 @@ void BrushPanel::rebuild() {
 void BrushPanel::refresh() {
   const BrushSettings& brush = m_tools.brush();
   const RowModel shape = shapeRow();
-  const QString shown =
-      QString::fromUtf8(shape.declaration.choices) + QLatin1Char('=') + QString::fromStdString(brush.shape);
+  const ParameterSet standard = standardValues(m_tools.document(), brush.shape);
+  QString shown = QString::fromUtf8(shape.declaration.choices) + QLatin1Char('=') + QString::fromStdString(brush.shape);
+  for (const auto& [key, value] : standard.values) shown += QStringLiteral(" %1").arg(std::get<double>(value));
   if (shown != m_shown || rows().empty()) {
     m_shown = shown;
     rebuild();
@@ -147,7 +152,7 @@ void BrushPanel::refresh() {
     }
   };
   show(rowModels(brushParameters(), valuesOf(brush)));
-  show(rowModels(ownParameters(), brush.shapeParameters(), {}, kOwn));
+  show(rowModels(ownParameters(), brush.shapeParameters(), standard, kOwn));
   if (m_tools.scaleParameter())
     setDisabledReason(QStringLiteral("radius"), QStringLiteral("The scale says how large the copies are"));
   if (m_tools.touchesMatter() || m_tools.reworks()) {
@@ -240,7 +245,14 @@ void BrushPanel::onEdited(const QString& key, const Value& value, Edit edit) {
   }
   BrushSettings brush = m_tools.brush();
   if (key.startsWith(kOwn)) {
-    brush.parameters[brush.shape].values[key.mid(kOwn.size()).toStdString()] = value;
+    const std::string own = key.mid(kOwn.size()).toStdString();
+    const ParameterSet standard = standardValues(m_tools.document(), brush.shape);
+    const auto same = standard.values.find(own);
+    // What is put back goes on with the scene.
+    if (same != standard.values.end() && same->second == value)
+      brush.parameters[brush.shape].values.erase(own);
+    else
+      brush.parameters[brush.shape].values[own] = value;
   } else {
     setValueOf(brush, key.toStdString(), value);
   }

@@ -363,8 +363,10 @@ void SceneLink::reset() {
   if (isBroken()) {
     rebuild(m_play);
   } else {
+    const size_t left = strokesHomeLeaves();
     ++m_run;
     m_engine.apply(Reset{namedMatter()});
+    if (left > 0) Q_EMIT strokesLeft(left);
   }
 }
 
@@ -503,19 +505,35 @@ SnapshotPtr SceneLink::scene() const { return m_engine.snapshot(); }
 
 bool SceneLink::runs() const { return m_engine.playing(); }
 
+bool SceneLink::isInState(MatterKey key) const {
+  const auto kept = keptNames();
+  const std::vector<MatterKey> known = kept ? kept->keys() : std::vector<MatterKey>{};
+  return std::find(known.begin(), known.end(), key) != known.end();
+}
+
 size_t SceneLink::strokesOfTheRun() const {
   const SnapshotPtr snapshot = m_engine.snapshot();
   if (!snapshot) return 0;
-  const auto kept = keptNames();
-  const std::vector<MatterKey> known = kept ? kept->keys() : std::vector<MatterKey>{};
-  const auto isKnown = [&](MatterKey key) { return std::find(known.begin(), known.end(), key) != known.end(); };
   const auto& done = snapshot->erasedOrPainted;
   const auto drawn = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
-    if (one.stroke.expired()) return one.run == m_run && !isKnown(one.key);
+    if (one.stroke.expired()) return one.run == m_run && !isInState(one.key);
     const auto stroke = one.done ? one.stroke.lock() : nullptr;
-    return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isKnown(*stroke->matter);
+    return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isInState(*stroke->matter);
   });
-  return static_cast<size_t>(std::count_if(done.begin(), done.end(), std::not_fn(isKnown)) + drawn);
+  const auto erased = std::count_if(done.begin(), done.end(), [this](MatterKey key) { return !isInState(key); });
+  return static_cast<size_t>(erased + drawn);
+}
+
+/// Of hands the engine says as well whether it knows them: the run may have gone back to before them.
+size_t SceneLink::strokesHomeLeaves() const {
+  const SnapshotPtr snapshot = m_engine.snapshot();
+  if (!snapshot || !snapshot->keptForUndo) return strokesOfTheRun();
+  const auto touched = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
+    const auto stroke = one.done ? one.stroke.lock() : nullptr;
+    return stroke && !stroke->deed.empty() && isOfThisRun(stroke->matter) && !isInState(*stroke->matter) &&
+           snapshot->keptForUndo->contains(*stroke->matter);
+  });
+  return strokesOfTheRun() + static_cast<size_t>(touched);
 }
 
 void SceneLink::cancel(const std::shared_ptr<StrokeRecord>& stroke) {

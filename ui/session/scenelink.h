@@ -61,6 +61,8 @@ class SceneLink : public QObject {
   /// Strokes of which neither the project's bodies nor its state know: they erased or painted after the start, where
   /// matter no longer stands where bodies put it, or drew where there is no room at the start.
   size_t strokesOfTheRun() const;
+  /// Those, and hands in matter that heated, cut or welded it in this run: what is not at the start, nor in the state.
+  size_t strokesHomeLeaves() const;
   /// Takes back a stroke that the document does not know yet (Esc).
   void cancel(const std::shared_ptr<StrokeRecord>& stroke);
 
@@ -68,7 +70,8 @@ class SceneLink : public QObject {
   /// The stroke of this matter is about to erase, or to cut there, and not for the first time perhaps: who asks the
   /// engine now sees it as it is before.
   void parting(const ps::MatterRef& stroke, const std::vector<ps::api::Touch>& cuts);
-  void matterEdited();  ///< as it stands now: a hand wants to see it
+  void matterEdited();               ///< as it stands now: a hand wants to see it
+  void strokesLeft(size_t strokes);  ///< reset() went back to a start that has nothing of these
 
  private:
   void onChanged(const ChangeEvent& event);
@@ -113,6 +116,7 @@ class SceneLink : public QObject {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
+  bool isInState(MatterKey key) const;
   /// What had a name in the state that the project holds, where this program kept it.
   std::shared_ptr<const NamedMatter> keptNames() const;
   std::vector<std::pair<std::weak_ptr<const ProjectState>, std::shared_ptr<const NamedMatter>>> m_kept;

@@ -8,7 +8,8 @@ namespace ps {
 
 class Document;
 
-/// Where the scene's first material changes phase at the air's pressure: marks in legends, lines in graphs.
+/// Where the first of the scene's materials that there is any of changes phase at the air's pressure: marks in legends,
+/// lines in graphs.
 class Transitions : public QObject {
   Q_OBJECT
  public:
@@ -25,6 +26,7 @@ class Transitions : public QObject {
   void compute();
   Document& m_document;
   double m_melts, m_boils;
+  size_t m_material = 0;  ///< of which they are, by its place in the project
 };
 
 }  // namespace ps

@@ -5,6 +5,8 @@
 #include "ui/document/document.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
+#include "ui/theme/theme.h"
+#include "ui/theme/units.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/toolbox.h"
 
@@ -136,8 +138,26 @@ void DrawTool::beginTouch(const Pointer& pointer) {
   m_hand.scene = nullptr;
 }
 
+/// Who heats or cools wants to see how far it is: by the particle that is nearest to the hand, where that reaches it.
+void DrawTool::feel(const Snapshot* now) {
+  m_felt.clear();
+  const PluginRegistry* plugins = box().document().plugins();
+  if (!now || !m_cursor || !plugins || !touches() || !hasPower(*plugins, box().brush().shape)) return;
+  std::optional<size_t> nearest;
+  double least = box().brush().radius;
+  for (size_t i = 0; i < now->position.size(); ++i) {
+    const double away = (vectorOf(now->position[i]) - m_cursor->centre).norm();
+    if (away < least) least = away, nearest = i;
+  }
+  if (nearest) {
+    m_felt = temperatureText(static_cast<double>(now->temperature[*nearest]), 1) + QStringLiteral("  ") +
+             phaseName(now->phase[*nearest]);
+  }
+}
+
 /// Matter melts, flows and is carried away under a pointer that stays: the hand follows what is there.
 void DrawTool::see(const Snapshot* now) {
+  feel(now);
   if (!m_touch.active() || m_touch.holds() || !m_cursor || !now) return;
   Pointer looking = m_hand;
   looking.scene = SnapshotPtr(SnapshotPtr(), now);  // only while this lasts
@@ -303,6 +323,7 @@ ToolPicture DrawTool::picture() const {
   if (!picture.cursor) return picture;
   std::tie(picture.cursor->extent, picture.cursor->box) = box().stamp(m_plane.normal);
   picture.cursor->form = box().form(m_plane.normal);
+  if (!m_felt.isEmpty()) picture.tag = SceneTag{m_cursor->centre, {}, m_felt};
   if (!m_snapped.isEmpty()) picture.wires.push_back(crossAt(m_cursor->centre, m_plane.normal, box().brush().radius));
   return picture;
 }
@@ -319,6 +340,7 @@ QString DrawTool::words() const {
   if (box().stampsShape() && !box().shapeName().empty())
     parts << QStringLiteral("copies of ") + QString::fromStdString(box().shapeName());
   if (m_cursor && !m_snapped.isEmpty()) parts << m_snapped;
+  if (m_cursor && !m_felt.isEmpty()) parts << m_felt;
   if (m_cursor) parts << QStringLiteral("height ") + lengthText(std::max(0.0, m_cursor->centre[1] - m_cursor->floor));
   return parts.join(QStringLiteral(", "));
 }

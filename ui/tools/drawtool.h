@@ -44,6 +44,7 @@ class DrawTool : public Tool {
   void dragTouch(const Pointer& pointer);
   void touchAt(const Vector3& point);
   bool touches() const;
+  void feel(const Snapshot* now);
   Held heldBy(const Pointer& pointer) const;
   bool erases(const Pointer& pointer) const { return pointer.eraser || m_erases != pointer.control; }
   bool meetsMatter() const;  ///< instead of standing on it
@@ -62,6 +63,7 @@ class DrawTool : public Tool {
   double m_began = 0;  ///< s, on the pointer's clock
   std::optional<BrushCursor> m_cursor;
   Pointer m_hand;        ///< as it was last while it touches matter
+  QString m_felt;        ///< "" or how warm it is at the hand, of a brush for heat
   QString m_snapped;     ///< "" or what the place under the pointer has snapped to
   bool m_faces = false;  ///< the plane lies across the view, for what the hand holds
   bool m_said = false;   ///< why something was not drawn, or flows

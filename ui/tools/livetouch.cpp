@@ -12,6 +12,8 @@
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace ps {
@@ -29,7 +31,39 @@ bool keeps(const std::vector<api::Touch>& touches) {
   return any(touches, Heat) || any(touches, Cut) || any(touches, Weld);
 }
 
+bool isPower(const api::ParameterDeclaration& declaration) {
+  return declaration.kind == api::ParameterKind::Number && std::string_view(declaration.unit) == "W";
+}
+
+/// To two digits.
+double rounded(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return step * std::round(value / step);
+}
+
 }  // namespace
+
+bool hasPower(const PluginRegistry& plugins, const std::string& brush) {
+  const api::ParameterList own = plugins.parameters(brush);
+  for (size_t k = 0; k < own.count; ++k) {
+    if (isPower(own[k])) return true;
+  }
+  return false;
+}
+
+ParameterSet standardValues(const Document& document, const std::string& brush) {
+  ParameterSet standard;
+  const PluginRegistry* plugins = document.plugins();
+  const Value lapse = document.value({Owner::Solver, "", "thermal_time_scale"});
+  const auto* times = std::get_if<double>(&lapse);
+  if (!plugins || !plugins->needs(brush, api::kTouchesMatter) || !times || !(*times > 1)) return standard;
+  const api::ParameterList own = plugins->parameters(brush);
+  for (size_t k = 0; k < own.count; ++k) {
+    if (!isPower(own[k]) || !(own[k].defaultValue > 0)) continue;
+    standard.values[own[k].key] = std::max(own[k].hardMinimum, rounded(own[k].defaultValue / *times));
+  }
+  return standard;
+}
 
 LiveTouch::LiveTouch(Toolbox& box, std::function<void(const QString&)> onTrouble)
     : m_box(box), m_onTrouble(std::move(onTrouble)) {
@@ -53,6 +87,9 @@ QString LiveTouch::begin(const BrushSettings& brush, bool opposite, const Vector
   m_brush = brush.shape;
   m_kind = opposite ? api::EditKind::Remove : api::EditKind::Add;
   m_setup = strokeSetup(brush, plugins, m_box.spacing(), up);
+  ParameterSet values = standardValues(m_box.document(), brush.shape);
+  for (const auto& [key, value] : brush.shapeParameters().values) values.values[key] = value;
+  m_setup.parameters = numbersOf(values, plugins.parameters(brush.shape));
   m_setup.look = look;
   m_setup.matterWithin = m_sight.matterWithin();
   m_resampler = std::make_unique<StrokeResampler>(m_setup.grid.spacing);

@@ -19,7 +19,15 @@
 
 namespace ps {
 
+class Document;
+class PluginRegistry;
 class Toolbox;
+
+/// Whether a brush that touches matter gives or takes heat: it declares a power.
+bool hasPower(const PluginRegistry& plugins, const std::string& brush);
+/// What holds in this scene of a brush's own parameters that nobody has set, in place of their declared defaults:
+/// powers. They are declared for heat that is as fast as it really is, and a power counts on the thermal clock.
+ParameterSet standardValues(const Document& document, const std::string& brush);
 
 /// A hand that works on the matter that is there, by a brush that says so: takes places along its way, lets the brush
 /// say on another thread what it does there, sends that straight to the engine, which does it as time passes in the

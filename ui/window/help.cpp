@@ -105,6 +105,14 @@ std::string Help::brushInHand() const {
   return m_window.tools().active() == kEraseTool ? kEraseTool : m_window.tools().brush().shape;
 }
 
+/// Of brushes that work on what is there one asks what they do; of those that draw, with which keys.
+QString Help::ofTool() const {
+  const Toolbox& tools = m_window.tools();
+  const bool works = tools.active() == kBrushTool && (tools.touchesMatter() || tools.reworks());
+  const QString sketching = QStringLiteral("sketching"), place = placeOf(sketching, brushInHand());
+  return works && place != sketching ? place : kTool + QString::fromStdString(tools.active());
+}
+
 QString Help::idHere() const {
   QWidget* pointed = QApplication::widgetAt(QCursor::pos());
   if (pointed && pointed->window() != &m_window) pointed = nullptr;
@@ -113,8 +121,7 @@ QString Help::idHere() const {
     if (const auto* row = around<ParameterRow>(widget)) return kParameter + row->key();
   }
   for (QWidget* widget : {pointed, focused}) {
-    if (around<Viewport>(widget) || around<ViewportPane>(widget))
-      return kTool + QString::fromStdString(m_window.tools().active());
+    if (around<Viewport>(widget) || around<ViewportPane>(widget)) return ofTool();
     const auto* button = around<QAbstractButton>(widget);
     const std::string shape = button ? button->property("shape").toString().toStdString() : std::string();
     if (const auto* dock = around<Dock>(widget))

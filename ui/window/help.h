@@ -33,6 +33,7 @@ class Help : public QObject {
   HelpPage toolPage(const QString& id) const;
   HelpPage valuesPage() const;
   QString idHere() const;
+  QString ofTool() const;
   std::string brushInHand() const;  ///< id of its plugin, or "erase"
   MainWindow& m_window;
   const Actions& m_actions;

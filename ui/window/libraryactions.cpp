@@ -41,8 +41,11 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
 }
 
 void LibraryActions::addTo(QMenu* menu) {
-  m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {},
-                [this] { m_centre.setCurrentWidget(m_page); });
+  m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {}, [this] {
+    // What was looked for last time would hide what is looked for now.
+    if (m_centre.currentWidget() != m_page) m_page->clearSearch();
+    m_centre.setCurrentWidget(m_page);
+  });
 }
 
 void LibraryActions::openMix(const QString& first, const QString& second) {

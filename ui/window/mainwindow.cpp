@@ -383,7 +383,9 @@ void MainWindow::connectTools() {
   connect(m_bodies, &BodyActions::reading, m_status, &StatusLine::setWork);
   connect(m_tools.get(), &Toolbox::working, m_status, &StatusLine::setWork);
   connect(m_bodies, &BodyActions::rowWanted, this, [this](const Address& address) { revealParameter(address, false); });
-  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuse);
+  connect(m_tools.get(), &Toolbox::refused, m_notices, &Notices::refuseTool);
+  for (const auto signal : {&Toolbox::brushChanged, &Toolbox::toolChanged})
+    connect(m_tools.get(), signal, m_notices, &Notices::toolChanged);
   connect(m_tools.get(), &Toolbox::brushFailed, this, [this](const QString& brush, const QString& problem) {
     m_session->plugins()->fault(brush.toStdString(), problem.toStdString());
     m_plugins->refresh();
@@ -533,6 +535,10 @@ bool MainWindow::cancelLongWork() {
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) {
+    // Nothing else wanted it: it is meant to let go of what is held, and there is none.
+    const bool enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+    if (enter && leadsTab(QApplication::focusWidget()) && !m_sketch->makeReal()->isEnabled())
+      m_status->say(QStringLiteral("Nothing is held. What is drawn is, while Hold what is drawn (L) is on."));
     QMainWindow::keyPressEvent(event);
   } else if (m_tour->running()) {
     m_tour->end();

@@ -67,6 +67,13 @@ Notices::Notices(Session& session, NoticeBar& bar, const Actions& actions, QObje
     m_refusedAt.reset();
     m_bar.close(kRefusedNow);
   });
+  connect(&session.document(), &Document::changed, this, [this](const ChangeEvent& event) {
+    const auto* parameter = std::get_if<ParameterChanged>(&event);
+    if (parameter && parameter->address.key == "particle_spacing") toolChanged();
+  });
+  connect(&session, &Session::playingChanged, this, [this] {
+    if (m_session.playing()) toolChanged();  // hands are told that they work while time passes
+  });
   connect(&session, &Session::madeOrNot, this, [this] {
     m_tellsMaking = m_givesUpMaking = false;
     m_bar.close(kMaking);
@@ -177,12 +184,23 @@ void Notices::showBroken(const EngineEvent& event) {
 }
 
 void Notices::refuse(const QString& title, const QString& why) {
+  ++m_refusals;
   if (why.isEmpty()) {
     m_bar.close(kRefused);
   } else {
     m_bar.show(kRefused, MessageLevel::Warning, title, why);
     m_session.log().add(MessageLevel::Warning, QStringLiteral("Scene"), title + QLatin1Char(' ') + why);
   }
+}
+
+/// Who refuses may take another brush in the same breath, of which nobody would have read why.
+void Notices::refuseTool(const QString& title, const QString& why) {
+  refuse(title, why);
+  QTimer::singleShot(0, this, [this, number = m_refusals] { m_toolRefusal = number; });
+}
+
+void Notices::toolChanged() {
+  if (m_toolRefusal == m_refusals) refuse({}, {});
 }
 
 void Notices::refuseUntilEdited(const QString& title, const QString& why) {

@@ -26,6 +26,9 @@ class Notices : public QObject {
   NoticeBar& bar() const { return m_bar; }
   /// With "" for `why` the last one goes.
   void refuse(const QString& title, const QString& why);
+  /// Of what a tool was to do: goes with toolChanged(), before which it holds.
+  void refuseTool(const QString& title, const QString& why);
+  void toolChanged();
   /// Goes with the next edit, after which it may hold no longer.
   void refuseUntilEdited(const QString& title, const QString& why);
   /// Into the log, and over the view where it is a warning or worse.
@@ -49,6 +52,8 @@ class Notices : public QObject {
   NoticeBar& m_bar;
   const Actions& m_actions;
   std::optional<uint64_t> m_refusedAt;  ///< Document::changeCount() at the refusal that goes with an edit
+  int m_refusals = 0;                   ///< of the topic that refuse() has
+  int m_toolRefusal = -1;               ///< the number of that which goes with toolChanged()
   bool m_tellsMaking = false;           ///< the scene that is being made has been told of
   bool m_givesUpMaking = false;         ///< and somebody has given it up
 };

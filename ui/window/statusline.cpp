@@ -9,6 +9,7 @@
 #include "ui/session/documentfiles.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
+#include "ui/session/scenelink.h"
 #include "ui/session/session.h"
 #include "ui/session/wording.h"
 #include "ui/theme/icon.h"
@@ -141,6 +142,7 @@ void StatusLine::follow() {
   for (const auto signal : {&Session::valuesDue, &Session::madeOrNot})
     connect(&m_session, signal, this, [this] { m_sinceValues.start(); });
   followWork();
+  followHome();
   connect(&m_session, &Session::happened, this, [this](const EngineEvent& event) {
     const bool late = event.kind == EngineEvent::Kind::Late;
     m_late = late ? pluginLabel(m_session.plugins(), event.message) : QString();
@@ -178,6 +180,24 @@ void StatusLine::followWork() {
   connect(&m_session.work(), &RunWork::working, this,
           [=, this](const QString&, double, double left) { tell(m_workLeft, left); });
   connect(&m_session.work(), &RunWork::ended, this, [=, this] { tell(m_workLeft, -1); });
+}
+
+/// What was drawn stays, what was erased, painted or heated while it ran does not: no word would make that look lost.
+void StatusLine::followHome() {
+  const auto follow = [this] {
+    connect(m_session.link(), &SceneLink::strokesLeft, this, [this](size_t strokes) {
+      const QString text =
+          (strokes == 1 ? QStringLiteral("One edit made while it ran belongs to that run")
+                        : QStringLiteral("%1 edits made while it ran belong to that run").arg(strokes)) +
+          QStringLiteral(": the start is as it was. Save with the present state keeps such edits, before Home.");
+      m_session.log().add(MessageLevel::Info, QStringLiteral("Back to the start"), text);
+      say(text);
+    });
+  };
+  if (m_session.link())
+    follow();
+  else
+    connect(&m_session, &Session::ready, this, follow);
 }
 
 void StatusLine::refresh() {

@@ -74,6 +74,7 @@ class StatusLine : public QWidget {
   };
   void follow();
   void followWork();
+  void followHome();
   void refresh();
   void addNote(State& state);
   void tellOfSketches(const StrokeChanged& event);
