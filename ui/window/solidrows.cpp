@@ -3,7 +3,6 @@
 
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
-#include "core/simulation/declared.h"
 
 #include <algorithm>
 #include <cmath>
