@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace ps {
@@ -29,6 +30,11 @@ constexpr double kReachPerRadius = 1 / 0.24609;
 constexpr float kGapPerRadius = 1.9F;
 constexpr uint16_t kNone = 0xFFFF;
 constexpr size_t kSlice = 32;  // blocks between two questions whether to go on: some hundredths of a second
+
+/// Now and then in a long loop: whether to go on.
+void askAt(size_t i) {
+  if (i % kProgressSlice == 0) advance(0);
+}
 
 uint64_t keyOf(const Place& block) {
   uint64_t key = 0;
@@ -70,6 +76,7 @@ class Maker {
   ParticleSurface make();
 
  private:
+  void addBlocks(const api::Float4& sphere, std::vector<uint64_t>& keys) const;
   void findBlocks();
   void addSphere(const api::Float4& sphere, float value, const Place& block, Nodes& nodes) const;
   void fill(const Place& block, Nodes& nodes) const;
@@ -91,6 +98,7 @@ Maker::Maker(std::span<const api::Float4> spheres, std::span<const float> values
   double radii = 0;
   const double farthest = cell * kCells * (kFarthest - 2);
   for (size_t i = 0; i < spheres.size(); ++i) {
+    askAt(i);
     const api::Float4& s = spheres[i];
     const double largest = std::max({std::abs(double{s.x}), std::abs(double{s.y}), std::abs(double{s.z})});
     if (!(largest < farthest) || !std::isfinite(s.x + s.y + s.z) || !(s.w > 0) || !std::isfinite(s.w)) continue;
@@ -101,27 +109,39 @@ Maker::Maker(std::span<const api::Float4> spheres, std::span<const float> values
   if (!m_spheres.empty()) m_reach = static_cast<float>(kReachPerRadius * radii / static_cast<double>(m_spheres.size()));
 }
 
-/// All in whose cells there may be a node inside.
-void Maker::findBlocks() {
+/// The blocks in whose cells there may be a node inside of this sphere.
+void Maker::addBlocks(const api::Float4& s, std::vector<uint64_t>& keys) const {
   const double edge = m_cell * kCells;
-  for (const api::Float4& s : m_spheres) {
-    const double centre[3] = {double{s.x}, double{s.y}, double{s.z}}, far = double{kGapPerRadius * s.w} + 2 * m_cell;
-    Place low{}, high{};
-    for (size_t a = 0; a < 3; ++a) {
-      low[a] = static_cast<int>(std::floor((centre[a] - far) / edge));
-      high[a] = static_cast<int>(std::floor((centre[a] + far) / edge));
-    }
-    for (int z = low[2]; z <= high[2]; ++z) {
-      for (int y = low[1]; y <= high[1]; ++y) {
-        for (int x = low[0]; x <= high[0]; ++x) {
-          const uint64_t key = keyOf({x, y, z});
-          if (m_keys.empty() || m_keys.back() != key) m_keys.push_back(key);
-        }
+  const double centre[3] = {double{s.x}, double{s.y}, double{s.z}}, far = double{kGapPerRadius * s.w} + 2 * m_cell;
+  Place low{}, high{};
+  for (size_t a = 0; a < 3; ++a) {
+    low[a] = static_cast<int>(std::floor((centre[a] - far) / edge));
+    high[a] = static_cast<int>(std::floor((centre[a] + far) / edge));
+  }
+  for (int z = low[2]; z <= high[2]; ++z) {
+    for (int y = low[1]; y <= high[1]; ++y) {
+      for (int x = low[0]; x <= high[0]; ++x) {
+        const uint64_t key = keyOf({x, y, z});
+        if (keys.empty() || keys.back() != key) keys.push_back(key);
       }
     }
   }
-  std::sort(m_keys.begin(), m_keys.end());
-  m_keys.erase(std::unique(m_keys.begin(), m_keys.end()), m_keys.end());
+}
+
+/// Slice by slice, each sorted by itself and joined with those before: sorting all at once would answer nobody.
+void Maker::findBlocks() {
+  std::vector<uint64_t> some, both;
+  for (size_t first = 0; first < m_spheres.size(); first += kProgressSlice) {
+    const size_t last = std::min(m_spheres.size(), first + kProgressSlice);
+    some.clear();
+    for (size_t i = first; i < last; ++i) addBlocks(m_spheres[i], some);
+    std::sort(some.begin(), some.end());
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    both.clear();
+    std::set_union(m_keys.begin(), m_keys.end(), some.begin(), some.end(), std::back_inserter(both));
+    m_keys.swap(both);
+    advance(0);
+  }
   m_blocks.resize(m_keys.size());
 }
 
@@ -285,7 +305,9 @@ void Maker::tie(size_t index, std::vector<std::array<uint32_t, 3>>& triangles) c
 /// Each point's, of the triangles around it by their areas.
 void addNormals(ParticleSurface& surface) {
   surface.normals.assign(surface.points.size(), {});
-  for (const auto& [a, b, c] : surface.triangles) {
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    askAt(i);
+    const auto& [a, b, c] = surface.triangles[i];
     Point ab, ac;
     for (size_t k = 0; k < 3; ++k) {
       ab[k] = surface.points[b][k] - surface.points[a][k];
@@ -295,7 +317,9 @@ void addNormals(ParticleSurface& surface) {
     for (const uint32_t point : {a, b, c})
       for (size_t k = 0; k < 3; ++k) surface.normals[point][k] += cross[k];
   }
-  for (Point& n : surface.normals) {
+  for (size_t i = 0; i < surface.normals.size(); ++i) {
+    askAt(i);
+    Point& n = surface.normals[i];
     const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (length > 0)
       n = {n[0] / length, n[1] / length, n[2] / length};
@@ -310,6 +334,7 @@ ParticleSurface Maker::make() {
     const api::Float4& s = m_spheres[i];
     return api::Double3{double{s.x}, double{s.y}, double{s.z}};
   });
+  advance(0);
   findBlocks();
   const auto inBlocks = [&](const auto& body) {
     for (size_t first = 0; first < m_blocks.size(); first += kSlice) {

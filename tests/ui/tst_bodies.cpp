@@ -57,7 +57,7 @@ class TestBodies : public SampleWindowTest {
   void everySolidJoinsTheScene_data() {
     QTest::addColumn<QString>("kind");
     for (const char* kind :
-         {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube", "bowl", "sheet", "rope"})
+         {"ellipsoid", "block", "cylinder", "cone", "capsule", "torus", "tube", "bowl", "sheet", "rope", "hot-plate"})
       QTest::newRow(kind) << QString::fromLatin1(kind);
   }
   void everySolidJoinsTheScene() {
@@ -86,6 +86,54 @@ class TestBodies : public SampleWindowTest {
     QTRY_COMPARE(idsNow(session()).size(), matter);
     document().undoStack().redo();
     QCOMPARE(writeProject(document().project()), after);
+  }
+
+  /// In one step: it lies on the floor, of what conducts best, and what comes next stands on it and is heated by
+  /// nothing else.
+  void aHotPlateHeatsWhatStandsOnIt() {
+    const std::string before = writeProject(document().project());
+    const SceneWall* floor = document().wall("floor");
+    const double ground = floor->point.y();
+    QCOMPARE(document().setParameter({Owner::Wall, "floor", "heat"}, Value(std::string("adiabatic"))), QString());
+    QCOMPARE(document().removeBody("ice"), QString());
+    toTheStart();
+    const int steps = document().undoStack().count();
+    m_window->action(QStringLiteral("add.hot-plate"))->trigger();
+    QCOMPARE(document().undoStack().count(), steps + 1);
+    const Body plate = document().project().bodies.back();
+    QCOMPARE(plate.name, std::string("Hot plate"));
+    QCOMPARE(plate.material, std::string("aluminium"));
+    const BodyBounds box = boundsOf(plate);
+    QVERIFY(std::abs(box.minimum.y() - ground) < 1e-9);
+    QVERIFY(box.size().y() < 0.25 * box.size().x());
+    QVERIFY(document().value({Owner::Body, plate.id, "fixed"}) == Value(true));
+    QVERIFY(document().value({Owner::Body, plate.id, "held_temperature"}) == Value(423.15));
+    const QString tip = m_window->action(QStringLiteral("add.hot-plate"))->toolTip();
+    QVERIFY2(tip.contains(QStringLiteral("Keeps 150 °C")), qPrintable(tip));
+
+    m_window->selection().setMaterial("water");
+    m_window->action(QStringLiteral("add.block"))->trigger();
+    const Body water = document().project().bodies.back();
+    QCOMPARE(water.material, std::string("water"));
+    QVERIFY(boundsOf(water).minimum.y() > box.maximum.y() - 1e-9);
+    const auto kelvin = [&](const std::string& id) {
+      const SnapshotPtr now = session().newest();
+      if (!now || !now->bodyIds) return 0.0;  // of a scene without matter
+      const auto& ids = *now->bodyIds;
+      const auto index = static_cast<uint32_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+      double sum = 0, count = 0;
+      for (size_t i = 0; i < now->body.size(); ++i)
+        if (now->body[i] == index) sum += double{now->temperature[i]}, count += 1;
+      return count > 0 ? sum / count : 0.0;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(kelvin(water.id) - 293.15) < 0.01, kLong);
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(kelvin(water.id) > 293.15 + 5, kLong);
+    QVERIFY(std::abs(kelvin(plate.id) - 423.15) < 0.01);
+    session().pause();
+    picture(QStringLiteral("hot-plate.png"));
+    while (document().undoStack().canUndo()) document().undoStack().undo();
+    QCOMPARE(writeProject(document().project()), before);
   }
 
   void rowsShapeABody() {

@@ -283,6 +283,7 @@ class TestCommandPalette : public SampleWindowTest {
     QCOMPARE(first("tint"), QStringLiteral("Brush shape: Paint colour"));
     QCOMPARE(first("ring"), QStringLiteral("Add body: torus"));  // and not "sharing"
     QCOMPARE(first("doughnut"), QStringLiteral("Add body: torus"));
+    QCOMPARE(first("stove"), QStringLiteral("Add body: hot plate"));
   }
 
   /// It is found, behind what can be done.

@@ -217,6 +217,53 @@ class TestContent : public QObject {
     QVERIFY(!m_document->track(power) && !m_document->probe("of ice"));
   }
 
+  /// So do walls, taps, drains and materials, each in one step; what is of others stays.
+  void whateverIsDeletedTakesAlongWhatIsItsOwn() {
+    QCOMPARE(m_document->addMaterial("wax"), std::string("wax"));
+    Emitter pouring;
+    pouring.material = "water";
+    pouring.point = {0, 0.8, 0};
+    const Port tap = m_document->addEmitter(pouring), drain = m_document->addSink({});
+    const auto probe = [&](const char* id, const char* quantity, std::string Probe::*of, const std::string& thing) {
+      Probe made;
+      made.id = made.name = id;
+      made.quantity = quantity;
+      made.*of = thing;
+      m_document->addProbe(made);
+    };
+    probe("of the body", "temperature", &Probe::body, "ice");
+    probe("of the tap", "temperature", &Probe::body, tap.id);
+    probe("of the wall", "force_y", &Probe::wall, "floor");
+    probe("of the material", "temperature", &Probe::material, "wax");
+    const Address power{Owner::Body, "ice", "heating_power"}, floor{Owner::Wall, "floor", "temperature"};
+    const Address speed{Owner::Emitter, tap.id, "speed"}, open{Owner::Sink, drain.id, "open"};
+    const Address conducts{Owner::Material, "wax", "conductivity_solid"};
+    for (const auto& [parameter, value] : {std::pair(power, 100.0), std::pair(floor, 350.0), std::pair(speed, 0.5),
+                                           std::pair(open, 1.0), std::pair(conducts, 0.5)})
+      QCOMPARE(m_document->putKey(parameter, 0, value), QString());
+    const auto goes = [&](const Address& parameter, const char* itsProbe, const auto& removal) {
+      const std::string before = text();
+      const int steps = m_document->undoStack().count();
+      const size_t keys = m_document->project().tracks.size(), probes = m_document->project().probes.size();
+      removal();
+      QCOMPARE(m_document->undoStack().count(), steps + 1);
+      QVERIFY2(!m_document->track(parameter), parameter.text().c_str());
+      QCOMPARE(m_document->project().tracks.size(), keys - 1);
+      QCOMPARE(m_document->project().probes.size(), probes - (*itsProbe ? 1 : 0));
+      QVERIFY(!m_document->probe(itsProbe));
+      m_document->undoStack().undo();
+      QCOMPARE(text(), before);
+      m_document->undoStack().redo();
+      QVERIFY(!m_document->track(parameter) && !m_document->probe(itsProbe));
+    };
+    goes(floor, "of the wall", [&] { m_document->removeWall("floor"); });
+    goes(speed, "of the tap", [&] { m_document->removePort(tap); });
+    goes(open, "", [&] { m_document->removePort(drain); });
+    goes(conducts, "of the material", [&] { QCOMPARE(m_document->removeMaterial("wax"), QString()); });
+    goes(power, "of the body", [&] { QCOMPARE(m_document->removeBody("ice"), QString()); });
+    QVERIFY(m_document->project().tracks.empty() && m_document->project().probes.empty());
+  }
+
   /// A file with a probe on a body that is gone still opens.
   void aFileWithoutTheBodyOfAProbeOpens() {
     Project without = m_document->project();

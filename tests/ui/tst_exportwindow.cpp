@@ -8,6 +8,7 @@
 #include "tests/ui/answered.h"
 #include "tests/ui/samplewindow.h"
 #include "ui/session/messagelog.h"
+#include "ui/session/preferences.h"
 #include "ui/session/recordedview.h"
 #include "ui/session/runwork.h"
 #include "ui/session/session.h"
@@ -100,6 +101,8 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(written.wait(kLong));
     QVERIFY(written.front().at(1).toString().startsWith(QStringLiteral("3 frames written to ")));
     QCOMPARE(session().log().messages().back().level, MessageLevel::Ok);
+    QTRY_VERIFY2(m_window->notice()->text().contains(QStringLiteral("3 frames written to ")),
+                 qPrintable(m_window->notice()->text()));
     const QStringList names{QString::fromLatin1(format.first) + QStringLiteral("-*")};
     const QStringList files = QDir(folder).entryList(names, QDir::Files, QDir::Name);
     QCOMPARE(files.size(), 3);
@@ -392,6 +395,31 @@ class TestExportWindow : public SampleWindowTest {
     QVERIFY(!dialog && !asked);
     QVERIFY(!shown.isEmpty() || shown.wait(kLong));
     session().pause();
+  }
+
+  /// Not in the folder that the program was started in: beside the project, or where projects are kept while it has no
+  /// file.
+  void filesGoBesideTheProject() {
+    const auto places = [this] {
+      const ExportForm particles(session());
+      const FilmForm film(session(), view());
+      QStringList tips;
+      for (const RunForm* form : {static_cast<const RunForm*>(&particles), static_cast<const RunForm*>(&film)}) {
+        for (const QPushButton* one : form->findChildren<QPushButton*>())
+          if (one->accessibleName() == QStringLiteral("Where")) tips << one->toolTip();
+      }
+      return tips;
+    };
+    const QString own = m_folder.filePath(QStringLiteral("own.json"));
+    m_window->saveTo(own);
+    QTRY_COMPARE_WITH_TIMEOUT(document().path(), own, kLong);
+    QCOMPARE(places().size(), 2);
+    for (const QString& place : places())
+      QVERIFY2(place.startsWith(QDir::toNativeSeparators(m_folder.filePath(QStringLiteral("own")))), qPrintable(place));
+    document().open(document().project(), {}, false, false);
+    const QString kept = preferences::projectFolder() + QLatin1Char('/');
+    QVERIFY(kept.size() > 1);
+    for (const QString& place : places()) QVERIFY2(place.startsWith(QDir::toNativeSeparators(kept)), qPrintable(place));
   }
 
  private:

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 using namespace ps;
 
@@ -253,6 +254,44 @@ class TestHandles : public SampleWindowTest {
     }
     document().undoStack().undo();
     preferences::setHandles({});
+  }
+
+  /// Who takes handles that find nothing to turn or scale is told why, in the status line too, until they find some.
+  void whatCannotBeTurnedSaysWhy() {
+    const std::string ids[] = {probeIn("box", Region{{-0.1, 0, -0.1}, {0.1, 0.1, 0.1}}), probeIn("all", {})};
+    m_window->selection().selectBody(kIce);
+    m_window->action(QStringLiteral("edit.pin"))->trigger();
+    struct Row {
+      SelectedItem item;
+      const char *cannot, *why, *can;
+    };
+    const Row rows[] = {
+        {{OutlineKind::Probe, ids[0]}, "rotate", "“box”: the box of a probe stands along the axes", "scale"},
+        {{OutlineKind::Probe, ids[1]}, "rotate", "“all”: it measures wherever its matter is", ""},
+        {{OutlineKind::Pin, "ice/0"}, "rotate", "a pin stands along the axes and cannot be turned", "move"},
+        {{OutlineKind::Wall, "floor"}, "scale", "“Hot plate”: a plane has no end", "rotate"}};
+    const auto says = [&](const Row& row) {
+      return m_window->statusLine()->state().note.contains(QString::fromUtf8(row.why));
+    };
+    for (const Row& row : rows) {
+      m_window->tools().activate("select");
+      m_window->selection().selectAll({row.item});
+      QVERIFY(!says(row));
+      m_window->tools().activate(row.cannot);
+      QVERIFY2(says(row), row.why);
+      QVERIFY(!m_window->tools().tool().picture().gizmo->gizmo);
+      if (*row.can) {
+        m_window->tools().activate(row.can);
+        QVERIFY2(!says(row), row.why);
+        m_window->tools().activate(row.cannot);
+        QVERIFY(says(row));
+      }
+      m_window->selection().selectBody(kIce);
+      QVERIFY2(!says(row), row.why);
+    }
+    m_window->selection().selectAll({rows[0].item});
+    m_window->tools().activate("rotate");
+    viewPicture(QStringLiteral("handles-not-turned.png"));
   }
 
   /// A sketch is scaled as a whole, with its strokes, and turned; each is a step.
@@ -513,6 +552,13 @@ class TestHandles : public SampleWindowTest {
       for (const auto& [particle, place] : places) list.push_back(place);
       return list;
     });
+  }
+  std::string probeIn(const char* name, const std::optional<Region>& region) {
+    Probe probe;
+    probe.id = probe.name = name;
+    probe.quantity = "temperature";
+    probe.region = region;
+    return document().addProbe(std::move(probe));
   }
   void selectIce(const char* tool) {
     m_window->selection().selectBody(kIce);

@@ -18,6 +18,7 @@
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QMenuBar>
+#include <QtWidgets/QStyle>
 #include <QtWidgets/QTabBar>
 #include <QtWidgets/QToolButton>
 
@@ -143,6 +144,8 @@ class TestLayout : public QObject {
       ++seen;
     }
     QVERIFY(seen > 200);
+    // Nor a floppy disk and a red cross on the buttons of dialogs.
+    QCOMPARE(qApp->style()->styleHint(QStyle::SH_DialogButtonBox_ButtonsHaveIcons), 0);
   }
 
   /// Inspector, view and outliner are 300, 480 and 180 wide at the least, with 3 between them.

@@ -128,6 +128,33 @@ class TestMendingWindow : public SampleWindowTest {
     QTRY_VERIFY(session().snapshot() && session().snapshot()->id.size() == 125);
   }
 
+  /// Back to the start with a spacing that makes many of few: it says how far it is, and who gives it up has the scene
+  /// as it was.
+  void theWayBackToTheStartIsGivenUp() {
+    const auto particles = [this] { return session().newest() ? session().newest()->id.size() : 0; };
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(particles() == 125 && !session().engine()->making(), kLong);
+    session().pause();
+    session().step();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > 0 && !session().appliesAtOnce(), kLong);
+    const Address spacing{Owner::Solver, "", "particle_spacing"};
+    QCOMPARE(document().setParameter(spacing, std::get<double>(document().value(spacing)) / 12), QString());
+    m_window->action(QStringLiteral("simulation.reset"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Cancel")), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral(" %")), qPrintable(m_window->notice()->text()));
+    QElapsedTimer clock;
+    clock.start();
+    noticeButton(*m_window, QStringLiteral("Cancel"))->click();
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("Giving up…")), qPrintable(m_window->notice()->text()));
+    QVERIFY2(clock.elapsed() < kAnswered, qPrintable(QString::number(clock.elapsed())));
+    QTRY_VERIFY_WITH_TIMEOUT(noticeButton(*m_window, QStringLiteral("Try again")), kLong);
+    QVERIFY2(m_window->notice()->text().contains(QStringLiteral("It goes on as it was")),
+             qPrintable(m_window->notice()->text()));
+    QVERIFY(particles() == 125 && session().newest()->stats.frame > 0);
+    document().open(scene(), {}, false, false);
+    QTRY_VERIFY_WITH_TIMEOUT(particles() == 125 && !session().engine()->making(), kLong);
+  }
+
   void theTimeThatIsLeftIsTold() {
     QCOMPARE(secondsLeft(2, 0.2), 8.0);
     QCOMPARE(secondsLeft(2, 0.01), -1.0);  // too early

@@ -4,12 +4,16 @@
 #include "samplewindow.h"
 #include "ui/panels/inspector.h"
 #include "ui/rows/parameterpanel.h"
+#include "ui/rows/parameterrow.h"
 #include "ui/session/scenelink.h"
 #include "ui/session/selection.h"
 #include "ui/tools/tooltable.h"
 
 #include <QtGui/QAction>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+#include <cmath>
 
 using namespace ps;
 
@@ -122,6 +126,30 @@ class TestStartEdits : public SampleWindowTest {
     QCOMPARE(startHash(), painted);
     document().undoStack().undo();
     QCOMPARE(afterTheNextMaking(), start);
+  }
+
+  /// The run goes on with what it has, the row says what would come, and the way back to the start brings it.
+  void aSpacingTypedWhileItRunsSaysSo() {
+    session().play();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > 0 && !session().appliesAtOnce(), kLong);
+    const uint64_t revision = session().newest()->revision;
+    QVERIFY(m_window->revealParameter(kSpacing));
+    ParameterRow* row = m_window->inspector().solverPanel()->row(QString::fromStdString(kSpacing.text()));
+    QVERIFY(row);
+    row->startTyping();
+    auto* field = row->findChild<QLineEdit*>();
+    QVERIFY(field);
+    QTest::keyClicks(field, QStringLiteral("25 mm"));
+    QTest::keyClick(field, Qt::Key_Return);
+    QVERIFY(std::abs(std::get<double>(document().value(kSpacing)) - 0.025) < 1e-9);
+    QTRY_VERIFY2_WITH_TIMEOUT(note().startsWith(QStringLiteral("Acts once back at the start: ")), qPrintable(note()),
+                              kLong);
+    QVERIFY2(note().contains(QStringLiteral("Back to the start")), qPrintable(note()));
+    QVERIFY(session().playing());
+    QCOMPARE(onEngine<uint64_t>(session(), [](Engine& engine) { return engine.revision(); }), revision);
+    m_window->action(QStringLiteral("simulation.reset"))->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(session().newest()->spacing > 0.024, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(note(), QString(), kLong);
   }
 
   /// Making the scene was given up: what was set waits, and says so.

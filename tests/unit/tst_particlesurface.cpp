@@ -72,6 +72,7 @@ class TestParticleSurface : public QObject {
   void theSameBitsForAnyNumberOfThreads();
   void whatIsNoPlaceIsLeftOut();
   void itCanBeCancelled();
+  void itAsksWhileMatterIsSorted();
 };
 
 /// Rounded edges cost volume, 8.5 % as measured; nothing is added outside.
@@ -195,6 +196,36 @@ void TestParticleSurface::itCanBeCancelled() {
   const ProgressScope scope(&progress);
   progress.cancel();
   QVERIFY_EXCEPTION_THROWN(around(spheres), Cancelled);
+}
+
+/// Of a large scene that alone takes longer than whoever gives it up should wait. Counted are questions, not time: so
+/// many spheres in so few blocks that these ask twice in all.
+void TestParticleSurface::itAsksWhileMatterIsSorted() {
+  class Asked final : public Progress {
+   public:
+    explicit Asked(size_t last) : m_last(last) {}
+    size_t count = 0;
+
+   private:
+    void advanced(size_t) override {
+      if (++count == m_last) cancel();
+    }
+    size_t m_last;
+  };
+  constexpr int kSide = 40;  // of a cube a tenth as wide as one of as much matter
+  constexpr size_t kSlices = (size_t{kSide} * kSide * kSide + kProgressSlice - 1) / kProgressSlice;
+  std::vector<api::Float4> spheres;
+  addBlock(spheres, {kSide, kSide, kSide}, {0, 0, 0});
+  for (api::Float4& s : spheres) s = {0.1F * s.x, 0.1F * s.y, 0.1F * s.z, s.w};
+  const auto asked = [&](size_t last) {
+    Asked progress(last);
+    const ProgressScope scope(&progress);
+    around(spheres);
+    return progress.count;
+  };
+  const size_t all = asked(0);
+  QVERIFY2(all > 2 * kSlices + 2, qPrintable(QString::number(all)));
+  for (size_t last = 1; last <= all; ++last) QVERIFY_EXCEPTION_THROWN(asked(last), Cancelled);
 }
 
 QTEST_APPLESS_MAIN(TestParticleSurface)

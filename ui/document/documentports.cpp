@@ -3,6 +3,7 @@
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/leaving.h"
 #include "ui/document/portbounds.h"
 
 #include <algorithm>
@@ -118,11 +119,17 @@ void Document::renamePort(const Port& port, const QString& name) {
 
 void Document::removePort(const Port& port) {
   const QString title = QStringLiteral("deletion of %1").arg(portName(port));
-  if (const Sink* old = port.sink ? sink(port.id) : nullptr) {
-    pushPort<Sink>(*old, {}, static_cast<size_t>(old - m_project.sinks.data()), title);
-  } else if (const Emitter* from = port.sink ? nullptr : emitter(port.id)) {
-    pushPort<Emitter>(*from, {}, static_cast<size_t>(from - m_project.emitters.data()), title);
-  }
+  const auto remove = [&](const auto& items, Owner owner) {
+    const auto old = at(items, port.id);
+    if (old == items.end()) return;
+    takeOut(*this, {owner, port.id, ""}, title, [&] {
+      pushPort(std::optional(*old), decltype(std::optional(*old)){}, static_cast<size_t>(old - items.begin()), title);
+    });
+  };
+  if (port.sink)
+    remove(m_project.sinks, Owner::Sink);
+  else
+    remove(m_project.emitters, Owner::Emitter);
 }
 
 void Document::applyPort(const AnyPortEdit& edit, bool forward) {

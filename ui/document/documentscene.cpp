@@ -6,6 +6,7 @@
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/leaving.h"
 #include "ui/document/presets.h"
 
 #include <algorithm>
@@ -21,27 +22,6 @@ bool isOf(const Body& body, const std::string& material) {
   return body.material == material ||
          (voxels && std::any_of(voxels->palette.begin(), voxels->palette.end(),
                                 [&](const VoxelShape::Paint& paint) { return paint.material == material; }));
-}
-
-/// What animates a body, its shape or what holds it.
-std::vector<Address> tracksOf(const Project& project, const std::string& body) {
-  std::vector<Address> tracks;
-  for (const Track& track : project.tracks) {
-    const auto address = Address::parse(track.parameter);
-    if (address && address->id == body &&
-        (address->owner == Owner::Body || address->owner == Owner::Shape || address->owner == Owner::Constraint))
-      tracks.push_back(*address);
-  }
-  return tracks;
-}
-
-/// Probes that see this body and no other.
-std::vector<std::string> probesOf(const Project& project, const std::string& body) {
-  std::vector<std::string> probes;
-  for (const Probe& probe : project.probes) {
-    if (probe.body == body) probes.push_back(probe.id);
-  }
-  return probes;
 }
 
 /// The same triangles are one mesh, and others have an id of their own.
@@ -84,18 +64,10 @@ QString Document::removeBody(const std::string& id) {
   if (!old) return {};
   if (old->locked) return QStringLiteral("“%1” is locked. Unlock it first.").arg(nameOf(*old));
   const QString title = QStringLiteral("deletion of %1").arg(nameOf(*old));
-  const std::vector<Address> tracks = tracksOf(m_project, id);
-  const std::vector<std::string> probes = probesOf(m_project, id);
-  const bool alone = tracks.empty() && probes.empty();
-  if (!alone) m_undo.beginMacro(title);
-  std::vector<Keys> none;
-  none.reserve(tracks.size());
-  for (const Address& track : tracks) none.push_back({track, {}});
-  setKeys(none, title);
-  for (const std::string& probe : probes) removeProbe(probe);
-  const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
-  m_undo.push(new BodiesCommand(*this, {edit}, title, newMatter()));
-  if (!alone) m_undo.endMacro();
+  takeOut(*this, {Owner::Body, id, ""}, title, [&] {
+    const BodyEdit edit{id, *old, std::nullopt, static_cast<size_t>(old - m_project.bodies.data())};
+    m_undo.push(new BodiesCommand(*this, {edit}, title, newMatter()));
+  });
   return {};
 }
 
@@ -226,7 +198,8 @@ QString Document::removeMaterial(const std::string& id) {
   const QString title = QStringLiteral("removing %1").arg(text(shownName(*found)));
   std::vector<SceneMaterial> after = m_project.materials;
   std::erase_if(after, [&](const SceneMaterial& m) { return m.id == id; });
-  m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title));
+  takeOut(*this, {Owner::Material, id, ""}, title,
+          [&] { m_undo.push(new MaterialsCommand(*this, m_project.materials, std::move(after), title)); });
   return {};
 }
 

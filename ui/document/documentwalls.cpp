@@ -4,6 +4,7 @@
 #include "ui/document/commands.h"
 #include "ui/document/declared.h"
 #include "ui/document/document.h"
+#include "ui/document/leaving.h"
 #include "ui/document/wallside.h"
 
 #include <algorithm>
@@ -112,8 +113,9 @@ void Document::removeWall(const std::string& id) {
   if (!old) return;
   std::vector<SceneWall> walls = m_project.environment.walls;
   walls.erase(walls.begin() + (old - m_project.environment.walls.data()));
-  m_undo.push(new WallsCommand(*this, m_project.environment.walls, std::move(walls),
-                               QStringLiteral("deletion of %1").arg(nameOf(*old))));
+  const QString title = QStringLiteral("deletion of %1").arg(nameOf(*old));
+  takeOut(*this, {Owner::Wall, id, ""}, title,
+          [&] { m_undo.push(new WallsCommand(*this, m_project.environment.walls, std::move(walls), title)); });
 }
 
 void Document::renameWall(const std::string& id, const QString& name) {

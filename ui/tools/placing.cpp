@@ -58,15 +58,16 @@ void collect(Collector& to, const Document& document, const SelectedItem& item, 
     to.add(item, middleOf(*sink), nameOf(*sink), unless());
   } else if (const SceneWall* wall = item.kind == OutlineKind::Wall ? document.wall(item.id) : nullptr) {
     to.add(item, wall->point, nameOf(*wall),
-           unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end"));
+           unless(kind == Kind::Scale && !faceOf(*wall).isCurved(), "a plane has no end and cannot be scaled"));
   } else if (const Probe* probe = item.kind == OutlineKind::Probe ? document.probe(item.id) : nullptr) {
     to.add(item, probe->region ? middleOf(*probe->region) : Vector3(Vector3::Zero()), nameOf(*probe),
-           !probe->region ? unless(true, "it measures wherever its matter is")
-                          : unless(kind == Kind::Rotate, "its box stands along the axes"));
+           !probe->region
+               ? unless(true, "it measures wherever its matter is, and has no place of its own")
+               : unless(kind == Kind::Rotate, "the box of a probe stands along the axes and cannot be turned"));
   } else if (const Region* pin = item.kind == OutlineKind::Pin ? findPin(document.project(), item.id) : nullptr) {
     const Body& held = *document.body(PinAddress::parse(item.id)->body);
     to.add(item, middleOf(*pin), QStringLiteral("Pin of %1").arg(nameOf(held)),
-           unless(kind == Kind::Rotate, "a pin stands along the axes"));
+           unless(kind == Kind::Rotate, "a pin stands along the axes and cannot be turned"));
   }
 }
 

@@ -21,6 +21,7 @@
 #include "ui/window/filenames.h"
 #include "ui/window/noticebar.h"
 #include "ui/window/notices.h"
+#include "ui/window/solidrows.h"
 
 #include <phasesketch/thin.h>
 
@@ -40,27 +41,6 @@ namespace ps {
 namespace {
 
 using Kind = SolidForm::Kind;
-struct SolidRow {
-  Kind kind;
-  const char* name;        ///< as the body's row Shape says it
-  const char* words = "";  ///< by which it is found too
-};
-constexpr SolidRow kSolids[] = {{Kind::Ellipsoid, "Ellipsoid", "ball sphere"},
-                                {Kind::Block, "Block", "box cube"},
-                                {Kind::Cylinder, "Cylinder"},
-                                {Kind::Cone, "Cone"},
-                                {Kind::Capsule, "Capsule"},
-                                {Kind::Torus, "Torus", "ring doughnut"},
-                                {Kind::Tube, "Tube", "pipe"},
-                                {Kind::Bowl, "Bowl", "cup"},
-                                {Kind::Sheet, "Sheet", "cloth fabric"},
-                                {Kind::Rope, "Rope"}};
-
-/// As the parameter of solids calls it.
-std::string nameOf(Kind kind) {
-  return choicesOf(*findDeclaration(solidParameters(), "kind"))[static_cast<size_t>(kind)];
-}
-
 struct UnitRow {
   const char *key, *name;
 };
@@ -71,12 +51,6 @@ constexpr double kOverRoom = 1.25;    ///< of the scene's room, what a mesh whos
 constexpr const char* kTopic = MeshQueue::kTopic;
 constexpr const char* kMeshes =
     "Meshes (*.obj *.stl *.ply *.gltf *.glb *.fbx *.3mf *.dae *.3ds *.off *.x3d *.blend);;All files (*)";
-
-/// With two digits.
-double rounded(double value) {
-  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::round(value / digit) * digit;
-}
 
 /// m, the highest that stands or lies within a column about the middle of the scene now, but for one body.
 double topOf(const Snapshot* now, const std::string& without, const Vector3& middle, const Vector3& size,
@@ -106,19 +80,6 @@ std::optional<std::pair<std::string, const api::ThinMatter*>> thinStructure(cons
 /// The scene's material of an installed one, which it gets where it has none; "" where that is not installed.
 std::string sceneMaterial(Document& document, const std::string& base) {
   return document.plugins()->material(base) ? document.addMaterial(base) : std::string();
-}
-
-/// Id of the installed material that melts last: walls and tools of it stay what they are at any temperature that
-/// scenes have.
-std::string lastToMelt(const PluginRegistry& plugins) {
-  std::string last;
-  double highest = 0;
-  for (const std::string& id : plugins.ids(PluginKind::Material)) {
-    const Material* material = plugins.material(id);
-    const double melting = material ? phaseDiagramOf(*material).meltingPoint0 : 0;
-    if (melting > highest) highest = melting, last = id;
-  }
-  return last;
 }
 
 /// Whether what is made of a material of the scene stands at a temperature.
@@ -221,11 +182,11 @@ BodyActions::BodyActions(Session& session, Selection& selection, const Actions& 
 }
 
 void BodyActions::makeMenu(QMenu* menu, QMenu* walls) {
-  for (const SolidRow& row : kSolids) {
+  for (const SolidRow& row : solidRows()) {
     const QString name = QString::fromLatin1(row.name);
-    QAction* action = m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(nameOf(row.kind)),
-                                    QStringLiteral("Add body: %1").arg(name.toLower()), {},
-                                    [this, kind = row.kind, name] { addSolid(kind, name); });
+    QAction* action =
+        m_actions.add(menu, QStringLiteral("add.") + QString::fromStdString(idOf(row)),
+                      QStringLiteral("Add body: %1").arg(name.toLower()), {}, [this, &row] { addSolid(row); });
     sayInMenu(*action, name);
     action->setProperty(kWords, QString::fromLatin1(row.words));
     m_adding.push_back(action);
@@ -282,18 +243,26 @@ void BodyActions::chooseMesh(MeshUse use) {
 
 /// How many particles each would be, before it is chosen.
 void BodyActions::showCounts() {
-  for (size_t k = 0; k < std::size(kSolids); ++k) {
-    m_adding[k]->setToolTip(QStringLiteral("Above what is in the middle of the scene; %1.")
-                                .arg(countText(newSolid(kSolids[k].kind, {}), m_session.document())));
+  for (size_t k = 0; k < solidRows().size(); ++k) {
+    const SolidRow& row = solidRows()[k];
+    const QString count = countText(newSolid(row), m_session.document());
+    if (row.held > 0) {
+      m_adding[k]->setToolTip(
+          QStringLiteral("Keeps %1 and heats what stands on it. On the floor in the middle of the scene, or above what "
+                         "is there; %2.")
+              .arg(formatValue(*findDeclaration(bodyParameters(), "held_temperature"), row.held), count));
+    } else {
+      m_adding[k]->setToolTip(QStringLiteral("Above what is in the middle of the scene; %1.").arg(count));
+    }
   }
 }
 
-void BodyActions::addSolid(Kind kind, const QString& name) {
+void BodyActions::addSolid(const SolidRow& row) {
   Document& document = m_session.document();
-  Body body = newSolid(kind, name);
-  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(name));
-  const bool sheet = kind == Kind::Sheet;
-  if (sheet || kind == Kind::Rope) {
+  Body body = newSolid(row);
+  document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromLatin1(row.name)));
+  const bool sheet = row.kind == Kind::Sheet;
+  if (sheet || row.kind == Kind::Rope) {
     if (const auto thin = thinStructure(*document.plugins(), sheet ? api::kHoldsSheets : api::kHoldsLines)) {
       body.constraints.push_back({thin->first, {}, {}});
       body.material = sceneMaterial(document, thin->second->material);
@@ -301,8 +270,9 @@ void BodyActions::addSolid(Kind kind, const QString& name) {
   }
   // A bowl of what is liquid would run away.
   const double kelvin = numberOf(body.parameters, bodyParameters(), "temperature");
-  if (kind == Kind::Bowl && !isSolid(document, m_selection.material(), kelvin))
+  if (row.kind == Kind::Bowl && !isSolid(document, m_selection.material(), kelvin))
     body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
+  if (row.held > 0) body.material = sceneMaterial(document, bestConductor(*document.plugins(), row.held));
   add(std::move(body));
   document.undoStack().endMacro();
 }
@@ -316,37 +286,10 @@ void BodyActions::addTool(const ToolForm& form) {
   document.undoStack().endMacro();
 }
 
-/// A fifth of the scene wide; a torus and a bowl, half a ball, are twice as wide, sheets and ropes lie, and are longer.
-Body BodyActions::newSolid(Kind kind, const QString& name) const {
-  const double size = rounded(kOfScene * narrowSide(m_session.document()));
-  Body body;
-  body.id = nameOf(kind);
-  body.name = name.toStdString();
-  SolidShape solid;
-  auto& values = solid.parameters.values;
-  values["kind"] = body.id;
-  values["size_x"] = size;
-  values["size_y"] = size;
-  values["size_z"] = size;
-  if (kind == Kind::Tube) values["wall"] = rounded(size / 5);
-  if (kind == Kind::Torus) {  // particles leave a hole in it
-    values["size_x"] = values["size_z"] = 2 * size;
-    values["size_y"] = rounded(size / 2);
-  }
-  if (kind == Kind::Bowl) {
-    values["size_x"] = values["size_z"] = 2 * size;  // it must hold something
-    values["wall"] = rounded(std::max(size / 8, spacingOf(m_session.document())));
-  }
-  if (kind == Kind::Sheet || kind == Kind::Rope) values["size_y"] = spacingOf(m_session.document());
-  if (kind == Kind::Sheet) values["size_x"] = values["size_z"] = 2 * size;
-  if (kind == Kind::Rope) {
-    values.erase("size_x");
-    values.erase("size_z");
-    values["point_1_x"] = -size;
-    values["point_2_x"] = size;
-  }
-  body.shape = std::move(solid);
-  return body;
+/// A fifth of the scene wide, or as its row has it.
+Body BodyActions::newSolid(const SolidRow& row) const {
+  const Document& document = m_session.document();
+  return solidBody(row, rounded(kOfScene * narrowSide(document)), spacingOf(document));
 }
 
 /// Of a mesh that does not say its unit: the first one in which it has room in the scene, or nearly, in m; its body is

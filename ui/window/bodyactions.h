@@ -20,6 +20,7 @@ class Actions;
 class Notices;
 class Selection;
 class Session;
+struct SolidRow;
 
 /// What brings whole bodies into the scene: solids of every kind, sheets, ropes, and meshes from files. They come to
 /// stand above what is in the middle of the scene, and join it at once.
@@ -46,10 +47,10 @@ class BodyActions : public QObject {
  private:
   void chooseMesh(MeshUse use);
   void showCounts();
-  void addSolid(SolidForm::Kind kind, const QString& name);
+  void addSolid(const SolidRow& row);
   void makeToolMenu(QMenu* menu);
   void addTool(const ToolForm& form);
-  Body newSolid(SolidForm::Kind kind, const QString& name) const;
+  Body newSolid(const SolidRow& row) const;
   std::string add(Body body, const std::string& without = {});
   void onRead(const MeshQueue::File& file, const ImportedMesh& imported);
   void onUnread(const MeshQueue::File& file, const QString& problem);

@@ -36,6 +36,7 @@
 #include "ui/window/favouritebrushes.h"
 #include "ui/window/fileactions.h"
 #include "ui/window/handleactions.h"
+#include "ui/window/handlenote.h"
 #include "ui/window/handparting.h"
 #include "ui/window/keyroute.h"
 #include "ui/window/libraryactions.h"
@@ -418,6 +419,7 @@ void MainWindow::connectPanels() {
 void MainWindow::connectMessages() {
   connect(m_notices, &Notices::rowWanted, this, [this](const Address& address) { revealParameter(address); });
   const auto* coarse = new CoarseNote(*m_tools, *m_status, this);
+  new HandleNote(*m_tools, *m_status);
   connect(m_status, &StatusLine::noteClicked, this, [this, coarse](const QString& parameter) {
     const auto address = Address::parse(coarse->leadsTo(parameter).toStdString());
     if (!address || !revealParameter(*address)) openPage(QStringLiteral("Messages"));
