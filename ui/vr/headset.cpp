@@ -53,6 +53,14 @@ Eye eyeOf(const XrView& view, double near, double far) {
                     std::tan(double(fov.angleDown)), std::tan(double(fov.angleUp)), near, far);
 }
 
+/// What it draws, leads or carries would go across the room with it. Its trigger stays what it was pulled for.
+void letGo(HandInput& hand) {
+  hand.grip.reset();
+  hand.aim.reset();
+  hand.joints.reset();
+  hand.hold = 0;
+}
+
 /// Extensions that are used where they are offered.
 std::vector<std::string> wishes() {
   std::vector<std::string> names = extensionsOfControllers();
@@ -223,6 +231,9 @@ class Headset::Loop {
       for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
     });
     for (const size_t hand : {kLeft, kRight}) m_told.sees[hand] = frame.hands[hand].aim.has_value();
+    frame.recentred = m_session.recentred(state.predictedDisplayTime);
+    if (frame.recentred)
+      for (HandInput& hand : frame.hands) letGo(hand);
     const auto vibrations = m_scene->prepare(frame);
     m_told.ask([&] {
       for (const size_t hand : {kLeft, kRight})
