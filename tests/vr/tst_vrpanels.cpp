@@ -785,7 +785,8 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   document().undoStack().undo();
 }
 
-/// Those of the material and the brush; a material that the scene has not yet comes from its page.
+/// Those of the material and the brush; a material that the scene has not yet comes from its page, and shows what it
+/// looks like beside its name.
 void VrPanelsTest::namesLeadToTheirPages() {
   enterWithout();
   painted();
@@ -801,6 +802,9 @@ void VrPanelsTest::namesLeadToTheirPages() {
                          [page = page](const QLabel* one) { return one->text() == QLatin1String(page); }),
              page);
   }
+  const auto swatch = [&] { return button(vr::kPalette, "Material")->icon().pixmap(QSize(20, 20)).toImage(); };
+  const QImage before = swatch();
+  QVERIFY(!before.isNull());
   const auto isThere = [&] { return installedIn(document().project(), "iron") != nullptr; };
   QVERIFY(!isThere());
   auto* materials = panels().widget(vr::kBoard)->findChild<MaterialsPanel*>();
@@ -814,6 +818,7 @@ void VrPanelsTest::namesLeadToTheirPages() {
   for (const bool pressed : {false, true, false}) at(vr::kBoard, *materials, tile.center(), pressed);
   QTRY_VERIFY_WITH_TIMEOUT(isThere() && m_window->tools().brush().material == "iron", kLong);
   QTRY_COMPARE_WITH_TIMEOUT((painted(), button(vr::kPalette, "Material")->text()), QStringLiteral("Iron"), kLong);
+  QVERIFY(swatch() != before);
   document().undoStack().undo();
 }
 
