@@ -22,7 +22,7 @@ struct HeadsetFrame {
   std::array<HandInput, 2> hands;  ///< left and right, as they will be then
   bool focused = false;            ///< hands act; otherwise a menu of the headset lies over the picture
   /// The wearer has asked the headset to take where they are for its middle: from now on the room may be another one.
-  /// In this frame no hand is seen, nor holds anything.
+  /// In this frame no hand is seen, and none pulls or grips before it has let go.
   bool recentred = false;
 };
 
