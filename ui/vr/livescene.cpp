@@ -71,6 +71,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
   seen.carries = m_moving.carries();
+  seen.scale = m_moving.stand().scale;
   for (size_t board = 0; board < kBoards; ++board) seen.boardAhead[board] = m_panels.isBoardAhead(frame.head, board);
   seen.roles = m_view->roles;
   for (const size_t hand : {kLeft, kRight}) {
