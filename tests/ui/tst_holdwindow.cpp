@@ -5,6 +5,7 @@
 #include "samplewindow.h"
 #include "ui/panels/outliner.h"
 #include "ui/session/preferences.h"
+#include "ui/session/worker.h"
 #include "ui/tools/livestroke.h"
 #include "ui/tools/livetouch.h"
 #include "ui/tools/tooltable.h"
@@ -16,6 +17,8 @@
 #include <QtWidgets/QPushButton>
 
 #include <algorithm>
+#include <future>
+#include <memory>
 #include <tuple>
 
 using namespace ps;
@@ -142,6 +145,22 @@ class TestHoldWindow : public SampleWindowTest {
     separate->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(refused.count(), 1, kLong);
     QCOMPARE(document().project().bodies.size(), before + 1);
+  }
+
+  /// Neither the run nor the window waits while pieces are told apart.
+  void separatingHoldsNothingUp() {
+    Body lumps = twoLumps(260);
+    lumps.constraints.push_back({"bonds", {}, {}});
+    const std::string id = document().addBody(lumps);
+    const size_t before = document().project().bodies.size();
+    const auto gate = std::make_shared<std::promise<void>>();
+    session().worker().run([open = std::make_shared<std::future<void>>(gate->get_future())] { open->wait(); });
+    m_window->tools().selection().selectBody(id);
+    m_window->action(QStringLiteral("sketch.separate"))->trigger();
+    playOn(0.1);
+    QCOMPARE(document().project().bodies.size(), before);
+    gate->set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
   }
 
   /// Matter that was made before its sketch was scaled has none of the cells that the sketch has now: Home first.

@@ -54,6 +54,8 @@ class HeadsetTest : public QObject {
   void vibrationsReachTheHand();
   void focusLostLeavesThePicture();
   void takenOffIsNotTheEnd();
+  void recentringIsTold_data();
+  void recentringIsTold();
   void floorIsFound_data();
   void floorIsFound();
   void everyFaultEndsInASentence_data();
@@ -281,6 +283,44 @@ void HeadsetTest::takenOffIsNotTheEnd() {
   QCOMPARE(joined(run.texts("session")), QByteArray("created begun ended begun ended destroyed"));
   QCOMPARE(joined(run.texts("violation")), QByteArray());
   QVERIFY(stay.record.frames.size() >= 20);
+}
+
+void HeadsetTest::recentringIsTold_data() {
+  QTest::addColumn<QString>("extension");
+  QTest::addColumn<bool>("stage");
+  QTest::newRow("the floor below where one stands") << R"(, "XR_EXT_local_floor")" << true;
+  QTest::newRow("the stage, which stays") << "" << true;
+  QTest::newRow("none") << "" << false;
+}
+
+/// Once. In that frame no hand is seen; what it holds it has to let go before it does anything again.
+void HeadsetTest::recentringIsTold() {
+  QFETCH(QString, extension);
+  QFETCH(bool, stage);
+  const QString script = R"({"extensions": ["XR_KHR_opengl_enable", "XR_MNDX_egl_enable"%1], "stage": %2,
+                             "profile": "/interaction_profiles/oculus/touch_controller",
+                             "events": [{"frame": 8, "recentre": [2, 1.2, 0]}],
+                             "keys": [{"frame": 0, "right": {"grip": [0.2, 1.2, -0.4], "/input/squeeze/value": 1,
+                                                             "/input/trigger/value": 1}},
+                                      {"frame": 12, "right": {"/input/squeeze/value": 0, "/input/trigger/value": 0}},
+                                      {"frame": 14, "right": {"/input/trigger/value": 1}}]})";
+  const ScriptedRun run(script.arg(extension, stage ? "true" : "false").toStdString());
+  const Stay stay = stayInHeadset(m_context);
+  QCOMPARE(joined(run.texts("violation")), QByteArray());
+  const auto& frames = stay.record.frames;
+  const auto isTold = [](const ps::vr::HeadsetFrame& frame) { return frame.recentred; };
+  QCOMPARE(std::count_if(frames.begin(), frames.end(), isTold), std::ptrdiff_t{1});
+  const auto told = std::find_if(frames.begin(), frames.end(), isTold);
+  QVERIFY(told - frames.begin() > 4 && frames.end() - told > 8);
+  const auto right = [](const ps::vr::HeadsetFrame& frame) { return frame.hands[ps::vr::kRight]; };
+  const auto isSeen = [&](const ps::vr::HeadsetFrame& frame) { return right(frame).grip && right(frame).aim; };
+  const auto doesNothing = [&](const ps::vr::HeadsetFrame& frame) {
+    return right(frame).draw == 0 && right(frame).hold == 0;
+  };
+  QVERIFY(isSeen(*(told - 1)) && right(*(told - 1)).draw > 0.9 && right(*(told - 1)).hold > 0.9);
+  QVERIFY(!isSeen(*told) && !right(*told).grip && doesNothing(*told));
+  QVERIFY(isSeen(*(told + 1)) && doesNothing(*(told + 1)));
+  QVERIFY(isSeen(*(told + 7)) && right(*(told + 7)).draw > 0.9);
 }
 
 void HeadsetTest::floorIsFound_data() {

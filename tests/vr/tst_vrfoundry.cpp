@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The story of the foundry in the headset, in one stay: a mould and a ladle of iron are sketched by hand, and a rope of
-// tin into the ladle; the tin is melted with the heat brush, poured by tilting the ladle in the hand, freezes in the
+// tin, wound into the ladle; it is melted with the heat brush, poured by tilting the ladle in the hand, freezes in the
 // mould, and is taken by the grip and lifted out. What the desktop has then, and saves, is what is there, and both eyes
 // see it.
 #include "core/solver/solver.h"
@@ -120,25 +120,29 @@ void VrFoundryTest::aMouldAndALadleAreSketched() {
   }
 }
 
-/// In three turns, each above the one before.
+/// One particle thick, in turns along the ladle's wall, each above the one before: what the brush Rope draws.
 void VrFoundryTest::aRopeOfTinIsSketchedIntoTheLadle() {
   choose("tin");
-  becomes(kBecomesOfItself);
-  brush("sphere", 0.025, 293.15, false);
+  becomes("rope");
+  brush("particle", m_window->tools().brush().radius, 293.15, false);
   const int before = steps();
   QString keys;
-  constexpr int kSteps = 36;
+  // Within the wall there is room for four particles beside each other; 12 are a turn, a spacing high.
+  constexpr int kTurns = 4, kOfATurn = 16, kSteps = kTurns * kOfATurn;
+  constexpr double kAround = 0.037, kFirst = 0.002, kRise = 0.019;  // m
   for (int k = 0; k <= kSteps; ++k) {
-    const double angle = 6 * std::numbers::pi * k / kSteps;
-    const Vector3 at = kLadle + Vector3(0.045 * std::cos(angle), 0.02 + 0.06 * k / kSteps, 0.045 * std::sin(angle));
+    const double turns = static_cast<double>(k) / kOfATurn, angle = 2 * std::numbers::pi * turns;
+    const Vector3 at = kLadle + Vector3(kAround * std::cos(angle), kFirst + kRise * turns, kAround * std::sin(angle));
     keys += k == 0 ? right(0, at, kLetGo) + right(19, at, kLetGo) : QString();
     keys += right(20 + 3 * k, at, k < kSteps ? kPulled : kLetGo);
   }
   next(left(0, kRest) + keys + right(40 + 3 * kSteps, kAside));
   QTRY_COMPARE_WITH_TIMEOUT(steps(), before + 1, kLong);
-  m_tin = document().project().bodies.back().id;
+  const Body& tin = document().project().bodies.back();
+  m_tin = tin.id;
   m_tinCount = placesOf(m_tin).size();
   QVERIFY(m_tin != m_ladle);
+  QCOMPARE(structureOf(tin, session().plugins()), std::string("rope"));
   QVERIFY2(m_tinCount > 40, qPrintable(QString::number(m_tinCount)));
   QCOMPARE(tinIn(m_ladle).size(), m_tinCount);
 }

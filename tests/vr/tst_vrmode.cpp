@@ -77,6 +77,7 @@ class VrModeTest : public VrWindowTest {
   void matterMovesInTheHeadset();
   void noFrameWaitsForTheSolver();
   void matterIsSeenOnItsWay();
+  void recentringBringsTheSceneBeforeItsWearer();
   void noRuntimeIsSaid();
   void everyEndingIsSaidAndVrComesBack_data();
   void everyEndingIsSaidAndVrComesBack();
@@ -254,6 +255,80 @@ void VrModeTest::matterIsSeenOnItsWay() {
   comesTo(1.2);
   QVERIFY(shownAt(1.28, halfWay));  // what is prepared is for two frames later
   QVERIFY(shownAt(1.5, atEnd));
+}
+
+namespace {
+
+std::shared_ptr<vr::HeadsetView> viewWithBoard(const SnapshotPtr& matter, const RenderScene& scene, const Look& look) {
+  auto shown = std::make_shared<vr::HeadsetView>();
+  shown->matter = matter;
+  shown->scene = scene;
+  shown->look = look;
+  shown->picture = shown->project = 1;
+  shown->raised = 0.3;
+  shown->box = boxOf(*matter, scene.environment);
+  auto image = std::make_shared<PanelImage>();
+  image->width = image->height = 1;
+  image->pixels.assign(4, 255);
+  shown->panels[vr::kBoard].image = image;
+  shown->panels[vr::kBoard].width = 0.5, shown->panels[vr::kBoard].height = 0.4;
+  for (vr::BrushVolume& brush : shown->brushes) brush.half = Vector3::Constant(0.05);
+  return shown;
+}
+
+/// The head where the script has it, or elsewhere and turned, and a right hand before it.
+vr::HeadsetFrame wornAt(bool elsewhere) {
+  const Quaternion turn(Eigen::AngleAxisd(2, Vector3::UnitY()));
+  const auto pose = [&](const vr::HandPose& at) {
+    const Vector3 from = at.position - scriptHead().position;
+    return elsewhere ? vr::HandPose{Vector3(-1, 1.2, 2) + turn * from, turn * at.orientation} : at;
+  };
+  vr::HeadsetFrame frame;
+  frame.head = pose(scriptHead());
+  const vr::HandPose hand = pose({{0.2, 1.1, -0.4}, Quaternion::Identity()});
+  frame.hands[vr::kRight].grip = frame.hands[vr::kRight].aim = hand;
+  return frame;
+}
+
+}  // namespace
+
+/// As hands find it, which stand to the head as they did; what was done to it, and where a board was, is forgotten.
+void VrModeTest::recentringBringsTheSceneBeforeItsWearer() {
+  backToTheStart();
+  const SnapshotPtr matter = view()->snapshot();
+  const RenderScene scene = view()->scene();
+  const Look look = view()->look();
+  view()->doneCurrent();
+  HeadlessContext context;
+  const auto link = std::make_shared<vr::HeadsetLink>();
+  vr::LiveScene live(link);
+  const auto shown = viewWithBoard(matter, scene, look);
+  link->show(shown);
+  double time = 0;
+  const auto seenIn = [&](vr::HeadsetFrame frame) {
+    frame.time = time += 0.01;
+    frame.period = 0.01;
+    live.prepare(frame);
+    return link->takeHands().back();
+  };
+  const auto tip = [&](const vr::HeadsetFrame& frame) {
+    const auto place = seenIn(frame).hands[vr::kRight].tip;
+    return place ? *place : Vector3(1e9, 0, 0);
+  };
+  const Vector3 before = tip(wornAt(false));
+  QVERIFY(before.norm() < 10);
+  auto turned = std::make_shared<vr::HeadsetView>(*shown);
+  turned->turns = 2;
+  link->show(turned);
+  QVERIFY((tip(wornAt(false)) - before).norm() > 0.01);
+  QVERIFY((tip(wornAt(true)) - before).norm() > 0.01);
+  QVERIFY(!seenIn(wornAt(true)).boardAhead[0]);
+  vr::HeadsetFrame recentred = wornAt(true);
+  recentred.recentred = true;
+  recentred.hands = {};
+  QVERIFY(seenIn(recentred).boardAhead[0]);
+  const Vector3 after = tip(wornAt(true));
+  QVERIFY2((after - before).norm() < 1e-9, qPrintable(QString::number((after - before).norm())));
 }
 
 void VrModeTest::noRuntimeIsSaid() {

@@ -15,6 +15,7 @@
 #include "ui/theme/theme.h"
 #include "ui/vr/handlabels.h"
 #include "ui/vr/panels.h"
+#include "ui/window/vrlabels.h"
 #include "ui/window/vrpanels.h"
 #include "ui/window/vrwithout.h"
 
@@ -84,6 +85,9 @@ class VrPanelsTest : public PanelsTest {
   void labelsFollowTheMainHand();
   void labelsHangBesideTheHand();
   void labelsGoAndComeBack();
+  void scalesAreTold_data();
+  void scalesAreTold();
+  void aSceneThatIsCarriedTellsItsScale();
   void aMousePressesThePalette();
   void aKeyPinsThePalette();
 };
@@ -785,7 +789,8 @@ void VrPanelsTest::pagesAreTheWindowsOwn() {
   document().undoStack().undo();
 }
 
-/// Those of the material and the brush; a material that the scene has not yet comes from its page.
+/// Those of the material and the brush; a material that the scene has not yet comes from its page, and shows what it
+/// looks like beside its name.
 void VrPanelsTest::namesLeadToTheirPages() {
   enterWithout();
   painted();
@@ -801,6 +806,9 @@ void VrPanelsTest::namesLeadToTheirPages() {
                          [page = page](const QLabel* one) { return one->text() == QLatin1String(page); }),
              page);
   }
+  const auto swatch = [&] { return button(vr::kPalette, "Material")->icon().pixmap(QSize(20, 20)).toImage(); };
+  const QImage before = swatch();
+  QVERIFY(!before.isNull());
   const auto isThere = [&] { return installedIn(document().project(), "iron") != nullptr; };
   QVERIFY(!isThere());
   auto* materials = panels().widget(vr::kBoard)->findChild<MaterialsPanel*>();
@@ -814,6 +822,7 @@ void VrPanelsTest::namesLeadToTheirPages() {
   for (const bool pressed : {false, true, false}) at(vr::kBoard, *materials, tile.center(), pressed);
   QTRY_VERIFY_WITH_TIMEOUT(isThere() && m_window->tools().brush().material == "iron", kLong);
   QTRY_COMPARE_WITH_TIMEOUT((painted(), button(vr::kPalette, "Material")->text()), QStringLiteral("Iron"), kLong);
+  QVERIFY(swatch() != before);
   document().undoStack().undo();
 }
 
@@ -1085,6 +1094,49 @@ void VrPanelsTest::labelsGoAndComeBack() {
   QVERIFY(button->isChecked());
   QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
   leave();
+}
+
+void VrPanelsTest::scalesAreTold_data() {
+  QTest::addColumn<double>("scale");
+  QTest::addColumn<QString>("text");
+  QTest::newRow("true") << 1.0 << QStringLiteral("1 : 1");
+  QTest::newRow("nearly") << 0.97 << QStringLiteral("1 : 1");
+  QTest::newRow("smaller") << 0.25 << QStringLiteral("1 : 4.0");
+  QTest::newRow("least") << 0.05 << QStringLiteral("1 : 20");
+  QTest::newRow("larger") << 2.5 << QStringLiteral("2.5 : 1");
+  QTest::newRow("most") << 20.0 << QStringLiteral("20 : 1");
+}
+
+void VrPanelsTest::scalesAreTold() {
+  QFETCH(double, scale);
+  QFETCH(QString, text);
+  QCOMPARE(scaleText(scale), text);
+}
+
+/// Beside the main hand, for as long as both grips have it, also where labels were put away.
+void VrPanelsTest::aSceneThatIsCarriedTellsItsScale() {
+  const auto both = [](const QString& inputs) {
+    const vr::HandPose left{{-0.2, 1.1, -0.3}, Quaternion::Identity()}, right{{0.2, 1.1, -0.3}, left.orientation};
+    return key(0, "left", left, inputs) + key(0, "right", right, inputs);
+  };
+  ScriptedRun run(vrScript({}, both(kHoldsNothing)));
+  enter();
+  const auto described = [&] {
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    return view.labels;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
+  panels().showLabels(false);
+  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  run.goOn(vrScript({}, both(kHolds)));
+  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
+  QVERIFY(!described()[vr::kLeft].image);
+  run.goOn(vrScript({}, both(kHoldsNothing)));
+  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  leave();
+  QVERIFY(run.lines("violation").empty());
 }
 
 /// Without a headset: what the mouse points at on the palette is pressed, though the hand reaches farther. The hand

@@ -20,14 +20,13 @@ Floor::Floor(const Runtime& runtime, XrSession session) {
   };
   auto info = structure<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
   info.poseInReferenceSpace.orientation.w = 1;
-  if (runtime.has(kExtension) && has(kLocalFloor)) {
-    info.referenceSpaceType = kLocalFloor;
-  } else if (has(XR_REFERENCE_SPACE_TYPE_STAGE)) {
-    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_STAGE;
-  } else {
-    info.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_LOCAL;
+  if (runtime.has(kExtension) && has(kLocalFloor))
+    m_type = kLocalFloor;
+  else if (has(XR_REFERENCE_SPACE_TYPE_STAGE))
+    m_type = XR_REFERENCE_SPACE_TYPE_STAGE;
+  else
     info.poseInReferenceSpace.position.y = -kEyeHeight;
-  }
+  info.referenceSpaceType = m_type;
   check(xrCreateReferenceSpace(session, &info, &m_space), "xrCreateReferenceSpace");
 }
 

@@ -14,8 +14,10 @@ class Floor {
   Floor(const Runtime& runtime, XrSession session);
   /// y is up, and 0 at the floor; z points back from where its user looked at first. It goes with the session.
   XrSpace space() const { return m_space; }
+  XrReferenceSpaceType type() const { return m_type; }
 
  private:
+  XrReferenceSpaceType m_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
   XrSpace m_space = XR_NULL_HANDLE;
 };
 

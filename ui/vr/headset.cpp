@@ -34,7 +34,8 @@ constexpr milliseconds kPatience{2000};  // for the runtime to let go, once it w
 // For a call into the runtime to come back, of which xrWaitFrame() may take a second where a headset is not seen; and
 // from when it was asked to leave until it is left in there.
 constexpr milliseconds kHung{3000}, kGrace{1000};
-constexpr double kNanosecond = 1e-9;  // s
+constexpr double kNanosecond = 1e-9;             // s
+constexpr double kPulled = 0.1, kGripped = 0.3;  // of a trigger's and a grip's way
 
 double secondsSince(steady_clock::time_point start) {
   return std::chrono::duration<double>(steady_clock::now() - start).count();
@@ -223,6 +224,8 @@ class Headset::Loop {
       for (const size_t hand : {kLeft, kRight}) frame.hands[hand] = input(hand, state.predictedDisplayTime);
     });
     for (const size_t hand : {kLeft, kRight}) m_told.sees[hand] = frame.hands[hand].aim.has_value();
+    frame.recentred = m_session.recentred(state.predictedDisplayTime);
+    for (const size_t hand : {kLeft, kRight}) letGo(frame.hands[hand], m_waits[hand], frame.recentred);
     const auto vibrations = m_scene->prepare(frame);
     m_told.ask([&] {
       for (const size_t hand : {kLeft, kRight})
@@ -237,6 +240,14 @@ class Headset::Loop {
     const auto seen = m_tracking.locate(hand, time);
     if (seen) useBareHand(input, hand, *seen, holds == Hands::Holds::BareHand);
     return input;
+  }
+
+  /// Once the room is another: what a hand draws, leads or carries would go across it, and what its trigger and grip
+  /// are pressed for was meant elsewhere. It acts again when both were let go.
+  static void letGo(HandInput& input, bool& waits, bool recentred) {
+    waits = (waits || recentred) && (input.draw > kPulled || input.hold > kGripped);
+    if (recentred) input.grip = input.aim = std::nullopt, input.joints.reset();
+    if (waits || recentred) input.draw = input.hold = 0;
   }
 
   XrCompositionLayerProjectionView draw(size_t eye, const XrView& view) {
@@ -280,7 +291,8 @@ class Headset::Loop {
   std::array<std::optional<EyePicture>, 2> m_pictures;
   std::optional<DepthLayer> m_depth;
   Detail m_detail;
-  double m_waited = 0;  ///< s of this frame, for pictures that the runtime still had
+  std::array<bool, 2> m_waits{};  ///< hands, to let go of their triggers and grips
+  double m_waited = 0;            ///< s of this frame, for pictures that the runtime still had
   CardClock m_clock;
 };
 

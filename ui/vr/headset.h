@@ -21,6 +21,9 @@ struct HeadsetFrame {
   HandPose head;                   ///< between the eyes; -z points where they look
   std::array<HandInput, 2> hands;  ///< left and right, as they will be then
   bool focused = false;            ///< hands act; otherwise a menu of the headset lies over the picture
+  /// The wearer has asked the headset to take where they are for its middle: from now on the room may be another one.
+  /// In this frame no hand is seen, and none pulls or grips before it has let go.
+  bool recentred = false;
 };
 
 /// What is seen in the headset, on its thread and with its OpenGL context current, from the first call to the last.

@@ -60,6 +60,7 @@ struct HandsSeen {
   double seconds = 0;  ///< on the headset's clock
   std::array<Hand, 2> hands;
   bool carries = false;                                    ///< both grips carry the scene
+  double scale = 1;                                        ///< m of the room for each of the scene
   std::array<bool, kBoards> boardAhead{true, true, true};  ///< a board is before the wearer's eyes, or put away
   HandRoles roles;                                         ///< as the view had them
 };

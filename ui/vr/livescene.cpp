@@ -19,6 +19,13 @@ constexpr double kNearPanel = 0.3;           // m, of a hand that points at one
 
 Vector3 tipOf(const HandPose& aim) { return aim.position + aim.orientation * Vector3(0, 0, -kTip); }
 
+/// How the scene stands at first.
+Stand firstStand(const HandPose& head, const HeadsetView& view) {
+  Stand stand = standBefore(head, view.box);
+  stand.roomPlace.y() -= view.raised;
+  return stand;
+}
+
 /// Whether one lies so shortly before the other that matter is seen to move from there.
 bool leadsTo(const SnapshotPtr& before, const SnapshotPtr& now) {
   return before && now && before->revision == now->revision && before->stats.time < now->stats.time;
@@ -34,6 +41,7 @@ std::array<std::optional<Vibration>, 2> LiveScene::prepare(const HeadsetFrame& s
     hold = m_holds[hand] ? 1 : 0;
   }
   take(m_link->shown(), frame);
+  if (frame.recentred && m_view->project != 0) m_moving.place(firstStand(frame.head, *m_view));
   std::array<bool, 2> keeps = m_view->keeps;
   for (const size_t hand : {kLeft, kRight}) keeps[hand] = keeps[hand] || m_panels.carries(hand);
   m_moving.follow(frame, m_view->roles, m_panels.takes(m_view->roles.goes()), keeps);
@@ -63,6 +71,7 @@ void LiveScene::tellHands(const HeadsetFrame& frame) {
   HandsSeen seen;
   seen.seconds = frame.time;
   seen.carries = m_moving.carries();
+  seen.scale = m_moving.stand().scale;
   for (size_t board = 0; board < kBoards; ++board) seen.boardAhead[board] = m_panels.isBoardAhead(frame.head, board);
   seen.roles = m_view->roles;
   for (const size_t hand : {kLeft, kRight}) {
@@ -146,8 +155,8 @@ void LiveScene::take(std::shared_ptr<const HeadsetView> view, const HeadsetFrame
   }
   if (m_view->project == 0) m_felt = view->ticks;  // those of earlier stays
   const bool anew = view->project != m_view->project;
-  Stand stand = anew ? standBefore(frame.head, view->box) : m_moving.stand();
-  stand.roomPlace.y() -= anew ? view->raised : view->raised - m_view->raised;
+  Stand stand = anew ? firstStand(frame.head, *view) : m_moving.stand();
+  if (!anew) stand.roomPlace.y() -= view->raised - m_view->raised;
   if (anew || view->raised != m_view->raised) m_moving.place(stand);
   if (m_view->project != 0 && view->turns != m_view->turns)
     m_moving.turnBy(view->turns - m_view->turns, frame.head.position);

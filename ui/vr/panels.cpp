@@ -51,7 +51,8 @@ bool Panels::Place::holds(const Vector3& own, double edge) const {
 
 void Panels::follow(const HeadsetFrame& frame, const HeadsetView& view, bool busy) {
   m_head = frame.head.position;
-  if (std::exchange(m_roles, view.roles) != view.roles) m_pinned.reset();
+  if (std::exchange(m_roles, view.roles) != view.roles || frame.recentred) m_pinned.reset();
+  if (frame.recentred) m_boards.fill({});  // they come before the wearer as the scene does
   placePalette(frame, view.panels[kPalette]);
   for (size_t board = 0; board < kBoards; ++board) placeBoard(board, frame, view);
   for (const size_t hand : {kLeft, kRight}) carry(hand, frame.hands[hand], view, busy);

@@ -30,7 +30,9 @@ void requireVersion(const XrGraphicsRequirementsOpenGLKHR& requirements) {
 Session::Session(Runtime& runtime) : m_runtime(runtime) {
   create();
   try {
-    m_floor = Floor(runtime, m_session).space();
+    const Floor floor(runtime, m_session);
+    m_floor = floor.space();
+    m_floorType = floor.type();
   } catch (...) {
     xrDestroySession(m_session);
     throw;
@@ -63,6 +65,8 @@ void Session::handleEvents(const std::function<void(const XrEventDataBuffer&)>& 
     if (event->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
       const auto& change = reinterpret_cast<const XrEventDataSessionStateChanged&>(*event);
       if (change.session == m_session) enter(change.state);
+    } else if (event->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+      noteChange(reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(*event));
     } else if (event->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
       m_ending = {true, kStopping};
     } else if (others) {
@@ -88,6 +92,20 @@ void Session::enter(XrSessionState state) {
   } else if (state == XR_SESSION_STATE_LOSS_PENDING) {
     m_ending = {true, kLost};
   }
+}
+
+// LOCAL changes at its wearer's wish alone, also where the floor is that of a stage, which stays. A stage that is
+// measured anew concerns a floor in it.
+void Session::noteChange(const XrEventDataReferenceSpaceChangePending& change) {
+  const XrReferenceSpaceType type = change.referenceSpaceType;
+  const bool concerns = type == XR_REFERENCE_SPACE_TYPE_LOCAL || type == m_floorType;
+  if (concerns && change.session == m_session) m_recentred = change.changeTime;
+}
+
+bool Session::recentred(XrTime time) {
+  const bool now = m_recentred && time >= *m_recentred;
+  if (now) m_recentred.reset();
+  return now;
 }
 
 void Session::requestExit() { check(xrRequestExitSession(m_session), "xrRequestExitSession"); }

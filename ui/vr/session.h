@@ -28,6 +28,8 @@ class Session {
   bool focused() const { return m_state == XR_SESSION_STATE_FOCUSED; }
   bool visible() const { return m_state == XR_SESSION_STATE_VISIBLE; }  ///< behind a menu of the headset
   const std::optional<Ending>& ending() const { return m_ending; }
+  /// Whether the space of the floor is another one from a frame on, or its wearer has asked for that: said once.
+  bool recentred(XrTime time);
   void requestExit();
 
   XrFrameState waitFrame();
@@ -43,10 +45,13 @@ class Session {
  private:
   void create();
   void enter(XrSessionState state);
+  void noteChange(const XrEventDataReferenceSpaceChangePending& change);
 
   Runtime& m_runtime;
   XrSession m_session = XR_NULL_HANDLE;
   XrSpace m_floor = XR_NULL_HANDLE;
+  XrReferenceSpaceType m_floorType = XR_REFERENCE_SPACE_TYPE_LOCAL;
+  std::optional<XrTime> m_recentred;  ///< from when on the room is another
   XrSessionState m_state = XR_SESSION_STATE_UNKNOWN;
   bool m_running = false;
   XrEnvironmentBlendMode m_blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;  ///< or what a headset has that shows the room

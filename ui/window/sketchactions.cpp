@@ -11,6 +11,7 @@
 #include "ui/panels/materialspanel.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/worker.h"
 #include "ui/theme/plaintext.h"
 #include "ui/tools/toolbox.h"
 #include "ui/tools/tooltable.h"
@@ -24,6 +25,7 @@
 #include <QtWidgets/QMenu>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace ps {
@@ -175,25 +177,34 @@ bool SketchActions::hasOtherCells(const std::string& body) const {
 void SketchActions::separate() {
   const Document& document = m_session.document();
   const std::vector<std::string> chosen = m_tools.selection().bodies();
-  std::vector<Pieces> bodies;
-  QString resized;
+  Separation wanted;
+  wanted.all = chosen.empty();
   for (const Body& body : document.project().bodies) {
-    const bool wanted = chosen.empty() || std::find(chosen.begin(), chosen.end(), body.id) != chosen.end();
-    if (!wanted || !mayComeApart(body)) continue;
+    const bool isMeant = wanted.all || std::find(chosen.begin(), chosen.end(), body.id) != chosen.end();
+    if (!isMeant || !mayComeApart(body)) continue;
     if (hasOtherCells(body.id))
-      resized = QString::fromStdString(shownName(body));
+      wanted.resized = QString::fromStdString(shownName(body));
     else
-      bodies.push_back({body, {}});
+      wanted.bodies.push_back({body, {}});
   }
-  if (bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({}, resized);
+  if (wanted.bodies.empty() || !m_session.engine() || m_session.isBroken()) return part({}, wanted.resized);
   // The engine's thread may come to it when the window has gone.
-  m_session.engine()->ask([self = QPointer(this), bodies, resized, all = chosen.empty()](const Engine& engine) mutable {
-    const TiedScene moment = tiedScene(engine);
-    for (Pieces& one : bodies) {
-      if (!all || isSolid(moment, one.body.id)) one.cells = piecesOf(moment, one.body);
+  m_session.engine()->ask([self = QPointer(this), wanted](const Engine& engine) {
+    auto moment = std::make_shared<const TiedScene>(tiedScene(engine));
+    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, wanted, moment = std::move(moment)] {
+      if (self) self->findPieces(moment, wanted);
+    });
+  });
+}
+
+/// On the thread for what takes its time: no frame waits for it.
+void SketchActions::findPieces(const std::shared_ptr<const TiedScene>& moment, Separation wanted) {
+  m_session.worker().run([self = QPointer(this), moment, wanted = std::move(wanted)]() mutable {
+    for (Pieces& one : wanted.bodies) {
+      if (!wanted.all || isSolid(*moment, one.body.id)) one.cells = piecesOf(*moment, one.body);
     }
-    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, resized, bodies = std::move(bodies)] {
-      if (self) self->part(bodies, resized);
+    QMetaObject::invokeMethod(QCoreApplication::instance(), [self, wanted = std::move(wanted)] {
+      if (self) self->part(wanted.bodies, wanted.resized);
     });
   });
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ namespace ps {
 class Actions;
 class Session;
 class Toolbox;
+struct TiedScene;
 
 QString materialAction(int number);  ///< name of the action that draws with that one, from 0 on
 
@@ -56,6 +58,12 @@ class SketchActions : public QObject {
     Body body;  ///< as it was asked for
     std::vector<std::vector<std::array<int, 3>>> cells;
   };
+  struct Separation {
+    std::vector<Pieces> bodies;
+    QString resized;   ///< the name of one whose matter is of other cells
+    bool all = false;  ///< nobody has chosen: of those that are solid
+  };
+  void findPieces(const std::shared_ptr<const TiedScene>& moment, Separation wanted);
   void part(const std::vector<Pieces>& bodies, const QString& resized);
   void noteSize(const std::string& body, double factor);
   void turnGravity();

@@ -7,6 +7,7 @@
 #include "ui/document/document.h"
 #include "ui/session/selection.h"
 #include "ui/session/session.h"
+#include "ui/session/swatches.h"
 #include "ui/theme/icon.h"
 #include "ui/theme/paint.h"
 #include "ui/theme/plaintext.h"
@@ -18,6 +19,7 @@
 
 #include <QtGui/QAction>
 #include <QtGui/QPainter>
+#include <QtGui/QPixmap>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -30,6 +32,7 @@ namespace ps {
 namespace {
 
 constexpr int kColumns = 6, kButton = 30, kEdge = 10, kGap = 5, kIcon = 20;
+constexpr double kSharp = 2.5;   // pixels of a picture for each logical one, as panels are painted
 constexpr double kDegrees = 10;  // K, that a button adds to a temperature
 
 QToolButton* button(const QString& name, const QString& iconName) {
@@ -58,9 +61,12 @@ VrPalette::VrPalette(Session& session, Toolbox& tools, const Actions& actions, c
                      {"edit.undo", "undo"},
                      {"edit.redo", "redo"},
                      {"sketch.real", "check"}});
-  addChoice(
+  m_material = addChoice(
       *grid, QStringLiteral("Material"), [this] { return material(); }, [this](int by) { m_tools.stepMaterial(by); },
       "Materials");
+  m_material->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  m_material->setIconSize({kIcon, kIcon});
+  connect(&session.swatches(), &Swatches::arrived, this, [this] { m_swatched.reset(); });
   addChoice(
       *grid, QStringLiteral("Brush"), [this] { return pluginLabel(m_session.plugins(), m_tools.brush().shape); },
       [this](int by) { m_tools.stepShape(by); }, "Brush");
@@ -117,8 +123,8 @@ void VrPalette::addTurns(QHBoxLayout& row) {
   }
 }
 
-void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
-                          const std::function<void(int)>& step, const char* page) {
+QToolButton* VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
+                                  const std::function<void(int)>& step, const char* page) {
   const int line = grid.rowCount();
   auto* title = new QLabel(name);
   title->setTextFormat(Qt::PlainText);
@@ -148,6 +154,7 @@ void VrPalette::addChoice(QGridLayout& grid, const QString& name, std::function<
   }
   grid.addWidget(value, line, 3, 1, 2);
   m_choices.push_back({value, std::move(text)});
+  return value;
 }
 
 /// In two rows, each of which is as wide as the others; behind them what has labels shown.
@@ -186,18 +193,43 @@ void VrPalette::addPages(QGridLayout& grid, const std::vector<const char*>& page
 void VrPalette::showLabelled(bool labelled) { m_labelled->setChecked(labelled); }
 
 void VrPalette::follow() {
+  showSwatch();
   for (const Choice& choice : m_choices) {
-    const QString text =
-        asButtonText(choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, choice.value->width()));
+    const int room = choice.value->width() - (choice.value->icon().isNull() ? 0 : kIcon + 2 * kGap);
+    const QString text = asButtonText(choice.value->fontMetrics().elidedText(choice.text(), Qt::ElideRight, room));
     if (choice.value->text() != text) choice.value->setText(text);
   }
 }
 
-QString VrPalette::material() const {
+std::string VrPalette::materialId() const {
   const Project& project = m_session.document().project();
+  if (project.materials.empty()) return {};
   const std::string& now = m_tools.brush().material;
-  if (project.materials.empty()) return QStringLiteral("none");
-  return ownerLabel(project, {Owner::Material, now.empty() ? project.materials.front().id : now, ""});
+  return now.empty() ? project.materials.front().id : now;
+}
+
+QString VrPalette::material() const {
+  const std::string id = materialId();
+  if (id.empty()) return QStringLiteral("none");
+  return ownerLabel(m_session.document().project(), {Owner::Material, id, ""});
+}
+
+/// As long as there is no picture it is a ball in the material's colour.
+void VrPalette::showSwatch() {
+  const Document& document = m_session.document();
+  const std::pair now(materialId(), document.changeCount());
+  if (m_swatched == now) return;
+  m_swatched = now;
+  if (now.first.empty()) return m_material->setIcon({});
+  QPixmap picture((QSizeF(kIcon, kIcon) * kSharp).toSize());
+  picture.setDevicePixelRatio(kSharp);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Swatch swatch = swatchOf(document.project(), document.plugins(), now.first);
+  paintSwatch(painter, QRectF(0, 0, kIcon, kIcon), swatch, m_session.swatches());
+  painter.end();
+  m_material->setIcon(picture);
 }
 
 void VrPalette::stepTemperature(int by) {

@@ -2,7 +2,11 @@
 #pragma once
 #include <QtWidgets/QWidget>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 class QGridLayout;
@@ -41,21 +45,25 @@ class VrPalette : public QWidget {
   };
   QHBoxLayout* addActions(QGridLayout& grid, const std::vector<std::pair<const char*, const char*>>& row);
   void addTurns(QHBoxLayout& row);
-  void addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
-                 const std::function<void(int)>& step, const char* page = nullptr);
+  QToolButton* addChoice(QGridLayout& grid, const QString& name, std::function<QString()> text,
+                         const std::function<void(int)>& step, const char* page = nullptr);
   void addPages(QGridLayout& grid, const std::vector<const char*>& pages);
   void stepTemperature(int by);
   QString becomes() const;
   void stepBecomes(int by);
   void stepColour(int by);
+  std::string materialId() const;  ///< "" where the scene has none
   QString material() const;
+  void showSwatch();
   QString colour() const;
 
   Session& m_session;
   Toolbox& m_tools;
   const Actions& m_actions;
   std::vector<Choice> m_choices;
-  QToolButton* m_labelled = nullptr;
+  QToolButton *m_material = nullptr, *m_labelled = nullptr;
+  /// Of which material the swatch is, after how many changes of the document; nothing: it may look otherwise by now.
+  std::optional<std::pair<std::string, uint64_t>> m_swatched;
 };
 
 }  // namespace ps

@@ -56,6 +56,7 @@ void VrPanels::act(const vr::HandsSeen& seen) {
   for (size_t hand = 0; hand < m_pointers.size(); ++hand) {
     const std::optional<vr::PanelPoint>& point = seen.hands[hand].panel;
     m_labels[hand]->setProfile(seen.hands[hand].input.profile, hand, seen.roles);
+    m_labels[hand]->setScale(seen.carries && hand == seen.roles.main ? seen.scale : 0);
     follow(m_pointers[hand], point, seen.seconds);
     if (act != m_acts) return;  // a menu was open meanwhile: these hands are old
     const vr::HandInput& input = seen.hands[hand].input;
@@ -70,6 +71,7 @@ void VrPanels::act(const vr::HandsSeen& seen) {
 
 void VrPanels::letGo() {
   for (Pointer& pointer : m_pointers) leave(pointer);
+  for (const std::unique_ptr<VrLabels>& labels : m_labels) labels->setScale(0);
 }
 
 /// What it presses is let go, and not clicked.

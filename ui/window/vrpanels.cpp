@@ -321,7 +321,7 @@ bool VrPanels::paintLabels() {
   for (size_t hand = 0; hand < m_labels.size(); ++hand) {
     VrLabels& labels = *m_labels[hand];
     vr::PanelView& view = m_paintedLabels[hand];
-    const bool shown = m_labelsShown && labels.any();
+    const bool shown = labels.any() && (m_labelsShown || labels.showsScale());
     const auto before = std::exchange(view.image, shown ? pictureOf(labels, view.image) : nullptr);
     changed = changed || before != view.image;
     view.width = kPalettePixel * labels.width();
