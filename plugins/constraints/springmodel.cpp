@@ -18,7 +18,7 @@ using api::NeighbourView;
 using api::ParticleView;
 
 /// Neighbours of a square lattice are 1 and 1.414 spacings away, those across a cube 1.732.
-constexpr float kStretchReach = 1.2f, kShearReach = 1.6f;
+constexpr float kStretchReach = 1.2f, kShearReach = 1.6f, kCornerReach = 1.8f;
 /// Two neighbours lie opposite each other when the angle between them is more than 143 degrees.
 constexpr float kOpposite = -0.8f;
 /// Largest k dt²/m of a spring: beyond it more stiffness only makes the solver work harder (Macklin et al. 2019).
@@ -64,7 +64,7 @@ class Builder {
       const uint32_t j = m_lists.index[q];
       if ((m_isNew[j] != 0 && j < i) || !kin(i, j)) continue;
       const float d = distance(m_p, i, j);
-      if (d < kStretchReach * m_spacing)
+      if (isNext(i, j, d))
         add(i, j, d, SpringModel::kStretch);
       else if (diagonals && d < kShearReach * m_spacing)
         add(i, j, d, SpringModel::kShear);
@@ -76,7 +76,7 @@ class Builder {
     bool anyNew = m_isNew[i] != 0;
     for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
       const uint32_t j = m_lists.index[q];
-      if (!kin(i, j) || distance(m_p, i, j) >= kStretchReach * m_spacing) continue;
+      if (!kin(i, j) || !isNext(i, j, distance(m_p, i, j))) continue;
       m_near.push_back(j);
       anyNew = anyNew || m_isNew[j] != 0;
     }
@@ -98,6 +98,18 @@ class Builder {
   bool kin(uint32_t i, uint32_t j) const {
     if (m_p.body[i] == m_p.body[j]) return holds(m_p.motion[j]);
     return m_tiesToFixed && m_p.motion[j] == Motion::Static;
+  }
+  /// Whether the thread or sheet goes from one to the other, d apart: they are neighbours on its lattice, or meet
+  /// across a corner, as cells do of what was sketched askew, and are neighbours of nobody else through whom they hold.
+  bool isNext(uint32_t i, uint32_t j, float d) const {
+    if (d < kStretchReach * m_spacing) return true;
+    if (d >= kCornerReach * m_spacing || m_p.body[i] != m_p.body[j]) return false;
+    const float reach = m_spacing * (d < kShearReach * m_spacing ? kStretchReach : kShearReach);
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const uint32_t k = m_lists.index[q];
+      if (k != j && kin(i, k) && distance(m_p, i, k) < reach && distance(m_p, j, k) < reach) return false;
+    }
+    return true;
   }
   void add(uint32_t i, uint32_t j, float length, SpringModel::Kind kind) {
     const uint32_t pair[2] = {i, j};

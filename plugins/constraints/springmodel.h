@@ -6,7 +6,9 @@
 
 namespace ps::constraint {
 
-/// What cloth and rope share: a lattice of springs between neighbours (stretch), across a square's diagonal (shear) and
+/// What cloth and rope share: a lattice of springs between neighbours (stretch; also across a corner where cells that
+/// were sketched askew meet there alone, then as stiff as between two that are a spacing apart), across a square's
+/// diagonal (shear) and
 /// from one neighbour over the particle between to the next (bend, Provot 1995), as XPBD distance constraints (Macklin
 /// et al. 2016, eq. 18 and 26). Springs keep linear and angular momentum. A stretch spring tears when its strain passes
 /// a bound; a shear or bend spring goes with the last particle that held both its ends. Lengths at rest are those at

@@ -157,6 +157,41 @@ class TestSoft : public QObject {
     QVERIFY(std::abs(length / kLength - 1) < 0.005);
   }
 
+  /// What is sketched askew goes from cell to cell across edges and corners: it holds there as along the lattice.
+  void whatIsSketchedAskewHolds_data() {
+    QTest::addColumn<bool>("sheet");
+    QTest::addColumn<Vector3>("step");  // spacings
+    QTest::newRow("rope across edges") << false << Vector3(1, -1, 0);
+    QTest::newRow("rope across corners") << false << Vector3(1, -1, 1);
+    QTest::newRow("cloth across edges") << true << Vector3(1, -1, 0);
+  }
+  void whatIsSketchedAskewHolds() {
+    QFETCH(bool, sheet);
+    QFETCH(Vector3, step);
+    constexpr double kSpacing = 0.02;
+    constexpr int kLong = 16;
+    const int wide = sheet ? 6 : 1;
+    const RopeModel rope;
+    const ClothModel cloth;
+    Solver solver;
+    prepare(solver, stepsOf(kSpacing, 32, 4, 2), matter(1000));
+    const uint32_t set = sheet ? solver.addConstraintSet(&cloth, "cloth", parametersOf(cloth))
+                               : solver.addConstraintSet(&rope, "rope", parametersOf(rope));
+    std::vector<ps::api::Double3> places;
+    for (int k = 0; k < kLong; ++k)
+      for (int w = 0; w < wide; ++w) places.push_back(ps::double3Of(kSpacing * (k * step + w * Vector3(0, 0, 1))));
+    solver.spawn(solid(places, set));
+    pin(solver, [](const Vector3& x) { return x.y() > -0.001; });
+    QVERIFY(run(solver, 200));
+    // Each hangs on the one before: nothing has come off, and the weight stretches it little.
+    const ps::ParticleStore& p = solver.particles();
+    for (uint32_t id = 0; id + wide < places.size(); ++id) {
+      const double apart =
+          (vectorOf(p.position()[p.indexOf(id)]) - vectorOf(p.position()[p.indexOf(id + wide)])).norm();
+      QVERIFY2(std::abs(apart / (kSpacing * step.norm()) - 1) < 0.05, qPrintable(QString::number(apart)));
+    }
+  }
+
   /// Springs over a seam as everywhere else, also where little is added beside much that is there.
   void aSheetGrowsPieceByPiece() {
     const ClothModel cloth;
