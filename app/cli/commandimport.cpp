@@ -26,7 +26,8 @@ constexpr OptionSpec kOptions[] = {
     {"--reduce", "N", "triangles that are kept at most; without it 200,000, where their volume is within 0.5 %"},
     {"--material", "ID", "what it is made of; without it the standard one"},
     {"--structure", "ID", "the constraint plugin that holds it together where it is solid"},
-    {"--fill", "lattice|relaxed", "how particles lie in it; relaxed packs them against its surface"},
+    {"--fill", "automatic|lattice|relaxed",
+     "how particles lie in it; relaxed packs them against its surface, automatic what is fixed"},
     {"--wall", "", "the mesh is a wall: its surface alone, held in place, which lets no heat through"},
     {"--report", "FILE.json", "writes triangles, closed, mesh_volume, particles, particle_volume"},
 };
@@ -121,14 +122,15 @@ int importCommand(CommandArguments list) {
   auto& shape = std::get<SolidShape>(body.shape);
   if (arguments.has("--fill")) {
     const std::string fill = arguments.text("--fill");
-    if (fill != "lattice" && fill != "relaxed") throw InputError("--fill " + fill + ": must be lattice or relaxed");
+    if (fill != "automatic" && fill != "lattice" && fill != "relaxed")
+      throw InputError("--fill " + fill + ": must be automatic, lattice or relaxed");
     shape.parameters.values["fill"] = fill;
   }
   const double estimate = particleCount(body, spacing);
   if (estimate > kMaximumParticles)
     throw InputError(path + ": would be " + numberText(estimate) +
                      " particles; give a larger --spacing or another --unit");
-  const SolidMatter matter = solidMatter(shape, spacing);
+  const SolidMatter matter = solidMatter(shape, spacing, toggleOf(body.parameters, bodyParameters(), "fixed"));
   saveProject(projectOf(std::move(body), material, spacing, plugins), arguments.text("--out"));
   if (arguments.has("--report"))
     writeFileAtomically(arguments.text("--report"), writeJson(reportOf(imported, spacing, matter)));

@@ -264,12 +264,14 @@ std::vector<Vector3> packedPlaces(const SolidShape& shape, double spacing, const
 }  // namespace
 
 /// A block's lattice lies even as it is, and so do sheets and ropes.
-bool isPacked(const SolidShape& shape) {
+bool isPacked(const SolidShape& shape, bool fixed) {
   const auto choice = [&](const char* key) { return choiceOf(shape.parameters, solidParameters(), key); };
-  return choice("fill") == "relaxed" && choice("kind") != "block" && !SolidForm(shape).isOneLayer();
+  const std::string fill = choice("fill");
+  return (fill == "relaxed" || (fixed && fill == "automatic")) && choice("kind") != "block" &&
+         !SolidForm(shape).isOneLayer();
 }
 
-SolidMatter solidMatter(const SolidShape& shape, double spacing) {
+SolidMatter solidMatter(const SolidShape& shape, double spacing, bool fixed) {
   if (const SolidForm form(shape); form.kind() == SolidForm::Kind::Rope) {
     const std::vector<Vector3> along = alongRope(form, spacing);
     const double cell = spacing * spacing * spacing, each = form.volume(spacing) / static_cast<double>(along.size());
@@ -277,7 +279,7 @@ SolidMatter solidMatter(const SolidShape& shape, double spacing) {
   }
   const SolidCells filled = fillSolid(shape, spacing);
   const double volume = filled.stretch.prod() * spacing * spacing * spacing;
-  const bool packed = isPacked(shape);
+  const bool packed = isPacked(shape, fixed);
   return {inScene(SolidForm(shape), packed ? packedPlaces(shape, spacing, filled, volume) : ownPlaces(filled, spacing)),
           volume, packed};
 }

@@ -48,13 +48,14 @@ struct SolidMatter {
   double volume = 0;                 ///< m3 of each: together that of the solid, but where `stretch` is at its end
   bool packed = false;
 };
-/// As its parameter `fill` says: on the lattice of fillSolid(), stretched, or packed (packSolid()) from there. What was
-/// filled last is kept, wherever it stands. Tells its steps to the thread's Progress.
-SolidMatter solidMatter(const SolidShape& shape, double spacing);
+/// As its parameter `fill` says: on the lattice of fillSolid(), stretched, or packed (packSolid()) from there, as what
+/// is `fixed` is unless it says otherwise. What was filled last is kept, wherever it stands. Tells its steps to the
+/// thread's Progress.
+SolidMatter solidMatter(const SolidShape& shape, double spacing, bool fixed);
 /// The same solid, upright in the middle of the scene: what fills it hangs on nothing else.
 SolidShape withoutPose(SolidShape shape);
-/// Whether it is packed.
-bool isPacked(const SolidShape& shape);
+/// Whether it is packed, as the solid of a body that is fixed or moves.
+bool isPacked(const SolidShape& shape, bool fixed);
 /// Places of the lattice, whatever `fill` says.
 std::vector<api::Double3> latticePlaces(const SolidShape& shape, double spacing);
 

@@ -67,13 +67,13 @@ constexpr api::ParameterDeclaration kSolid[] = {
                     "filled for a statue, hollow for a tank, a terrain, or the room in which something flows", ""}))),
     actingWhen(
         "kind != block & kind != sheet & kind != rope",
-        atReset(choice({"fill", "Particles", "", ""}, "lattice|relaxed", 0,
+        atReset(choice({"fill", "Particles", "", ""}, "automatic|lattice|relaxed", 0,
                        {"Shape",
                         "How particles lie in it at the start: on a lattice along its own axes, whose outermost cells "
                         "make steps of a round surface, or packed against that surface, as even as they can lie. "
                         "On a packed one that is held in place and stands, other solids slide as on the shape itself; "
-                        "liquid does so on either kind, however thin.",
-                        "relaxed for a smooth ball or mould, lattice for a crystal", ""}))),
+                        "liquid does so on either kind, however thin. Automatic packs what is held in place.",
+                        "automatic for a mould or a ramp, relaxed for a smooth ball, lattice for a crystal", ""}))),
     place({"position_x", "Position x", "", "m"}, "Where the middle of the shape is."),
     place({"position_y", "Position y", "", "m"}, "How high the middle of the shape is."),
     place({"position_z", "Position z", "", "m"}, "Where the middle of the shape is."),

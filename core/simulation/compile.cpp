@@ -304,7 +304,7 @@ std::vector<ColouredSpawn> compileBody(const Project& project, const PluginRegis
   if (!std::holds_alternative<VoxelShape>(body.shape)) {
     ColouredSpawn spawn = spawnOf(project, plugins, body);
     if (const auto* solid = std::get_if<SolidShape>(&body.shape)) {
-      SolidMatter matter = solidMatter(*solid, spacing);
+      SolidMatter matter = solidMatter(*solid, spacing, toggleOf(body.parameters, bodyParameters(), "fixed"));
       spawn.position = std::move(matter.places);
       spawn.volume = matter.volume;
       spawn.packed = matter.packed;

@@ -61,8 +61,9 @@ bool isInOneFace(const SolidForm& block, const Vector3& own, double spacing) {
 
 bool hasTrueSurface(const Body& body) {
   const auto* solid = std::get_if<SolidShape>(&body.shape);
-  return solid && (isPacked(*solid) || isTurnedBlock(*solid)) && toggleOf(body.parameters, bodyParameters(), "fixed") &&
-         body.velocity == Vector3::Zero() && body.spin == Vector3::Zero();
+  return solid && toggleOf(body.parameters, bodyParameters(), "fixed") &&
+         (isPacked(*solid, true) || isTurnedBlock(*solid)) && body.velocity == Vector3::Zero() &&
+         body.spin == Vector3::Zero();
 }
 
 void noteTrueSurface(ParticleStore& store, std::span<const uint32_t> ids, const Body& body, double spacing) {

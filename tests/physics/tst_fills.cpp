@@ -132,7 +132,7 @@ class TestFills : public QObject {
   /// Over the steps of a lattice it does not. Both balls are packed: what differs is the gutter. A substep loses the
   /// square of the angle by which the way turns in it: 5 % in all with 32 of them, 8 % with 16, 20 % with 4.
   void aPackedGutterIsSmooth() {
-    const double packed = regainedInGutter("relaxed"), stepped = regainedInGutter("lattice");
+    const double packed = regainedInGutter("automatic"), stepped = regainedInGutter("lattice");
     QVERIFY2(packed > 0.9 && packed < 1.02, qPrintable(QString::number(packed)));
     QVERIFY2(stepped < 0.5 * packed, qPrintable(QString::number(stepped)));
   }

@@ -70,7 +70,8 @@ class TestBodies : public SampleWindowTest {
     const auto& solid = std::get<SolidShape>(body.shape);
     QCOMPARE(session().document().undoStack().undoText(),
              QStringLiteral("adding ") + QString::fromStdString(body.name));
-    const size_t particles = solidMatter(solid, 0.02).places.size();
+    const size_t particles =
+        solidMatter(solid, 0.02, toggleOf(body.parameters, bodyParameters(), "fixed")).places.size();
     QTRY_COMPARE(idsNow(session()).size(), matter + particles);  // all of them: it came where nothing was
     // Told in the menu, to some hundredths.
     QVERIFY(std::abs(particleCount(body, 0.02) / static_cast<double>(particles) - 1) < 0.1);

@@ -185,7 +185,9 @@ class TestWaysOut : public SampleWindowTest {
     QTRY_VERIFY_WITH_TIMEOUT(session().newest()->stats.frame > 10, kLong);
     session().pause();
     idsNow(session());  // no frame comes any more
-    QVERIFY(meanOf("ice").kelvin > ice.kelvin && session().newest()->stats.heat.walls > 0);
+    QVERIFY2(meanOf("ice").kelvin > ice.kelvin,
+             qPrintable(QStringLiteral("%1 K after %2").arg(meanOf("ice").kelvin - ice.kelvin).arg(ice.kelvin)));
+    QVERIFY(session().newest()->stats.heat.walls > 0);
     QCOMPARE(meanOf("block").place, block.place);
     QCOMPARE(meanOf("net").place, net.place);
     QMap<QString, bool> marked;

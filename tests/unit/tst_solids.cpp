@@ -67,7 +67,7 @@ SolidShape meshSolid(SceneMesh mesh, const Vector3& size) {
 }
 
 double filled(const SolidShape& solid, double spacing) {
-  const SolidMatter matter = solidMatter(solid, spacing);
+  const SolidMatter matter = solidMatter(solid, spacing, false);
   return static_cast<double>(matter.places.size()) * matter.volume;
 }
 
@@ -168,7 +168,7 @@ class TstSolids : public QObject {
         const double wanted = kRadius / 2 - 3.0 / 8 * (std::pow(kRadius, 4) - std::pow(inner, 4)) / cubes;
         QVERIFY((middle - Vector3(0, wanted, 0)).norm() < 1e-12);
         Vector3 sum;
-        const std::vector<api::Double3> places = solidMatter(bowl, kSpacing).places;
+        const std::vector<api::Double3> places = solidMatter(bowl, kSpacing, false).places;
         for (const api::Double3& p : places) sum += vectorOf(p) / static_cast<double>(places.size());
         QVERIFY2((sum - SolidForm(bowl).toScene(middle)).norm() < 0.3 * kSpacing, qPrintable(QString::number(sum[1])));
       }
@@ -255,12 +255,12 @@ class TstSolids : public QObject {
     SolidShape solid = meshSolid(ballMesh(48, open), {0.2, 0.2, 0.2});
     solid.parameters.values["inside"] = std::string("hollow");
     solid.parameters.values["rotation_z"] = turn;
-    QVERIFY(!isPacked(solid));
+    QVERIFY(!isPacked(solid, true));
     const SolidForm form(solid);
     const double area = (open ? 2 : 4) * kPi * kRadius * kRadius;
     QVERIFY(std::abs(form.volume(kSpacing) / (area * kSpacing) - 1) < 0.005);  // facets are within the ball
     const Vector3 centre = form.middle();
-    const std::vector<api::Double3> places = solidMatter(solid, kSpacing).places;
+    const std::vector<api::Double3> places = solidMatter(solid, kSpacing, false).places;
     QVERIFY(std::abs(static_cast<double>(places.size()) * kSpacing * kSpacing / area - 1) < 0.15);
     for (const api::Double3& place : places) {
       const double out = (vectorOf(place) - centre).norm();
@@ -297,7 +297,9 @@ class TstSolids : public QObject {
     constexpr double kSpacing = 0.01;
     SolidShape solid = solidOf(kind.toLatin1(), {0.1, y, 0.1}, 0.02);
     if (kind == "mesh") solid = meshSolid(ballMesh(24), {0.1, y, 0.1});
-    const size_t count = solidMatter(solid, kSpacing).places.size();
+    const SolidMatter loose = solidMatter(solid, kSpacing, false), held = solidMatter(solid, kSpacing, true);
+    QVERIFY(!loose.packed && held.packed);  // automatic packs what other solids slide on
+    const size_t count = loose.places.size();
     solid.parameters.values["fill"] = std::string("relaxed");
     const auto pack = [&](int threads) {
       setThreadCount(threads);
@@ -318,7 +320,8 @@ class TstSolids : public QObject {
     }
     QVERIFY2(outermost > 0, qPrintable(QString::number(outermost)));
     QVERIFY2(std::abs(sum / skin - 0.45) < 0.1, qPrintable(QString::number(sum / skin)));
-    QCOMPARE(solidMatter(solid, kSpacing).places.size(), count);
+    QCOMPARE(held.places.size(), count);
+    QCOMPARE(solidMatter(solid, kSpacing, false).places.size(), count);
   }
 
   void sheetsAndRopesAreOneParticleThick() {
@@ -326,7 +329,7 @@ class TstSolids : public QObject {
     SolidShape sheet = solidOf("sheet", {0.1, 0.3, 0.204});
     sheet.parameters.values["rotation_x"] = 90.0;
     sheet.parameters.values["held"] = std::string("start");
-    const SolidMatter cloth = solidMatter(sheet, kSpacing);
+    const SolidMatter cloth = solidMatter(sheet, kSpacing, false);
     QCOMPARE(cloth.places.size(), size_t{200});
     QVERIFY(std::abs(200 * cloth.volume / (0.1 * 0.204 * kSpacing) - 1) < 1e-9);
     for (const api::Double3& p : cloth.places) QVERIFY(std::abs(p.z) < 1e-12);  // it stands
@@ -336,7 +339,7 @@ class TstSolids : public QObject {
     values["point_3_x"] = 0.1, values["point_3_y"] = -0.154;
     values["position_y"] = 0.5;
     values["held"] = std::string("ends");
-    const std::vector<api::Double3> line = solidMatter(rope, kSpacing).places;
+    const std::vector<api::Double3> line = solidMatter(rope, kSpacing, false).places;
     QCOMPARE(line.size(), size_t{36});  // 35 steps of 0.354 m
     QVERIFY((vectorOf(line.front()) - Vector3(-0.1, 0.5, 0)).norm() < 1e-9);
     QVERIFY((vectorOf(line.back()) - Vector3(0.1, 0.346, 0)).norm() < 1e-9);
