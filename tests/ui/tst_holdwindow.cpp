@@ -277,6 +277,23 @@ class TestHoldWindow : public SampleWindowTest {
     QTRY_COMPARE_WITH_TIMEOUT(count(id), all, kLong);
   }
 
+  /// Also where no frame comes for longer than a scene that has stopped is waited for.
+  void whatIsCutInASlowSceneBecomesBodies() {
+    QCOMPARE(document().setParameter({Owner::Scene, "", "gravity"}, 0.0), QString());
+    add(bar(false));
+    const size_t bodies = document().project().bodies.size();
+    session().play();
+    const auto gate = std::make_shared<std::promise<void>>();
+    session().engine()->ask(
+        [open = std::make_shared<std::future<void>>(gate->get_future())](const Engine&) { open->wait(); });
+    cut(0.08);
+    QTest::qWait(1500);
+    QCOMPARE(document().project().bodies.size(), bodies);
+    gate->set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), bodies + 1, kLong);
+    session().pause();
+  }
+
   /// What was apart before a hand came stays one body, and a crumb stays with what it was of; all does where nobody
   /// wants it otherwise.
   void whatAHandDidNotPartStaysABody() {
