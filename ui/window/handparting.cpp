@@ -185,7 +185,7 @@ std::vector<HandParting::Parted> HandParting::partedBy(const Stroke& stroke, con
   return found;
 }
 
-/// A body that has been drawn on meanwhile stays whole.
+/// A body that has been drawn on, locked or fixed meanwhile stays whole.
 void HandParting::part(const StrokePtr& stroke, const std::vector<Parted>& found) {
   if (mayPart(*stroke) && m_session.link()->isDrawing()) return lookIn(kAgain, stroke);
   std::erase(m_strokes, stroke);
@@ -194,7 +194,7 @@ void HandParting::part(const StrokePtr& stroke, const std::vector<Parted>& found
   std::vector<Parted> parted;
   for (const Parted& one : found) {
     const Body* now = document.body(one.body.id);
-    if (!now || now->shape != one.body.shape || m_hasOtherCells(one.body.id)) continue;
+    if (!now || !mayComeApart(*now) || now->shape != one.body.shape || m_hasOtherCells(one.body.id)) continue;
     if (one.pieces.size() < kMost)
       parted.push_back(one);
     else
