@@ -171,6 +171,7 @@ Body toolBody(ToolForm::Kind kind, double length, double spacing) {
     const MeshBounds bounds = boundsOf(mesh);
     size = bounds.maximum - bounds.minimum;
     values["kind"] = std::string("mesh");
+    values["fill"] = std::string("lattice");  // along which its parts lie; what is led has no surface to slide on
     solid.meshId = mesh.id;
     solid.mesh = std::make_shared<const SceneMesh>(std::move(mesh));
   }

@@ -32,12 +32,14 @@ void TestToolBodies::eachToolIsWhole_data() {
 }
 
 /// Its particles fill its volume, to what a lattice leaves of thin walls, and no part of it is away from the others by
-/// more than the layer that a seam between two may leave out.
+/// more than the layer that a seam between two may leave out. None of its parts is packed by itself.
 void TestToolBodies::eachToolIsWhole() {
   QFETCH(int, form);
   QFETCH(double, length);
   Project project = scene(1, 2);
   Body body = toolBody(static_cast<ToolForm::Kind>(form), length, kSpacing);
+  const auto& shape = std::get<SolidShape>(body.shape);
+  QVERIFY(!shape.mesh || choiceOf(shape.parameters, solidParameters(), "fill") == "lattice");
   body = moved(body, {Quaternion::Identity(), {0, 1, 0}});
   const double volume = SolidForm(std::get<SolidShape>(body.shape)).volume();
   body.material = "water";

@@ -50,7 +50,8 @@ class TestBrushWindow : public SampleWindowTest {
   void cleanup() { m_window->tools().setMouse(MousePreset::PhaseSketch); }
   void cleanupTestCase() { m_window.reset(); }
 
-  /// What a notice says of a brush that is too large holds until the brush, or the spacing, is another one.
+  /// What a notice says of a brush that is too large holds until the brush, the tool or the spacing is another one, or
+  /// the scene runs.
   void whatStoodInTheWayGoesWithIt() {
     const BrushSettings usual = m_window->tools().brush();
     const auto said = [this] {
@@ -69,6 +70,14 @@ class TestBrushWindow : public SampleWindowTest {
     refuse();
     m_window->tools().setBrush(usual);
     QVERIFY(!said());
+    refuse();
+    m_window->tools().activate("select");
+    QVERIFY(!said());
+    m_window->tools().activate(kBrushTool);
+    refuse();
+    session().play();
+    QTRY_VERIFY(!said());
+    session().pause();
     refuse();
     QCOMPARE(document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.03), QString());
     QVERIFY(!said());

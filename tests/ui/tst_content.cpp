@@ -6,6 +6,7 @@
 #include "core/simulation/compile.h"
 #include "core/simulation/engine.h"
 #include "core/simulation/enginethread.h"
+#include "core/simulation/graphsource.h"
 #include "tests/shared/enginehands.h"
 #include "tests/shared/scenes.h"
 #include "ui/document/declared.h"
@@ -191,18 +192,23 @@ class TestContent : public QObject {
     QVERIFY(ofTap() >= poured);
   }
 
-  /// What animates it and what measures it alone goes with a body, in one step; probes of more stay.
+  /// What animates it and what measures it alone goes with a body, in one step; probes of more stay. Undone, each is in
+  /// its place among the others, and in the graphs that showed it.
   void aDeletedBodyTakesAlongWhatIsItsOwn() {
-    for (const char* body : {"ice", "second", ""}) {
+    for (const auto& [name, body] :
+         {std::pair("of ice", "ice"), {"of second", "second"}, {"of all", ""}, {"of ice too", "ice"}}) {
       Probe probe;
-      probe.id = probe.name = std::string("of ") + (*body ? body : "all");
+      probe.id = probe.name = name;
       probe.quantity = "temperature";
       probe.body = body;
       m_document->addProbe(probe);
     }
+    for (const char* probe : {"of ice", "of all", "of ice too"}) m_document->plot({}, probeSource(probe));
     const Address power{Owner::Body, "ice", "heating_power"}, floor{Owner::Wall, "floor", "temperature"};
+    const Address surface{Owner::Body, "ice", "surface_area"};
     QCOMPARE(m_document->putKey(power, 0, 100), QString());
     QCOMPARE(m_document->putKey(floor, 0, 350), QString());
+    QCOMPARE(m_document->putKey(surface, 0, 0.01), QString());
     const std::string before = text();
     const int steps = m_document->undoStack().count();
     QCOMPARE(m_document->removeBody("ice"), QString());

@@ -147,20 +147,30 @@ class TestHoldWindow : public SampleWindowTest {
     QCOMPARE(document().project().bodies.size(), before + 1);
   }
 
-  /// Neither the run nor the window waits while pieces are told apart.
+  void separatingHoldsNothingUp_data() {
+    QTest::addColumn<bool>("locked");
+    QTest::newRow("two bodies") << false;
+    QTest::newRow("locked meanwhile") << true;
+  }
+
+  /// Neither the run nor the window waits while pieces are told apart; what is locked until then stays whole.
   void separatingHoldsNothingUp() {
+    QFETCH(bool, locked);
     Body lumps = twoLumps(260);
     lumps.constraints.push_back({"bonds", {}, {}});
     const std::string id = document().addBody(lumps);
     const size_t before = document().project().bodies.size();
     const auto gate = std::make_shared<std::promise<void>>();
     session().worker().run([open = std::make_shared<std::future<void>>(gate->get_future())] { open->wait(); });
+    QSignalSpy refused(&m_window->tools(), &Toolbox::refused);
     m_window->tools().selection().selectBody(id);
     m_window->action(QStringLiteral("sketch.separate"))->trigger();
     playOn(0.1);
     QCOMPARE(document().project().bodies.size(), before);
+    document().setLocked({{Owner::Body, id, ""}}, locked);
     gate->set_value();
-    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + 1, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(refused.count(), locked ? 1 : 0, kLong);
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), before + (locked ? 0 : 1), kLong);
   }
 
   /// Matter that was made before its sketch was scaled has none of the cells that the sketch has now: Home first.
@@ -275,6 +285,23 @@ class TestHoldWindow : public SampleWindowTest {
     QCOMPARE(document().undoStack().undoText(), QStringLiteral("Cut matter"));
     document().undoStack().undo();
     QTRY_COMPARE_WITH_TIMEOUT(count(id), all, kLong);
+  }
+
+  /// Also where no frame comes for longer than a scene that has stopped is waited for.
+  void whatIsCutInASlowSceneBecomesBodies() {
+    QCOMPARE(document().setParameter({Owner::Scene, "", "gravity"}, 0.0), QString());
+    add(bar(false));
+    const size_t bodies = document().project().bodies.size();
+    session().play();
+    const auto gate = std::make_shared<std::promise<void>>();
+    session().engine()->ask(
+        [open = std::make_shared<std::future<void>>(gate->get_future())](const Engine&) { open->wait(); });
+    cut(0.08);
+    QTest::qWait(1500);
+    QCOMPARE(document().project().bodies.size(), bodies);
+    gate->set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(document().project().bodies.size(), bodies + 1, kLong);
+    session().pause();
   }
 
   /// What was apart before a hand came stays one body, and a crumb stays with what it was of; all does where nobody

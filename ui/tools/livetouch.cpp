@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/tools/livetouch.h"
 
+#include "core/base/digits.h"
 #include "core/plugin_host/registry.h"
 #include "core/simulation/touch.h"
 #include "core/sketch/matterbrush.h"
@@ -12,7 +13,6 @@
 #include "ui/tools/toolbox.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -35,12 +35,6 @@ bool isPower(const api::ParameterDeclaration& declaration) {
   return declaration.kind == api::ParameterKind::Number && std::string_view(declaration.unit) == "W";
 }
 
-/// To two digits.
-double rounded(double value) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  return step * std::round(value / step);
-}
-
 }  // namespace
 
 bool hasPower(const PluginRegistry& plugins, const std::string& brush) {
@@ -60,7 +54,7 @@ ParameterSet standardValues(const Document& document, const std::string& brush) 
   const api::ParameterList own = plugins->parameters(brush);
   for (size_t k = 0; k < own.count; ++k) {
     if (!isPower(own[k]) || !(own[k].defaultValue > 0)) continue;
-    standard.values[own[k].key] = std::max(own[k].hardMinimum, rounded(own[k].defaultValue / *times));
+    standard.values[own[k].key] = std::max(own[k].hardMinimum, toDigits(own[k].defaultValue / *times, 2));
   }
   return standard;
 }

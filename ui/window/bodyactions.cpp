@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/bodyactions.h"
 
+#include "core/base/digits.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 #include "core/scene/knowncount.h"
@@ -279,7 +280,7 @@ void BodyActions::addSolid(const SolidRow& row) {
 
 void BodyActions::addTool(const ToolForm& form) {
   Document& document = m_session.document();
-  Body body = toolBody(form.kind, rounded(kToolOfScene * narrowSide(document)), spacingOf(document));
+  Body body = toolBody(form.kind, toDigits(kToolOfScene * narrowSide(document), 2), spacingOf(document));
   document.undoStack().beginMacro(QStringLiteral("adding %1").arg(QString::fromLatin1(form.name)));
   body.material = sceneMaterial(document, lastToMelt(*document.plugins()));
   add(std::move(body));
@@ -289,7 +290,7 @@ void BodyActions::addTool(const ToolForm& form) {
 /// A fifth of the scene wide, or as its row has it.
 Body BodyActions::newSolid(const SolidRow& row) const {
   const Document& document = m_session.document();
-  return solidBody(row, rounded(kOfScene * narrowSide(document)), spacingOf(document));
+  return solidBody(row, toDigits(kOfScene * narrowSide(document), 2), spacingOf(document));
 }
 
 /// Of a mesh that does not say its unit: the first one in which it has room in the scene, or nearly, in m; its body is

@@ -27,7 +27,7 @@ namespace {
 constexpr size_t kCrumb = 8;     // cells, that are no crumb
 constexpr size_t kMost = 20;     // pieces of a body, that it becomes without being asked
 constexpr int kAgain = 20;       // ms
-constexpr int kMostLooks = 50;   // for frames of a scene that may have stopped
+constexpr int kMostLooks = 50;   // for frames of a scene that has stopped
 constexpr uint64_t kFrames = 4;  // after the end of a cut: see isEarly()
 const QString kTopic = QStringLiteral("pieces");
 
@@ -117,12 +117,14 @@ bool HandParting::mayPart(const Stroke& stroke) const {
 }
 
 /// The frame that is being computed may not have the cut yet; the next one makes it, and what it parts is known in
-/// those after it.
+/// those after it, however long they take. Back at the start there are none to wait for.
 bool HandParting::isEarly(Stroke& stroke) const {
   const SnapshotPtr now = m_session.newest();
   if (!stroke.cuts || !now || stroke.looks == kMostLooks) return false;
-  if (stroke.looks++ == 0) stroke.due = now->stats.frame + kFrames;
-  return now->stats.frame < stroke.due;
+  const uint64_t frame = now->stats.frame;
+  if (stroke.due == 0) stroke.due = frame + kFrames;
+  if (!m_session.link()->runs()) ++stroke.looks;
+  return frame < stroke.due && frame + kFrames >= stroke.due;
 }
 
 void HandParting::lookIn(int milliseconds, const StrokePtr& stroke) {
@@ -183,7 +185,7 @@ std::vector<HandParting::Parted> HandParting::partedBy(const Stroke& stroke, con
   return found;
 }
 
-/// A body that has been drawn on meanwhile stays whole.
+/// A body that has been drawn on, locked or fixed meanwhile stays whole.
 void HandParting::part(const StrokePtr& stroke, const std::vector<Parted>& found) {
   if (mayPart(*stroke) && m_session.link()->isDrawing()) return lookIn(kAgain, stroke);
   std::erase(m_strokes, stroke);
@@ -192,7 +194,7 @@ void HandParting::part(const StrokePtr& stroke, const std::vector<Parted>& found
   std::vector<Parted> parted;
   for (const Parted& one : found) {
     const Body* now = document.body(one.body.id);
-    if (!now || now->shape != one.body.shape || m_hasOtherCells(one.body.id)) continue;
+    if (!now || !mayComeApart(*now) || now->shape != one.body.shape || m_hasOtherCells(one.body.id)) continue;
     if (one.pieces.size() < kMost)
       parted.push_back(one);
     else

@@ -38,8 +38,8 @@ class HandParting : public QObject {
     bool cuts = false;                                                  ///< rather than erases
     std::weak_ptr<StrokeRecord> record{};                               ///< once it has ended
     bool undone = false;
-    uint64_t due = 0;  ///< frame in which it is known what a cut has parted
-    int looks = 0;     ///< for that
+    uint64_t due = 0;  ///< frame in which it is known what a cut has parted; 0: nobody has looked for it yet
+    int looks = 0;     ///< for that, while the scene stands still
   };
   using StrokePtr = std::shared_ptr<Stroke>;
   struct Parted {

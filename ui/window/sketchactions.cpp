@@ -209,7 +209,8 @@ void SketchActions::findPieces(const std::shared_ptr<const TiedScene>& moment, S
   });
 }
 
-/// One step. Those that have been drawn on meanwhile stay whole, and those of a state that knows no cells of theirs.
+/// One step. Those that have been drawn on, locked or fixed meanwhile stay whole, and those of a state that knows no
+/// cells of theirs.
 /// `resized`: the name of one that is left out, because its matter is of other cells.
 void SketchActions::part(const std::vector<Pieces>& bodies, const QString& resized) {
   Document& document = m_session.document();
@@ -217,7 +218,7 @@ void SketchActions::part(const std::vector<Pieces>& bodies, const QString& resiz
     const Body* now = document.body(one.body.id);
     const bool apart = !one.cells.empty() && std::any_of(one.cells.begin() + 1, one.cells.end(),
                                                          [](const auto& piece) { return !piece.empty(); });
-    return apart && now && now->shape == one.body.shape;
+    return apart && now && mayComeApart(*now) && now->shape == one.body.shape;
   };
   const auto parted = std::count_if(bodies.begin(), bodies.end(), isParted);
   bool any = false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/solidrows.h"
 
+#include "core/base/digits.h"
 #include "core/matter/material.h"
 #include "core/plugin_host/registry.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ps {
 namespace {
@@ -66,14 +66,14 @@ Body solidBody(const SolidRow& row, double size, double spacing) {
   values["size_x"] = size;
   values["size_y"] = size;
   values["size_z"] = size;
-  if (row.kind == Kind::Tube) values["wall"] = rounded(size / 5);
+  if (row.kind == Kind::Tube) values["wall"] = toDigits(size / 5, 2);
   if (row.kind == Kind::Torus) {  // particles leave a hole in it
     values["size_x"] = values["size_z"] = 2 * size;
-    values["size_y"] = rounded(size / 2);
+    values["size_y"] = toDigits(size / 2, 2);
   }
   if (row.kind == Kind::Bowl) {
     values["size_x"] = values["size_z"] = 2 * size;  // it must hold something
-    values["wall"] = rounded(std::max(size / 8, spacing));
+    values["wall"] = toDigits(std::max(size / 8, spacing), 2);
   }
   if (row.kind == Kind::Sheet || row.kind == Kind::Rope) values["size_y"] = spacing;
   if (row.kind == Kind::Sheet) values["size_x"] = values["size_z"] = 2 * size;
@@ -85,16 +85,11 @@ Body solidBody(const SolidRow& row, double size, double spacing) {
   }
   if (row.held > 0) {
     values["size_x"] = values["size_z"] = 2 * size;
-    values["size_y"] = std::max(kThinnest * spacing, rounded(size / 8));
+    values["size_y"] = std::max(kThinnest * spacing, toDigits(size / 8, 2));
     holdAt(row.held, body.parameters);
   }
   body.shape = std::move(solid);
   return body;
-}
-
-double rounded(double value) {
-  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::round(value / digit) * digit;
 }
 
 std::string lastToMelt(const PluginRegistry& plugins) {

@@ -25,8 +25,6 @@ std::string idOf(const SolidRow& row);
 /// twice as wide, sheets, ropes and what holds a temperature lie, and are longer.
 Body solidBody(const SolidRow& row, double size, double spacing);
 
-/// With two digits.
-double rounded(double value);
 /// Id of the installed material that melts last: walls and tools of it stay what they are at any temperature that
 /// scenes have. "" where none is installed.
 std::string lastToMelt(const PluginRegistry& plugins);
