@@ -18,6 +18,7 @@
 #include "ui/tools/toolbox.h"
 #include "ui/viewport/gizmopainter.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/statusline.h"
 
 #include <QtGui/QAction>
 #include <QtGui/QMouseEvent>
