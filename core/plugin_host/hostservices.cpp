@@ -74,9 +74,12 @@ void HostServices::log(Severity severity, const char* text) noexcept {
 double HostServices::property(const char* material, const char* key, double temperature) const noexcept {
   if (!material || !key || !std::isfinite(temperature)) return kNone;
   try {
-    const std::lock_guard lock(m_materials->mutex);
-    const auto found = m_materials->byId.find(material);
-    if (found == m_materials->byId.end()) return kNone;
+    std::unique_lock own(m_mutex);
+    const std::shared_ptr<InstalledMaterials> materials = m_materials;
+    own.unlock();
+    const std::lock_guard lock(materials->mutex);
+    const auto found = materials->byId.find(material);
+    if (found == materials->byId.end()) return kNone;
     const auto value = found->second->properties.find(key);
     return value == found->second->properties.end() ? kNone : value->second.at(temperature);
   } catch (...) {
@@ -89,11 +92,19 @@ const void* HostServices::extension(const char* name) const noexcept {
   return threads ? static_cast<const api::Threads*>(&g_threads) : nullptr;
 }
 
-HostServices& hostServicesFor(const std::string& plugin, const std::shared_ptr<InstalledMaterials>& materials) {
+void HostServices::use(std::shared_ptr<InstalledMaterials> materials) {
+  const std::lock_guard lock(m_mutex);
+  m_materials = std::move(materials);
+}
+
+void attach(api::Plugin& plugin, const std::string& id, const std::shared_ptr<InstalledMaterials>& materials) {
   static std::mutex mutex;
-  static auto& kept = *new std::vector<std::unique_ptr<HostServices>>;
+  static auto& attached = *new std::map<const api::Plugin*, std::unique_ptr<HostServices>>;
   const std::lock_guard lock(mutex);
-  return *kept.emplace_back(std::make_unique<HostServices>(plugin, materials));
+  if (const auto known = attached.find(&plugin); known != attached.end()) return known->second->use(materials);
+  auto services = std::make_unique<HostServices>(id, materials);
+  plugin.attach(*services);
+  attached.emplace(&plugin, std::move(services));
 }
 
 }  // namespace ps

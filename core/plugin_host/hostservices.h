@@ -26,14 +26,19 @@ class HostServices final : public api::Host {
   void log(Severity severity, const char* text) noexcept override;
   double property(const char* material, const char* key, double temperature) const noexcept override;
   const void* extension(const char* name) const noexcept override;
+  /// From now on these are asked for properties; those of a registry that is loaded later.
+  void use(std::shared_ptr<InstalledMaterials> materials);
 
  private:
-  std::string m_plugin;
-  std::shared_ptr<InstalledMaterials> m_materials;
+  const std::string m_plugin;
+  mutable std::mutex m_mutex;
+  std::shared_ptr<InstalledMaterials> m_materials;  ///< under it
   std::atomic<int> m_lines{0};
 };
 
-/// Made for a plugin, and kept as long as its object: for the life of the process.
-HostServices& hostServicesFor(const std::string& plugin, const std::shared_ptr<InstalledMaterials>& materials);
+/// Attaches a plugin to services that are kept as long as its object: for the life of the process. Registries share
+/// that object, and one may be loaded while the scene of another runs, so an object is attached once; later on only its
+/// materials change.
+void attach(api::Plugin& plugin, const std::string& id, const std::shared_ptr<InstalledMaterials>& materials);
 
 }  // namespace ps

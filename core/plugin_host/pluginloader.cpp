@@ -138,7 +138,7 @@ LoadedPlugin loadLibrary(PluginInfo& info, const std::shared_ptr<InstalledMateri
     } else if (problem = connect(*object, info, loaded); !problem.empty()) {
       problem += "; " + whomToTell(info);
     } else {
-      loaded.plugin->attach(hostServicesFor(info.id, materials));
+      attach(*loaded.plugin, info.id, materials);
     }
   } catch (...) {
     problem = "it failed while it was loaded: " + currentExceptionText() + "; " + whomToTell(info);

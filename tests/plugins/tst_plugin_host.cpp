@@ -119,7 +119,7 @@ class TestPluginHost : public QObject {
 
   /// Whoever runs a part of a plugin's loop is known to run that plugin's code.
   void threadsAreSharedUnderThePluginsName() {
-    HostServices& host = hostServicesFor("fixture.threads", std::make_shared<InstalledMaterials>());
+    const HostServices host("fixture.threads", std::make_shared<InstalledMaterials>());
     QVERIFY(host.extension("no such service") == nullptr && host.extension(nullptr) == nullptr);
     const auto* threads = static_cast<const api::Threads*>(host.extension(api::kThreads));
     QVERIFY(threads);
@@ -143,6 +143,33 @@ class TestPluginHost : public QObject {
     };
     QVERIFY_THROWS_EXCEPTION(std::runtime_error, api::shareAmong(threads, visits.size(), 100, 1e6, failing));
     setThreadCount(0);
+  }
+
+  /// Registries share a plugin's object: another one may not touch it while the scene of the first runs.
+  void aPluginIsAttachedOnceForAllRegistries() {
+    static class Counted final : public api::Described<api::Plugin> {
+     public:
+      Counted() : Described({"Counted", "Counts how often it is attached.", {}}) {}
+      void attach(api::Host& host) override {
+        if (++times == 1) throw std::runtime_error("not yet");
+        m_host = &host;
+      }
+      double density() const { return m_host->property("lead", "density", 300); }
+      int times = 0;
+
+     private:
+      api::Host* m_host = nullptr;
+    } plugin;
+    Material lead;
+    lead.properties["density"] = Response(11340.0);
+    const auto none = std::make_shared<InstalledMaterials>(), later = std::make_shared<InstalledMaterials>();
+    later->byId["lead"] = &lead;
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error, attach(plugin, "counted", none));
+    attach(plugin, "counted", none);
+    QVERIFY(std::isnan(plugin.density()));
+    attach(plugin, "counted", later);
+    QCOMPARE(plugin.times, 2);
+    QCOMPARE(plugin.density(), 11340.0);
   }
 
   void soundPluginsOfEachKindAreLoaded() {

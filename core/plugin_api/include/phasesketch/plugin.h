@@ -62,7 +62,7 @@ class Plugin {
   virtual ParameterList parameters() const = 0;  ///< own parameters; values arrive in this order
   /// Capabilities and interfaces beyond those of its kind, by name; nullptr for what the plugin does not know.
   virtual const void* extension(const char* /*name*/) const noexcept { return nullptr; }
-  /// Called once for each list of plugins that it is loaded into, when all it declares has been read. May throw.
+  /// Called once, when all it declares has been read. The host lives as long as the plugin. May throw.
   virtual void attach(Host& /*host*/) {}
 };
 
