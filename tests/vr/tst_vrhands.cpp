@@ -101,6 +101,7 @@ class VrHandsTest : public VrWindowTest {
   void sticksAndPadsTurnTheWearerAndTakeThemThere();
   void aVivePadChooses_data();
   void aVivePadChooses();
+  void aPushAnewIsASizeAtOnce();
   void aViveMenuHasTwoMeanings_data();
   void aViveMenuHasTwoMeanings();
   void whatIsLetGoInMotionFliesOn();
@@ -806,6 +807,31 @@ void VrHandsTest::sticksAndPadsTurnTheWearerAndTakeThemThere() {
   }
   sawFrom(run, 60, turned, QStringLiteral("vr-turned"));
   sawFrom(run, 130, there, QStringLiteral("vr-gone"));
+}
+
+/// What stays pushed gives the brush a size after the other, with time between them; what is let go and pushed again,
+/// by another wearer too, whose clock begins anew, does so at once.
+void VrHandsTest::aPushAnewIsASizeAtOnce() {
+  VrHands hands(session(), m_window->tools());
+  const BrushSettings usual = m_window->tools().brush();
+  double size = usual.radius;
+  const auto grows = [&](double seconds, double push) {
+    vr::HandsSeen seen;
+    seen.seconds = seconds;
+    seen.hands[seen.roles.main].input.steerY = static_cast<float>(push);
+    hands.act(seen, session().newest());
+    const double before = std::exchange(size, m_window->tools().brush().radius);
+    return size > before;
+  };
+  QVERIFY(grows(10, 1));
+  QVERIFY(!grows(10.05, 1));
+  QVERIFY(grows(10.2, 1));
+  QVERIFY(!grows(10.22, 0));
+  QVERIFY(grows(10.24, 1));
+  hands.letGo();
+  QVERIFY(grows(10.26, 1));
+  QVERIFY(!grows(10.28, 0.45) && !grows(10.3, 1));  // a thumb that trembles
+  m_window->tools().setBrush(usual);
 }
 
 void VrHandsTest::aVivePadChooses_data() { eitherMainHand(); }

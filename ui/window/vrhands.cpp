@@ -180,7 +180,9 @@ void VrHands::press(size_t hand, const vr::HandRoles& roles, const vr::HandInput
 void VrHands::choose(const vr::HandInput& now, double seconds) {
   const bool pressed = now.steerPressed && !m_seen.hands[m_seen.roles.main].input.steerPressed;
   const bool upright = std::abs(now.steerY) > std::abs(now.steerX);
-  const bool pushed = std::max(std::abs(now.steerX), std::abs(now.steerY)) > kPushed;
+  const double push = std::max(std::abs(now.steerX), std::abs(now.steerY));
+  const bool pushed = push > kPushed;
+  if (now.pad ? !now.steerPressed : push < kPushed / 2) m_stepped.reset();
   if (pushed && upright && (!now.pad || now.steerPressed)) {
     step(now.steerY > 0 ? 1 : -1, seconds);
   } else if (pressed && now.pad && pushed) {
@@ -191,7 +193,7 @@ void VrHands::choose(const vr::HandInput& now, double seconds) {
 }
 
 void VrHands::step(int direction, double seconds) {
-  if (seconds < m_stepped + kRepeats && seconds >= m_stepped) return;
+  if (m_stepped && seconds < *m_stepped + kRepeats) return;
   m_stepped = seconds;
   m_tools.stepBrush(direction);
 }
@@ -200,6 +202,7 @@ void VrHands::letGo() {
   finishStrokes();
   for (HandBrush& grab : m_grabs) grab.finish();
   m_seen = {};
+  m_stepped.reset();
   m_firstSince = {};
 }
 

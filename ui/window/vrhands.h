@@ -58,7 +58,7 @@ class VrHands : public QObject {
   std::array<uint64_t, 2> m_taken{};                  ///< bodies so far
   vr::HandsSeen m_seen;                               ///< the last one
   std::array<Vector3, 2> m_described;                 ///< how brushes were turned then
-  double m_stepped = 0;                               ///< s, when the brush got another size
+  std::optional<double> m_stepped;                    ///< s, when what is still pushed gave the brush another size
   std::array<std::optional<double>, 2> m_firstSince;  ///< s, of a hand with one button for both
   bool m_ends = false;                                ///< what changes in the document is the end of a stroke here
   bool m_edited = false;                              ///< by somebody else since they acted last
