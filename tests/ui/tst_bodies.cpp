@@ -110,7 +110,7 @@ class TestBodies : public SampleWindowTest {
     QVERIFY(document().value({Owner::Body, plate.id, "fixed"}) == Value(true));
     QVERIFY(document().value({Owner::Body, plate.id, "held_temperature"}) == Value(423.15));
     const QString tip = m_window->action(QStringLiteral("add.hot-plate"))->toolTip();
-    QVERIFY2(tip.contains(QStringLiteral("Keeps 150 °C")), qPrintable(tip));
+    QVERIFY2(tip.contains(QStringLiteral("Keeps 150.0 °C")), qPrintable(tip));
 
     m_window->selection().setMaterial("water");
     m_window->action(QStringLiteral("add.block"))->trigger();

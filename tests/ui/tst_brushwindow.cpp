@@ -82,6 +82,8 @@ class TestBrushWindow : public SampleWindowTest {
     QCOMPARE(document().setParameter({Owner::Solver, "", "particle_spacing"}, 0.03), QString());
     QVERIFY(!said());
     m_window->tools().setBrush(usual);
+    document().undoStack().undo();
+    document().undoStack().clear();
   }
 
   void aDragMakesTheBrushLarger_data() {

@@ -226,6 +226,7 @@ class TestContent : public QObject {
   /// So do walls, taps, drains and materials, each in one step; what is of others stays.
   void whateverIsDeletedTakesAlongWhatIsItsOwn() {
     QCOMPARE(m_document->addMaterial("wax"), std::string("wax"));
+    m_document->removeProbe("ice core");
     Emitter pouring;
     pouring.material = "water";
     pouring.point = {0, 0.8, 0};

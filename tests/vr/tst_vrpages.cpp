@@ -270,7 +270,7 @@ void VrPagesTest::aPointOfACurveIsMoved() {
   CurveView& view = *page->view();
   view.fit();
   const auto placeOf = [&](size_t k) {
-    const CurvePoint& point = curves.response().points[k];
+    const CurvePoint point = curves.response().points[k];
     return view.at(point.x, point.y);
   };
   curves.choosePoint(1);  // its numbers take a row below
