@@ -100,6 +100,29 @@ class TestLibrary : public SampleWindowTest {
     QCOMPARE(page()->shown().size(), all);
   }
 
+  /// Keys go to the search where the library is opened, also when it stands there already; what is left of the cards is
+  /// chosen, and Enter adds it.
+  void whatIsFoundIsAddedByEnter() {
+    QAction* open = m_window->action(QStringLiteral("add.library"));
+    open->trigger();
+    QLineEdit* words = field(QStringLiteral("Search materials"));
+    button(QStringLiteral("Add to the scene"))->setFocus();
+    open->trigger();
+    QCOMPARE(QApplication::focusWidget(), words);
+    QTest::keyClicks(words, QStringLiteral("hemp"));
+    QCOMPARE(page()->shown(), QStringList{QStringLiteral("Hemp")});
+    QCOMPARE(page()->compared(), QStringList{QStringLiteral("Hemp")});
+    const int steps = document().undoStack().index();
+    QTest::keyClick(words, Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    QCOMPARE(m_window->selection().material(), std::string("hemp"));
+    search(QStringLiteral("no such matter"));
+    QTest::keyClick(words, Qt::Key_Return);
+    QCOMPARE(document().undoStack().index(), steps + 1);
+    document().undoStack().undo();
+    search({});
+  }
+
   void phasesAtAGlance() {
     QCOMPARE(transitionsText(*entry(QStringLiteral("Water"))), QStringLiteral("melts at 0 °C, boils at 100 °C"));
     QVERIFY(transitionsText(*entryOf("co2")).startsWith(QStringLiteral("turns to gas at ")));

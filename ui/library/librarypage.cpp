@@ -172,6 +172,9 @@ QWidget* LibraryPage::makeLeft() {
   column->addWidget(m_hint);
   connect(&m_session.swatches(), &Swatches::arrived, m_cards->viewport(), qOverload<>(&QWidget::update));
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPage::filter);
+  connect(m_search, &QLineEdit::returnPressed, this, [this] {
+    if (!shown().isEmpty()) addToScene();
+  });
   connect(m_nothing, &QLabel::linkActivated, this, [this] { setTag({}); });  // which hides some, too
   connect(m_cards, &QListWidget::itemSelectionChanged, this, &LibraryPage::showChosen);
   connect(m_cards, &QListWidget::itemActivated, this, &LibraryPage::addToScene);
@@ -311,7 +314,11 @@ void LibraryPage::setTag(const QString& tag) {
   filter();
 }
 
-void LibraryPage::clearSearch() { m_search->clear(); }
+void LibraryPage::beginSearch(bool anew) {
+  if (anew) m_search->clear();
+  m_search->setFocus();
+  m_search->selectAll();
+}
 
 void LibraryPage::filter() {
   for (int i = 0; i < m_cards->count(); ++i) {
@@ -322,6 +329,12 @@ void LibraryPage::filter() {
                     (!m_tag.isEmpty() && !entry.tags.contains(m_tag)));
   }
   m_nothing->standFor(*m_cards, !shown().isEmpty(), m_tag);
+  // What is chosen is what one sees: it would be added, unseen, in place of what was looked for.
+  const QList<QListWidgetItem*> selected = m_cards->selectedItems();
+  if (std::any_of(selected.begin(), selected.end(), [](const QListWidgetItem* item) { return !item->isHidden(); }))
+    return;
+  for (int i = 0; i < m_cards->count(); ++i)
+    if (!m_cards->item(i)->isHidden()) return m_cards->setCurrentRow(i, QItemSelectionModel::ClearAndSelect);
 }
 
 QStringList LibraryPage::shown() const {

@@ -35,8 +35,8 @@ class LibraryPage : public QWidget {
   QTreeWidget* table() const { return m_table; }
   void setTag(const QString& tag);  ///< "": all
   void choose(const QString& label, bool beside = false);
-  void clearSearch();
-  void refresh();  ///< cards and table anew, in the unit that people prefer
+  void beginSearch(bool anew);  ///< takes the keys; `anew`: without the words of the last one
+  void refresh();               ///< cards and table anew, in the unit that people prefer
 
  Q_SIGNALS:
   void closeRequested();

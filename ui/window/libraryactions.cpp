@@ -43,8 +43,9 @@ LibraryActions::LibraryActions(Session& session, Selection& selection, const Act
 void LibraryActions::addTo(QMenu* menu) {
   m_actions.add(menu, QStringLiteral("add.library"), QStringLiteral("Material from the library"), {}, [this] {
     // What was looked for last time would hide what is looked for now.
-    if (m_centre.currentWidget() != m_page) m_page->clearSearch();
+    const bool anew = m_centre.currentWidget() != m_page;
     m_centre.setCurrentWidget(m_page);
+    m_page->beginSearch(anew);
   });
 }
 
