@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "core/base/askat.h"
 #include "core/export/exporters.h"
 #include "core/export/particlecolumns.h"
 #include "core/io/outputfile.h"
@@ -26,7 +27,7 @@ class CsvFiles final : public FrameExporter {
     std::string time = "\r\n";
     appendNumber(time, snapshot.stats.time);
     for (size_t i = 0; i < table.position.size(); ++i) {
-      askAtRow(i);
+      askAt(i);
       text += time;
       const api::Float4& p = table.position[i];
       for (const float value : {p.x, p.y, p.z}) appendNumber(text += ',', value);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "core/base/progress.h"
 #include "core/export/exportformat.h"
 
 // What the formats share; private to this room.
@@ -20,10 +19,6 @@ std::string pathIn(const std::string& folder, const std::string& name);
 /// The shortest text that reads as the same number; "nan" for what is none.
 void appendNumber(std::string& text, float value);
 void appendNumber(std::string& text, double value);
-/// For each of many rows that are written: now and then asks whether to go on. Throws Cancelled.
-inline void askAtRow(size_t row) {
-  if (row % kProgressSlice == 0) advance(0);
-}
 /// As they lie in memory: little-endian (core/base refuses others).
 template <class T>
 void appendBytes(std::string& bytes, const T& value) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ with colours behind the places of points, as ZBrush, MeshLab and Blender have them, and the materials'
 // colours in a file beside.
+#include "core/base/askat.h"
 #include "core/export/exporters.h"
 #include "core/export/scenesurface.h"
 #include "core/io/outputfile.h"
@@ -51,7 +52,7 @@ class ObjFiles final : public FrameExporter {
   void write(OutputFile& file, const ParticleSurface& surface, size_t first) const {
     std::string line;
     for (size_t i = 0; i < surface.points.size(); ++i) {
-      askAtRow(i);
+      askAt(i);
       line.clear();
       appendLine(line, "v", surface.points[i]);
       for (const uint8_t channel : m_choices.colour(surface.values[i]))
@@ -60,7 +61,7 @@ class ObjFiles final : public FrameExporter {
       file.write(line += '\n');
     }
     for (size_t t = 0; t < surface.triangles.size(); ++t) {
-      askAtRow(t);
+      askAt(t);
       line = "f";
       for (const uint32_t corner : surface.triangles[t]) {
         const std::string number = std::to_string(first + corner);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polygon File Format, binary: https://paulbourke.net/dataformats/ply/
+#include "core/base/askat.h"
 #include "core/export/exporters.h"
 #include "core/export/particlecolumns.h"
 #include "core/export/scenesurface.h"
@@ -38,7 +39,7 @@ class PlyFiles final : public FrameExporter {
     file.write(head + "end_header\n");
     std::string row;
     for (size_t i = 0; i < table.position.size(); ++i) {
-      askAtRow(i);
+      askAt(i);
       const api::Float4& p = table.position[i];
       row.clear();
       for (const float value : {p.x, p.y, p.z}) appendBytes(row, value);
@@ -76,7 +77,7 @@ class SurfacePlyFiles final : public FrameExporter {
     for (const MaterialSurface& part : surfaces) {
       std::string row;
       for (size_t t = 0; t < part.surface.triangles.size(); ++t) {
-        askAtRow(t);
+        askAt(t);
         row.assign(1, 3);
         for (const uint32_t corner : part.surface.triangles[t]) appendBytes(row, first + corner);
         file.write(row);
@@ -91,7 +92,7 @@ class SurfacePlyFiles final : public FrameExporter {
     const ParticleSurface& surface = part.surface;
     std::string row;
     for (size_t i = 0; i < surface.points.size(); ++i) {
-      askAtRow(i);
+      askAt(i);
       row.clear();
       appendBytes(row, surface.points[i]);
       appendBytes(row, surface.normals[i]);

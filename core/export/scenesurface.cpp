@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/export/scenesurface.h"
 
-#include "core/export/exporters.h"
+#include "core/base/askat.h"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ std::vector<MaterialSurface> surfacesOf(const Snapshot& snapshot) {
     std::vector<api::Float4> spheres;
     std::vector<float> temperatures;
     for (size_t i = 0; i < snapshot.position.size(); ++i) {
-      askAtRow(i);
+      askAt(i);
       if (snapshot.material[i] != material || snapshot.gasFraction[i] >= kVapour) continue;
       spheres.push_back(snapshot.position[i]);
       temperatures.push_back(snapshot.temperature[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // VTK's XML file formats: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include "core/base/base64.h"
+#include "core/base/progress.h"
 #include "core/export/exporters.h"
 #include "core/export/particlecolumns.h"
 #include "core/io/outputfile.h"

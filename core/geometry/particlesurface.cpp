@@ -4,8 +4,8 @@
 // the quads are tied, which reach into neighbours by one cell.
 #include "core/geometry/particlesurface.h"
 
+#include "core/base/askat.h"
 #include "core/base/parallel.h"
-#include "core/base/progress.h"
 #include "core/particles/cellgrid.h"
 
 #include <algorithm>
@@ -30,11 +30,6 @@ constexpr double kReachPerRadius = 1 / 0.24609;
 constexpr float kGapPerRadius = 1.9F;
 constexpr uint16_t kNone = 0xFFFF;
 constexpr size_t kSlice = 32;  // blocks between two questions whether to go on: some hundredths of a second
-
-/// Now and then in a long loop: whether to go on.
-void askAt(size_t i) {
-  if (i % kProgressSlice == 0) advance(0);
-}
 
 uint64_t keyOf(const Place& block) {
   uint64_t key = 0;
