@@ -505,32 +505,37 @@ SnapshotPtr SceneLink::scene() const { return m_engine.snapshot(); }
 
 bool SceneLink::runs() const { return m_engine.playing(); }
 
-bool SceneLink::isInState(MatterKey key) const {
+/// In order; of what the state that the project holds has by name.
+std::vector<MatterKey> SceneLink::keysOfState() const {
   const auto kept = keptNames();
-  const std::vector<MatterKey> known = kept ? kept->keys() : std::vector<MatterKey>{};
-  return std::find(known.begin(), known.end(), key) != known.end();
+  std::vector<MatterKey> keys = kept ? kept->keys() : std::vector<MatterKey>{};
+  std::sort(keys.begin(), keys.end());
+  return keys;
 }
 
 size_t SceneLink::strokesOfTheRun() const {
   const SnapshotPtr snapshot = m_engine.snapshot();
   if (!snapshot) return 0;
+  const std::vector<MatterKey> known = keysOfState();
+  const auto isKnown = [&](MatterKey key) { return std::binary_search(known.begin(), known.end(), key); };
   const auto& done = snapshot->erasedOrPainted;
   const auto drawn = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
-    if (one.stroke.expired()) return one.run == m_run && !isInState(one.key);
+    if (one.stroke.expired()) return one.run == m_run && !isKnown(one.key);
     const auto stroke = one.done ? one.stroke.lock() : nullptr;
-    return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isInState(*stroke->matter);
+    return stroke && stroke->onlyNow && isOfThisRun(stroke->matter) && !isKnown(*stroke->matter);
   });
-  const auto erased = std::count_if(done.begin(), done.end(), [this](MatterKey key) { return !isInState(key); });
-  return static_cast<size_t>(erased + drawn);
+  return static_cast<size_t>(std::count_if(done.begin(), done.end(), std::not_fn(isKnown)) + drawn);
 }
 
 /// Of hands the engine says as well whether it knows them: the run may have gone back to before them.
 size_t SceneLink::strokesHomeLeaves() const {
   const SnapshotPtr snapshot = m_engine.snapshot();
   if (!snapshot || !snapshot->keptForUndo) return strokesOfTheRun();
+  const std::vector<MatterKey> known = keysOfState();
   const auto touched = std::count_if(m_strokes.begin(), m_strokes.end(), [&](const KnownStroke& one) {
     const auto stroke = one.done ? one.stroke.lock() : nullptr;
-    return stroke && !stroke->deed.empty() && isOfThisRun(stroke->matter) && !isInState(*stroke->matter) &&
+    return stroke && !stroke->deed.empty() && isOfThisRun(stroke->matter) &&
+           !std::binary_search(known.begin(), known.end(), *stroke->matter) &&
            snapshot->keptForUndo->contains(*stroke->matter);
   });
   return strokesOfTheRun() + static_cast<size_t>(touched);

@@ -116,7 +116,7 @@ class SceneLink : public QObject {
     std::weak_ptr<const MatterKey> matter;
     uint64_t run = 0;
   };
-  bool isInState(MatterKey key) const;
+  std::vector<MatterKey> keysOfState() const;
   /// What had a name in the state that the project holds, where this program kept it.
   std::shared_ptr<const NamedMatter> keptNames() const;
   std::vector<std::pair<std::weak_ptr<const ProjectState>, std::shared_ptr<const NamedMatter>>> m_kept;
