@@ -108,6 +108,14 @@ double distance(const StrokeSample& a, const StrokeSample& b) {
 
 CellSet cellsOf(std::vector<Cell> cells) { return CellSet(cells); }
 
+/// Of two arms that stand open, each two cells wide and joined at the bottom.
+bool isWall(const Cell& c) {
+  if (c.y > 4) return false;
+  const bool outside = c.x < -1 || c.x > 5 || c.y < -1;
+  const bool shell = c.x == -1 || c.x == 5 || c.y == -1, middle = c.x == 2 && c.y > 0;
+  return !outside && (shell || middle);
+}
+
 }  // namespace
 
 class TestSketch : public QObject {
@@ -538,13 +546,7 @@ class TestSketch : public QObject {
   /// Two arms joined at the bottom, 4 cells high, one cell thick all around, between panes: they run full to one level,
   /// whichever arm one points into, as by pieces of a stroke that rises; what is above the rim runs out.
   void hollowsRunFull() {
-    const auto isWall = [](const Cell& c) {
-      if (c.y > 4) return false;
-      const bool outside = c.x < -1 || c.x > 5 || c.y < -1;
-      const bool shell = c.x == -1 || c.x == 5 || c.y == -1, middle = c.x == 2 && c.y > 0;
-      return !outside && (shell || middle);
-    };
-    const FreeOf open = [&](const SketchGrid&, const CellSet& cells) {
+    const FreeOf open = [](const SketchGrid&, const CellSet& cells) {
       std::vector<Cell> free;
       for (const Cell& c : cells.cells()) {
         if (!isWall(c) && std::abs(c.z) < 2 && std::abs(c.x) < 60 && std::abs(c.y) < 60) free.push_back(c);

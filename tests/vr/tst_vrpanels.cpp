@@ -90,6 +90,15 @@ class VrPanelsTest : public PanelsTest {
   void aSceneThatIsCarriedTellsItsScale();
   void aMousePressesThePalette();
   void aKeyPinsThePalette();
+
+ private:
+  /// What hangs beside the hands, as the headset is told of it.
+  auto labelsNow() {
+    panels().paint();
+    vr::HeadsetView view;
+    panels().describe(view);
+    return view.labels;
+  }
 };
 
 namespace {
@@ -1071,14 +1080,8 @@ void VrPanelsTest::labelsHangBesideTheHand() {
 void VrPanelsTest::labelsGoAndComeBack() {
   const ScriptedRun run(vrScript());
   enter();
-  const auto described = [&] {
-    panels().paint();
-    vr::HeadsetView view;
-    panels().describe(view);
-    return view.labels;
-  };
-  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kLeft].image && described()[vr::kRight].image, kLong);
-  const auto labels = described()[vr::kRight];
+  QTRY_VERIFY_WITH_TIMEOUT(labelsNow()[vr::kLeft].image && labelsNow()[vr::kRight].image, kLong);
+  const auto labels = labelsNow()[vr::kRight];
   const double pixel = labels.height * 2.5 / labels.image->height;  // m, painted at 2.5 to the logical one
   QVERIFY(std::atan(Theme::font(TextRole::Normal).pixelSize() * pixel / 0.5) / kDegree > 0.85);
   const QString folder = qEnvironmentVariable("PS_TEST_PICTURES");
@@ -1089,10 +1092,10 @@ void VrPanelsTest::labelsGoAndComeBack() {
   QVERIFY(button && button->isChecked());
   click(vr::kPalette, *button);
   QVERIFY(!button->isChecked() && !panels().showsLabels());
-  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(!labelsNow()[vr::kRight].image, kLong);
   click(vr::kPalette, *button);
   QVERIFY(button->isChecked());
-  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(labelsNow()[vr::kRight].image, kLong);
   leave();
 }
 
@@ -1121,20 +1124,14 @@ void VrPanelsTest::aSceneThatIsCarriedTellsItsScale() {
   };
   ScriptedRun run(vrScript({}, both(kHoldsNothing)));
   enter();
-  const auto described = [&] {
-    panels().paint();
-    vr::HeadsetView view;
-    panels().describe(view);
-    return view.labels;
-  };
-  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(labelsNow()[vr::kRight].image, kLong);
   panels().showLabels(false);
-  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(!labelsNow()[vr::kRight].image, kLong);
   run.goOn(vrScript({}, both(kHolds)));
-  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image, kLong);
-  QVERIFY(!described()[vr::kLeft].image);
+  QTRY_VERIFY_WITH_TIMEOUT(labelsNow()[vr::kRight].image, kLong);
+  QVERIFY(!labelsNow()[vr::kLeft].image);
   run.goOn(vrScript({}, both(kHoldsNothing)));
-  QTRY_VERIFY_WITH_TIMEOUT(!described()[vr::kRight].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(!labelsNow()[vr::kRight].image, kLong);
   leave();
   QVERIFY(run.lines("violation").empty());
 }
@@ -1168,13 +1165,7 @@ void VrPanelsTest::aMousePressesThePalette() {
   QTest::mouseRelease(&window, Qt::LeftButton, {}, at);
   QTRY_VERIFY_WITH_TIMEOUT(panels().showsLabels() && labels->isChecked(), kLong);
   QCOMPARE(document().undoStack().index(), 0);  // nothing was drawn
-  const auto described = [&] {
-    panels().paint();
-    vr::HeadsetView now;
-    panels().describe(now);
-    return now.labels;
-  };
-  QTRY_VERIFY_WITH_TIMEOUT(described()[vr::kRight].image && !described()[vr::kLeft].image, kLong);
+  QTRY_VERIFY_WITH_TIMEOUT(labelsNow()[vr::kRight].image && !labelsNow()[vr::kLeft].image, kLong);
 }
 
 /// Likewise: M pins it by the hand that the mouse leads, where its buttons are pressed then.
