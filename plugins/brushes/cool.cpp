@@ -14,7 +14,7 @@ using ps::api::StrokeContext;
 constexpr ps::api::ParameterDeclaration kParameters[] = {
     powerOf(kCooling.power,
             "Heat that is taken from all matter within the ball together, by its mass, in each second of the thermal "
-            "clock. It begins with less where heat is made faster than it really is."),
+            "clock. Until it is set, it is divided by the time lapse of heat."),
     touching({"limit", "Down to", "T", "K", "Matter that is as cold as this is cooled no further.",
               "a freezer −18 °C, dry ice −78 °C, liquid nitrogen −196 °C"},
              {kCooling.limit, 73.15, 373.15, 1, 10000}, kCelsius, ps::api::Scale::Linear),

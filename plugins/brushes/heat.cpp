@@ -14,7 +14,7 @@ using ps::api::StrokeContext;
 constexpr ps::api::ParameterDeclaration kParameters[] = {
     powerOf(kHeating.power,
             "Heat that all matter within the ball gets together, by its mass, in each second of the thermal clock. "
-            "It begins with less where heat is made faster than it really is."),
+            "Until it is set, it is divided by the time lapse of heat."),
     touching({"limit", "Up to", "T", "K", "Matter that is as warm as this is heated no further.",
               "water that does not boil 95 °C, molten tin 300 °C"},
              {kHeating.limit, 273.15, 3273.15, 2, 10000}, kCelsius, ps::api::Scale::Linear),

@@ -6,13 +6,12 @@
 
 namespace ps::constraint {
 
-/// What cloth and rope share: a lattice of springs between neighbours (stretch; also across a corner where cells that
-/// were sketched askew meet there alone, then as stiff as between two that are a spacing apart), across a square's
-/// diagonal (shear) and
+/// What cloth and rope share: a lattice of springs between neighbours (stretch), across a square's diagonal (shear) and
 /// from one neighbour over the particle between to the next (bend, Provot 1995), as XPBD distance constraints (Macklin
-/// et al. 2016, eq. 18 and 26). Springs keep linear and angular momentum. A stretch spring tears when its strain passes
-/// a bound; a shear or bend spring goes with the last particle that held both its ends. Lengths at rest are those at
-/// the start; heat does not change them.
+/// et al. 2016, eq. 18 and 26). Cells that were sketched askew and meet across a corner alone are neighbours too, of a
+/// spring as stiff as between two that are a spacing apart. Springs keep linear and angular momentum. A stretch spring
+/// tears when its strain passes a bound; a shear or bend spring goes with the last particle that held both its ends.
+/// Lengths at rest are those at the start; heat does not change them.
 class SpringModel : public api::Described<api::StructuralPlugin> {
  public:
   using Described::Described;

@@ -2,6 +2,7 @@
 #include "ui/tools/drawtool.h"
 
 #include "core/plugin_host/registry.h"
+#include "core/sketch/nearmatter.h"
 #include "ui/document/document.h"
 #include "ui/render/camera.h"
 #include "ui/session/selection.h"
@@ -146,7 +147,8 @@ void DrawTool::feel(const Snapshot* now) {
   std::optional<size_t> nearest;
   double least = box().brush().radius;
   for (size_t i = 0; i < now->position.size(); ++i) {
-    const double away = (vectorOf(now->position[i]) - m_cursor->centre).norm();
+    const double away =
+        (imageNear(now->period, vectorOf(now->position[i]), m_cursor->centre) - m_cursor->centre).norm();
     if (away < least) least = away, nearest = i;
   }
   if (nearest) {

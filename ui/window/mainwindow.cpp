@@ -540,7 +540,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     // Nothing else wanted it: it is meant to let go of what is held, and there is none.
     const bool enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
     if (enter && leadsTab(QApplication::focusWidget()) && !m_sketch->makeReal()->isEnabled())
-      m_status->say(QStringLiteral("Nothing is held. What is drawn is, while Hold what is drawn (L) is on."));
+      m_status->say(QStringLiteral("Nothing is held. Hold what is drawn (L) keeps what you draw until Enter."));
     QMainWindow::keyPressEvent(event);
   } else if (m_tour->running()) {
     m_tour->end();
