@@ -17,7 +17,7 @@ int g_threads = 0;
 #if defined(__SANITIZE_THREAD__)
 constexpr double kMicrosecondsPerThread = 0.001;
 #else
-constexpr double kMicrosecondsPerThread = 0.5;
+constexpr double kMicrosecondsPerThread = 0.2;
 #endif
 
 std::unique_ptr<Workers>& workers() {

@@ -149,6 +149,19 @@ class TestParallel : public QObject {
     }
   }
 
+  /// Loops with more and with fewer helpers, of more chunks and of fewer than these, one right after the other: who
+  /// comes late to one takes nothing of the next.
+  void loopsMayFollowEachOther() {
+    constexpr int kHelpers = 6;
+    Workers workers(kHelpers);
+    for (int round = 0; round < 3000; ++round) {
+      const auto chunks = static_cast<size_t>(2 + 7 * round % 41);
+      Cover cover(chunks);
+      workers.share(1 + round % kHelpers, chunks, [&](size_t chunk) { cover.add(chunk, chunk + 1); });
+      QVERIFY(cover.once());
+    }
+  }
+
   /// A chunk that waits for the others ends only when helpers come: of those that slept, all that were asked.
   void sleepersAreWoken() {
     Workers workers(3);
