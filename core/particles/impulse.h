@@ -8,18 +8,22 @@
 namespace ps {
 
 /// Sum of vectors of a loop over chunks: one partial sum per chunk, added in order, so that threads have no part in it.
+/// Each has a cache line of its own: threads that add at once would wait for each other's.
 class ChunkSum {
  public:
   void start(size_t chunks) { m_partial.assign(chunks, {}); }
-  void add(size_t chunk, double factor, const Vector3& v) { m_partial[chunk] += factor * v; }
+  void add(size_t chunk, double factor, const Vector3& v) { m_partial[chunk].sum += factor * v; }
   Vector3 total() const {
     Vector3 sum;
-    for (const Vector3& v : m_partial) sum += v;
+    for (const Partial& p : m_partial) sum += p.sum;
     return sum;
   }
 
  private:
-  std::vector<Vector3> m_partial;
+  struct alignas(64) Partial {
+    Vector3 sum;
+  };
+  std::vector<Partial> m_partial;
 };
 
 /// Sum over chunks of body(first, last), a Vector3, by partial sums in `partial`.

@@ -15,7 +15,7 @@ struct Wrench {
 
 /// What walls and the fixed particles of bodies get from all that moves, as far as somebody watches them: stages tell
 /// each impulse as they give its opposite to matter. In a loop over chunks one sum for each chunk, added in order, so
-/// that threads have no part in it.
+/// that threads have no part in it, and in cache lines of its own, so that they do not wait for each other.
 class Reactions {
  public:
   /// For stages that nobody listens to.
@@ -65,7 +65,9 @@ class Reactions {
   size_t m_slots = 0;
   int m_rest = kNone;
   std::vector<int> m_ofWall, m_ofBody;
-  std::vector<Wrench> m_sum, m_partial;
+  struct alignas(64) Partial : Wrench {};
+  std::vector<Wrench> m_sum;
+  std::vector<Partial> m_partial;
   double m_perStep = 0;
 };
 

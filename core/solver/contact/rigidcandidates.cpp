@@ -200,7 +200,7 @@ void RigidContact::keepImpulses() {
     const Candidate of = candidateOf(kNone, kNone, kNone, c.key);
     return std::pair(of.scattered, of.key);
   };
-  forChunks(m_contacts.size(), grain::kConstraints, [&](size_t first, size_t last) {
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     auto former = std::lower_bound(m_former.begin(), m_former.end(), place(m_contacts[first]),
                                    [&](const Contact& c, const auto& here) { return place(c) < here; });
     for (size_t k = first; k < last; ++k) {

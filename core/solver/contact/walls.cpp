@@ -124,13 +124,13 @@ void WallStage::sweep(ParticleStore& store, size_t first, size_t last) {
 }
 
 void WallStage::projectNear(ParticleStore& store) {
-  startSums(chunkCount(m_near.size(), grain::kParticles));
-  forChunks(m_near.size(), grain::kParticles, [&](size_t first, size_t last) {
+  startSums(chunkCount(m_near.size(), grain::kNeighbours));
+  forChunks(m_near.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     WallSet met;
     for (size_t k = first; k < last; ++k) met.add(m_nearWalls[m_near[k]]);
-    uint32_t below[grain::kParticles + kSpare];
+    uint32_t below[grain::kNeighbours + kSpare];
     const size_t count = findBelow(m_walls, met, store.position(), m_near.data(), first, last, below);
-    for (size_t k = 0; k < count; ++k) projectOut(store, below[k], m_nearWalls[below[k]], first / grain::kParticles);
+    for (size_t k = 0; k < count; ++k) projectOut(store, below[k], m_nearWalls[below[k]], first / grain::kNeighbours);
   });
   finishSums();
 }
