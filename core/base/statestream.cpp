@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little, "streams are written a
 constexpr char kMagic[8] = {'P', 'S', 's', 't', 'a', 't', 'e', '\n'};
 constexpr uint32_t kFormat = 1;
 constexpr size_t kLongestName = 4096;
-constexpr size_t kCopiedAtOnce = 1 << 18;
+constexpr size_t kCopiedAtOnce = 1 << 15;
 
 struct StreamHead {
   char magic[8];

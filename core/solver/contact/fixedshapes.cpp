@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/fixedshapes.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +127,7 @@ void FixedShapes::refresh(const ParticleStore& store, bool led) {
       if (m_shapes[k].body == store.body()[i]) m_particles[k].push_back(i);
     }
   }
-  m_shaped.assign(store.size(), 0);
+  assignAll(m_shaped, store.size(), uint8_t{0});
   for (size_t k = 0; k < m_shapes.size(); ++k) {
     Standing standing;
     standing.shape = &m_shapes[k];
@@ -308,7 +308,7 @@ void FixedShapes::refreshLists(const ParticleStore& store, const Neighbours& nei
                                            });
   if (!newLists && same && m_present == m_fluids && m_count.size() == store.size()) return;
   m_fluids.swap(m_present);
-  m_count.assign(store.size(), 0);
+  assignAll(m_count, store.size(), uint8_t{0});
   m_begin.resize(store.size());
   for (size_t k = 0; k < m_fluids.size(); ++k) m_begin[m_fluids[k]] = static_cast<uint32_t>(kMost * k);
   m_clearance.resize(m_fluids.size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/fixedsurface.h"
 
+#include "core/base/parallelarrays.h"
+
 #include <algorithm>
 
 namespace ps {
@@ -19,7 +21,7 @@ void FixedSurface::refresh(const ParticleStore& store, std::span<const api::Floa
   m_fixed.swap(m_now);
   m_at.resize(m_fixed.size());
   for (size_t k = 0; k < m_fixed.size(); ++k) m_at[k] = noted[m_fixed[k]];
-  m_slot.assign(store.size(), LatticeSurface::kNone);
+  assignAll(m_slot, store.size(), uint32_t{LatticeSurface::kNone});
   m_kept.clear();
 }
 

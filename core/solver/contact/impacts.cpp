@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/impacts.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/contact/nearwalls.h"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ void Impacts::sortByTime(const ParticleStore& store) {
 
 /// What a fast particle would have met behind its first impact it does not meet.
 void Impacts::keepFirst(const ParticleStore& store) {
-  m_first.assign(store.size(), 2);
+  assignAll(m_first, store.size(), 2.0);
   for (const Impact& k : m_impacts) {
     if (!k.crosses) continue;
     for (const uint32_t i : {k.a, k.b}) m_first[i] = std::min(m_first[i], k.time);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/rebound.h"
 
+#include "core/base/parallelarrays.h"
 #include "core/base/statestream.h"
 #include "core/solver/contact/membersums.h"
 
@@ -55,7 +56,7 @@ void Rebound::configure(const SolverSettings& settings, const std::vector<Wall>&
 void Rebound::findPieces(const ParticleStore& store, const Structure& structure) {
   m_stale = false;
   m_anySoft = false;
-  m_pieceOf.assign(structure.pieceOf.begin(), structure.pieceOf.end());  // by now the first member of each
+  assignAll(m_pieceOf, structure.pieceOf);  // by now the first member of each
   const std::span<const uint8_t> thin = structure.constraints.thinBodies();
   const std::span<const uint32_t> bodyOf = structure.rigid.bodyOf();
   size_t count = 0;

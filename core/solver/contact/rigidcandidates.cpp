@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which particles of rigid bodies may touch what, and how they face each other.
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/statestream.h"
 #include "core/solver/contact/rigidcontact.h"
 
@@ -17,6 +17,8 @@ namespace {
 constexpr double kRoundDistance = 0.95;
 /// How near to a wall the lists look for members: what turns, or is struck, is soon elsewhere.
 constexpr double kWallReach = 4;
+/// Particles, one after another, that are asked together which walls they may be near.
+constexpr size_t kAsked = 32;
 /// Numbers of a contact that go on into the next frame.
 constexpr size_t kCarried = 11;
 
@@ -83,8 +85,8 @@ void RigidContact::configure(const SolverSettings& settings, const std::vector<W
 }
 
 void RigidContact::refreshBodies(const ParticleStore& store, const ConstraintSystem& constraints) {
-  m_isMember.assign(store.size(), 0);
-  m_bodyOf.assign(store.size(), kNone);
+  assignAll(m_isMember, store.size(), uint8_t{0});
+  assignAll(m_bodyOf, store.size(), uint32_t{kNone});
   m_rank.resize(store.size() + 1);
   m_rank.back() = 0;
   forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
@@ -216,6 +218,17 @@ void RigidContact::keepImpulses() {
   });
 }
 
+/// Those that some of a few places may be near.
+WallSet RigidContact::wallsNear(std::span<const api::Float4> places) const {
+  constexpr double kRounding = 1.0001;
+  const PlaceBox box = PlaceBox::around(places);
+  WallSet near;
+  for (size_t w = 0; w < m_walls.size(); ++w) {
+    if (!(box.leastHeight(m_walls[w]) > kRounding * kWallReach * m_spacing)) near.add(w);
+  }
+  return near;
+}
+
 /// By where particles were when the lists were made, not where they are: what is found then depends on nothing else.
 void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& neighbours,
                                   const StructureGraph& graph) {
@@ -237,14 +250,17 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
   const HighestRanks highest(neighbours.grid(), m_rank, m_highestRank);
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     HighestRanks ranks = highest;
+    WallSet walls;
     std::vector<Candidate>& found = m_candidatesOf[first / grain::kNeighbours];
     found.clear();
     for (auto i = static_cast<uint32_t>(first); i < last; ++i) {
+      if ((i - first) % kAsked == 0) walls = wallsNear(at.subspan(i, std::min(kAsked, last - i)));
       if (m_isMember[i] == 0) continue;
-      for (uint32_t p = 0; p < m_walls.size(); ++p) {
-        if (m_walls[p].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) continue;
+      walls.forEach(m_walls.size(), [&](size_t wall) {
+        if (m_walls[wall].heightOf(vectorOf(at[i])) > kWallReach * m_spacing) return;
+        const auto p = static_cast<uint32_t>(wall);
         found.push_back(candidateOf(i, kNone, p, uint64_t{id[i]} << 32 | (kNone - p)));
-      }
+      });
       // Each pair of bodies once, from the body that comes first.
       const uint32_t own = m_bodyOf[i] + 1;
       if (ranks.around(i) <= own) continue;

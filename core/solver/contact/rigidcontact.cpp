@@ -153,10 +153,14 @@ void RigidContact::begin(const ParticleStore& store) {
   forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) beginContact(store, m_contacts[k]);
   });
-  m_open.clear();
-  for (Contact& c : m_contacts) {
-    if (c.active) m_open.push_back({&c, {}, {}, {}, 0, c.a.body, c.b.body});
-  }
+  findIndices(m_contacts.size(), m_some, [&](size_t k) { return m_contacts[k].active; });
+  m_open.resize(m_some.size());
+  forChunks(m_open.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      Contact& c = m_contacts[m_some[k]];
+      m_open[k] = {&c, {}, {}, {}, 0, c.a.body, c.b.body};
+    }
+  });
   m_resume = true;
 }
 
@@ -233,7 +237,8 @@ double RigidContact::gapOf(const ParticleStore& store, const Open& open) const {
 
 /// Starts from the impulses of the last substep.
 void RigidContact::resume(ParticleStore& store) {
-  for (Contact& c : m_contacts) {
+  for (const Open& open : m_open) {  // others have no push
+    Contact& c = *open.contact;
     if (c.push == 0) continue;
     c.rub -= c.rub.dot(c.normal) * c.normal;
     const Vector3 impulse = c.push * c.normal + c.rub;
@@ -349,7 +354,8 @@ void RigidContact::place(ParticleStore& store, Body& body) {
 
 Vector3 RigidContact::pushed() const {
   Vector3 sum;
-  for (const Contact& c : m_contacts) {
+  for (const Open& open : m_open) {
+    const Contact& c = *open.contact;
     if (isOutside(c)) sum += c.push * c.normal + c.rub;
   }
   return sum;
@@ -357,7 +363,8 @@ Vector3 RigidContact::pushed() const {
 
 void RigidContact::tellPushed(const ParticleStore& store) const {
   if (!m_reactions->any()) return;
-  for (const Contact& c : m_contacts) {
+  for (const Open& open : m_open) {
+    const Contact& c = *open.contact;
     if (!isOutside(c) || c.push == 0) continue;
     const Vector3 place = m_bodies[c.a.body].centre + c.a.arm;
     m_reactions->add(slotOf(store, c), place, -m_reactions->perStep() * (c.push * c.normal + c.rub));

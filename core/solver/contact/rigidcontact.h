@@ -4,6 +4,7 @@
 #include "core/particles/impulse.h"
 #include "core/particles/reactions.h"
 #include "core/solver/contact/latticesurface.h"
+#include "core/solver/contact/nearwalls.h"
 #include "core/solver/contact/wallplane.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -195,6 +196,7 @@ class RigidContact {
     uint32_t plane;  ///< kNone: b
   };
   static Candidate candidateOf(uint32_t a, uint32_t b, uint32_t plane, uint64_t key);
+  WallSet wallsNear(std::span<const api::Float4> places) const;
   void findCandidates(const ParticleStore& store, const Neighbours& neighbours, const StructureGraph& graph);
   Contact contactOf(const ParticleStore& store, const Candidate& candidate) const;
   Contact planeContactOf(const ParticleStore& store, const Candidate& candidate) const;
@@ -225,6 +227,7 @@ class RigidContact {
   void give(ParticleStore& store, const Side& side, const Vector3& impulse);
   void give(ParticleStore& store, const Contact& contact, const Vector3& impulse);
   void findIslands();
+  void gatherTaking();
   double solveSpeed(ParticleStore& store, Contact& contact);
   void solveSpeeds(ParticleStore& store);
   void takeGainedEnergy(ParticleStore& store);
@@ -268,8 +271,10 @@ class RigidContact {
   std::vector<std::vector<Candidate>> m_candidatesOf;  ///< by chunk of particles
   std::vector<Buckets> m_bucketsOf;                    ///< how many of them fall into each, then where the next goes
   std::vector<Candidate> m_candidates;
-  std::vector<Open> m_open;  ///< in the same order
-  LatticeSurface m_surface;  ///< of those that may touch others
+  std::vector<Open> m_open;        ///< in the same order
+  std::vector<uint32_t> m_some;    ///< of the contacts, ascending, while they are looked for
+  std::vector<Contact*> m_taking;  ///< those that take part in the speeds that are being solved, in the same order
+  LatticeSurface m_surface;        ///< of those that may touch others
 };
 
 }  // namespace ps

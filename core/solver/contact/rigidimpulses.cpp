@@ -85,6 +85,13 @@ void RigidContact::findIslands() {
   for (uint32_t b = 0; b < m_bodies.size(); ++b) m_bodies[b].island = islandOf(b);
 }
 
+/// A contact is large, and those that take part are asked many times.
+void RigidContact::gatherTaking() {
+  findIndices(m_contacts.size(), m_some, [&](size_t k) { return m_contacts[k].takesPart; });
+  m_taking.clear();
+  for (const uint32_t k : m_some) m_taking.push_back(&m_contacts[k]);
+}
+
 /// The normal impulse stays positive; what strikes rubs within the cone. Returns by how much the normal speed was
 /// changed, m/s.
 double RigidContact::solveSpeed(ParticleStore& store, Contact& c) {
@@ -107,14 +114,10 @@ double RigidContact::solveSpeed(ParticleStore& store, Contact& c) {
 /// Projected Gauss-Seidel over the contacts that take part.
 void RigidContact::solveSpeeds(ParticleStore& store) {
   double fastest = 0;
-  for (const Contact& c : m_contacts) {
-    if (c.takesPart) fastest = std::max(fastest, std::abs(c.approach));
-  }
+  for (const Contact* c : m_taking) fastest = std::max(fastest, std::abs(c->approach));
   for (int pass = 0; pass < kPasses; ++pass) {
     double most = 0;
-    for (Contact& c : m_contacts) {
-      if (c.takesPart) most = std::max(most, solveSpeed(store, c));
-    }
+    for (Contact* c : m_taking) most = std::max(most, solveSpeed(store, *c));
     if (!(most > kSettled * fastest)) break;
   }
   takeGainedEnergy(store);
@@ -124,15 +127,15 @@ void RigidContact::solveSpeeds(ParticleStore& store) {
 /// island: what it must not add is left out of all its impulses.
 void RigidContact::takeGainedEnergy(ParticleStore& store) {
   for (Body& body : m_bodies) body.workBefore = body.workChange = 0;
-  for (const Contact& c : m_contacts) {
-    if (!c.takesPart) continue;
+  for (const Contact* contact : m_taking) {
+    const Contact& c = *contact;
     const Vector3 impulse = c.impulse * c.normal + c.friction;
     Body& island = m_bodies[m_bodies[c.a.body].island];
     island.workBefore += impulse.dot(c.before);
     island.workChange += impulse.dot(velocityOf(store, c) - c.before);
   }
-  for (Contact& c : m_contacts) {
-    if (!c.takesPart) continue;
+  for (Contact* contact : m_taking) {
+    Contact& c = *contact;
     const Body& island = m_bodies[m_bodies[c.a.body].island];
     if (!(island.workBefore + 0.5 * island.workChange > 0)) continue;
     const double share = std::clamp(-2 * island.workBefore / island.workChange, 0.0, 1.0);
@@ -243,16 +246,20 @@ void RigidContact::strike(ParticleStore& store) {
     body.turn = body.inverseInertia * motion.angular;
     body.late.setZero();
   }
-  for (Contact& c : m_contacts) {
-    c.takesPart = m_bodies[m_bodies[c.a.body].island].struck && !(c.b.inverseMass > 0);
-    if (!c.takesPart) continue;
-    if (c.plane == kNone && !c.strikes) orient(store, c);
-    c.takesPart = c.plane == kNone ? c.active : gapAt(c, store.position()) < kOpen * m_spacing;
-    if (c.takesPart) readStart(store, c);
-  }
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      Contact& c = m_contacts[k];
+      c.takesPart = m_bodies[m_bodies[c.a.body].island].struck && !(c.b.inverseMass > 0);
+      if (!c.takesPart) continue;
+      if (c.plane == kNone && !c.strikes) orient(store, c);
+      c.takesPart = c.plane == kNone ? c.active : gapAt(c, store.position()) < kOpen * m_spacing;
+      if (c.takesPart) readStart(store, c);
+    }
+  });
+  gatherTaking();
   solveSpeeds(store);
-  for (const Contact& c : m_contacts) {
-    if (!c.takesPart) continue;
+  for (const Contact* contact : m_taking) {
+    const Contact& c = *contact;
     const Vector3 impulse = c.impulse * c.normal + c.friction;
     if (isOutside(c)) bookOutside(store, c, impulse);
     // Until they met they went on as before.
@@ -281,11 +288,11 @@ void RigidContact::readApproaches(ParticleStore& store) {
     body.shift -= body.inverseMass / m_dt * body.pushed;
     body.turn -= 1 / m_dt * (body.inverseInertia * body.twisted);
   }
-  for (const Contact& c : m_contacts) {
-    if (c.takesPart && c.b.body == kNone) give(store, c.b, 1 / m_dt * (c.push * c.normal + c.rub));
+  for (const Contact* c : m_taking) {
+    if (c->b.body == kNone) give(store, c->b, 1 / m_dt * (c->push * c->normal + c->rub));
   }
-  for (Contact& c : m_contacts) {
-    if (!c.takesPart) continue;
+  for (Contact* contact : m_taking) {
+    Contact& c = *contact;
     c.before = velocityOf(store, c);
     // What presses all the time, a rope or a liquid, does not strike.
     const double pressed = c.before.dot(c.normal);
@@ -296,19 +303,15 @@ void RigidContact::readApproaches(ParticleStore& store) {
     c.impulse = c.push / m_dt;
     c.friction = 1 / m_dt * c.rub;
   }
-  for (const Contact& c : m_contacts) {
-    if (c.takesPart) give(store, c, c.impulse * c.normal + c.friction);
-  }
+  for (const Contact* c : m_taking) give(store, *c, c->impulse * c->normal + c->friction);
 }
 
 void RigidContact::bounce(ParticleStore& store) {
-  bool any = false;
-  for (Contact& c : m_contacts) {
-    c.takesPart = c.met;
-    c.strikes = false;
-    any = any || c.met;
-  }
-  if (!any) return;
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) m_contacts[k].takesPart = m_contacts[k].met, m_contacts[k].strikes = false;
+  });
+  gatherTaking();
+  if (m_taking.empty()) return;
   for (Body& body : m_bodies) {
     if (!body.hasContacts) continue;
     // The inertia has turned with the body.
@@ -322,8 +325,8 @@ void RigidContact::bounce(ParticleStore& store) {
   findIslands();
   readApproaches(store);
   solveSpeeds(store);
-  for (Contact& c : m_contacts) {
-    if (!c.met) continue;
+  for (Contact* contact : m_taking) {
+    Contact& c = *contact;
     c.slides = slideOf(c, velocityOf(store, c)) > kSlides * m_slowest;
     if (!isOutside(c)) continue;
     const Vector3 booked = 1 / m_dt * (c.push * c.normal + c.rub);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/sweptclamp.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/contact/solidcontact.h"
 
 #include <algorithm>
@@ -70,9 +70,9 @@ void SweptClamp::refreshLists(const ParticleStore& store, const Neighbours& neig
     if (m_period.any()) m_period.shorten(x, y, z);
     return x * x + y * y + z * z;
   };
-  for (size_t kind = 0; kind < 2; ++kind) m_clearance2[kind].assign(store.size(), kFarAway);
+  for (size_t kind = 0; kind < 2; ++kind) assignAll(m_clearance2[kind], store.size(), kFarAway);
   if (2 * m_static.size() > store.size()) {  // fewer lists to go through: those of what moves
-    m_kind.assign(store.size(), 0);
+    assignAll(m_kind, store.size(), uint8_t{0});
     for (size_t kind = 0; kind < 2; ++kind) {
       for (const uint32_t i : m_listed[kind]) m_kind[i] = static_cast<uint8_t>(kind + 1);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/contact/walls.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ void WallStage::configure(const SolverSettings& settings, const std::vector<Wall
 }
 
 void WallStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours, std::span<const uint8_t> rigid) {
-  m_rigid.assign(rigid.begin(), rigid.end());
+  assignAll(m_rigid, rigid);
   m_nearWalls.resize(store.size());
   const std::span<const api::Float4> built = neighbours.built();
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {

@@ -133,7 +133,6 @@ void DensityStage::weigh(const ParticleStore& store) {
 
 void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& neighbours) {
   const size_t n = store.size();
-  const api::NeighbourView view = neighbours.view();
   assignAll(m_touched, n + kSpare, uint8_t{0});
   m_wet.clear();
   m_watched.clear();
@@ -145,30 +144,7 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     for (size_t k = first; k < last; ++k) m_isFluid[m_fluid[k]] = 1;
   });
   if (m_fluid.empty()) return;
-  // Fluid particles tell their neighbours, or where they are many, each of the others looks for one.
-  if (2 * m_fluid.size() < n) {
-    forChunks(m_fluid.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) {
-        const uint32_t i = m_fluid[k];
-        for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
-          // Many tell it: who only looks takes it from nobody.
-          const std::atomic_ref touched(m_touched[view.index[q]]);
-          if (touched.load(std::memory_order_relaxed) == 0) touched.store(1, std::memory_order_relaxed);
-        }
-      }
-    });
-    forChunks(m_fluid.size(), grain::kNumbers, [&](size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) m_touched[m_fluid[k]] = 0;
-    });
-  } else {
-    forChunks(n, grain::kPairs, [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) {
-        if (m_isFluid[i] != 0) continue;
-        for (uint32_t q = view.begin[i]; q < view.last[i] && m_touched[i] == 0; ++q)
-          m_touched[i] = m_isFluid[view.index[q]];
-      }
-    });
-  }
+  findTouched(neighbours);
   const api::Motion* motion = store.motion();
   const api::Float4* velocity = store.velocity();
   findIndices(n, m_wet,
@@ -184,6 +160,35 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
     });
   }
   m_film.refresh(store, neighbours, m_wet);
+}
+
+/// What has fluid in its list. Where the cells around hold none, nobody's list has to be read.
+void DensityStage::findTouched(const Neighbours& neighbours) {
+  const CellGrid& grid = neighbours.grid();
+  const std::span<const uint32_t> starts = grid.starts(), order = grid.order(), cellOf = grid.cellOfEach();
+  m_cellHasFluid.resize(starts.size() - 1);
+  forChunks(m_cellHasFluid.size(), grain::kParticles, [&](size_t first, size_t last) {
+    for (size_t c = first; c < last; ++c) {
+      uint8_t any = 0;
+      for (uint32_t slot = starts[c]; slot < starts[c + 1]; ++slot) any |= m_isFluid[order[slot]];
+      m_cellHasFluid[c] = any;
+    }
+  });
+  const api::NeighbourView view = neighbours.view();
+  forChunks(m_isFluid.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    uint32_t cell = static_cast<uint32_t>(m_cellHasFluid.size());
+    uint8_t around = 0;
+    for (size_t i = first; i < last; ++i) {
+      if (m_isFluid[i] != 0) continue;
+      if (cellOf[i] != cell) {
+        cell = cellOf[i], around = 0;
+        grid.aroundCell(cell, [&](size_t c) { around |= m_cellHasFluid[c]; });
+      }
+      if (around == 0) continue;
+      const auto isFluid = [&](uint32_t j) { return m_isFluid[j] != 0; };
+      m_touched[i] = std::any_of(view.index + view.begin[i], view.index + view.last[i], isFluid) ? 1 : 0;
+    }
+  });
 }
 
 void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pairs, api::Motion motion, float least,

@@ -76,6 +76,7 @@ class DensityStage {
   double kernelScale() const { return m_scale; }  ///< 1/m3: W = scale * w(q)
 
  private:
+  void findTouched(const Neighbours& neighbours);
   void solidVolumes(const ParticleStore& store, const PairLists& lists, api::Motion motion, float least, float most);
   void weigh(const ParticleStore& store);
   void loadPoints(const ParticleStore& store);
@@ -97,7 +98,7 @@ class DensityStage {
   double m_scale = 0, m_support = 0;
   float m_chebyshev = 1;
   std::vector<uint32_t> m_fluid, m_wet, m_some;
-  std::vector<uint8_t> m_touched, m_isFluid;
+  std::vector<uint8_t> m_touched, m_isFluid, m_cellHasFluid;
   std::vector<float> m_volume, m_weight;
   DensityWeights m_weights;
   std::vector<api::Float4> m_points, m_multipliers;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/fluid/implicitviscosity.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/room.h"
 
 #include <algorithm>
@@ -124,7 +124,7 @@ void ImplicitViscosity::refresh(ParticleStore& store, std::span<const float> vis
   m_residual = 0;
   store.declare(kField, api::FieldType::Float4, "m/s", "Change of velocity by implicit viscosity in the last substep");
   const size_t n = store.size();
-  m_viscous.assign(viscous.begin(), viscous.end());
+  assignAll(m_viscous, viscous);
   if (m_roles.size() != n) m_dirty = true;
   m_roles.resize(n);
   for (size_t i = 0; i < n; ++i) {

@@ -148,8 +148,8 @@ void ViscosityStage::refresh(ParticleStore& store, const Neighbours& neighbours,
 /// For the implicit stage: who, with which viscosity; particles marked by refresh() get their XSPH coefficient.
 void ViscosityStage::gatherThick(const ParticleStore& store, const DensityStage& density) {
   const size_t n = store.size();
-  m_viscosity.assign(n + kSpare, -1.0f);
-  m_viscous.assign(n + kSpare, 0.0f);
+  assignAll(m_viscosity, n + kSpare, -1.0f);
+  assignAll(m_viscous, n + kSpare, 0.0f);
   m_yieldStress.assign(m_yields ? n : 0, 0.0f);
   m_shearRate.assign(m_yields ? n + kSpare : 0, 0.0f);
   const double reach = m_implicit.greatestViscosity();

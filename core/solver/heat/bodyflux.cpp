@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/bodyflux.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ void BodyFlux::measure(const ParticleStore& store, const HeatPairs& pairs, const
     columns += n * sum;
   });
   m_plane = m_spacing * m_spacing / columns;
-  m_watts.assign(store.size(), 0.0);
+  assignAll(m_watts, store.size(), 0.0);
   findIndices(store.size(), m_givers, [&](size_t i) { return heating.fluxAt(store, i) != 0; });
   for (const uint32_t i : m_givers) m_watts[i] = heating.fluxAt(store, i);  // W/m2, until share()
   m_sums.resize(m_givers.size());

@@ -2,7 +2,7 @@
 #include "core/solver/heat/heat.h"
 
 #include "core/base/callee.h"
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/room.h"
 #include "core/matter/stablephase.h"
 #include "core/solver/heat/phasestage.h"
@@ -196,7 +196,7 @@ bool HeatStage::isBalanced(ParticleStore& store, const api::ParticleView& view, 
 }
 
 void HeatStage::passTime(ParticleStore& store, const api::ParticleView& view, double time) {
-  m_joules.assign(store.size(), 0.0);
+  assignAll(m_joules, store.size(), 0.0);
   const api::ThermalContext where = context();
   const auto body = [&](size_t first, size_t last) {
     const CalleeScope callee(m_modelName.c_str());

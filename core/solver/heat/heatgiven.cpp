@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of HeatStage by which a hand gives heat and takes it back, between two frames.
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/heat/heat.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool HeatStage::give(ParticleStore& store, std::span<double> joules) {
   if (!works() || store.size() == 0) return false;
   const bool done = guarded([&] {
     if (!isUpToDate()) bringUpToDate(store);
-    m_joules.assign(store.size(), 0.0);
+    assignAll(m_joules, store.size(), 0.0);
     for (int round = 0; round < kMostRounds; ++round) {
       const bool more = giveRound(store, gift);
       for (const uint32_t i : gift.rows) joules[i] += m_joules[i];

@@ -3,7 +3,7 @@
 
 #include "core/base/callee.h"
 #include "core/base/error.h"
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/shorttext.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ void PluginHeating::ask(const HeatSource& source, ParticleStore& store, const ap
                         api::ThermalContext where) {
   declareFields(source, store);  // a state that was restored may be of a scene without it
   where.parameters = {source.parameters.data(), source.parameters.size()};
-  m_watts.assign(store.size(), 0.0);
+  assignAll(m_watts, store.size(), 0.0);
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     const CalleeScope callee(source.name.c_str());
     source.plugin->addWatts(where, view, first, last, m_watts.data());

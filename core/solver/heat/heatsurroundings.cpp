@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/heatsurroundings.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/contact/wallplane.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
                                uint64_t frame) {
   const size_t n = store.size();
   m_touches.resize(n);
-  m_wallConductance.assign(n * m_walls.size(), 0.0f);
+  assignAll(m_wallConductance, n * m_walls.size(), 0.0f);
   m_airConductance.resize(n);
   m_perConductivity.resize(n);
   m_watts.resize(n);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/opensurface.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/base/statestream.h"
 
 #include <algorithm>
@@ -108,14 +108,14 @@ void OpenSurface::measure(const ParticleStore& store, const api::NeighbourView& 
   m_spacing = spacing;
   m_unit = 6 * spacing * spacing / kDirections;
   m_open.resize(store.size());
-  m_scale.assign(store.size(), 1.0f);
+  assignAll(m_scale, store.size(), 1.0f);
   m_behindWall.assign(walls.size(), 0);
   for (size_t w = 0; w < walls.size(); ++w) m_behindWall[w] = behind(walls[w].normal);
   forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     store.period().any() ? cover<true>(store, lists, filled, walls, first, last)
                          : cover<false>(store, lists, filled, walls, first, last);
   });
-  m_id.assign(store.id(), store.id() + store.size());
+  assignAll(m_id, std::span(store.id(), store.size()));
   if (std::any_of(scaledArea.begin(), scaledArea.end(), [](double area) { return area > 0; }))
     scaleToBodies(store, scaledArea);
 }
@@ -139,7 +139,7 @@ void OpenSurface::restore(const StateReader& reader, const ParticleStore& store)
   if (m_open.empty()) return;
   if (m_open.size() != store.size()) StateReader::fail("heat/open_directions", "is not that of all particles");
   m_unit = unit[0];
-  m_id.assign(store.id(), store.id() + store.size());
+  assignAll(m_id, std::span(store.id(), store.size()));
 }
 
 template <bool kPeriodic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/heat/radiation.h"
 
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/contact/wallplane.h"
 #include "core/solver/heat/raysample.h"
 
@@ -86,8 +86,8 @@ void Radiation::trace(const RadiationScene& scene) {
   m_walls = scene.walls.size();
   m_mirrors.clear();
   for (const Wall& wall : scene.walls) m_mirrors.push_back({faceOf(wall), exchanges(wall)});
-  m_sky.assign(n, 0.0f);
-  m_wall.assign(n * m_walls, 0.0f);
+  assignAll(m_sky, n, 0.0f);
+  assignAll(m_wall, n * m_walls, 0.0f);
   findBoxes(scene);
   m_perParticle = kMostPerParticle;
   while (m_perParticle > kLeastPerParticle && m_perParticle * m_emitters.size() > kRays) m_perParticle /= 2;
@@ -102,7 +102,7 @@ void Radiation::trace(const RadiationScene& scene) {
 
 void Radiation::findBoxes(const RadiationScene& scene) {
   const ParticleStore& store = scene.store;
-  m_boxOf.assign(store.size(), RayGrid::kNone);
+  assignAll(m_boxOf, store.size(), uint32_t{RayGrid::kNone});
   m_boxes.clear();
   for (size_t i = 0; i < store.size(); ++i) {
     if (store.motion()[i] == api::Motion::Gas) continue;
