@@ -17,8 +17,8 @@ namespace {
 constexpr uint32_t kNowhere = ~0u;
 /// Members around a lump that has melted out of a body, beyond which all of the body is looked at as soon.
 constexpr size_t kMostRim = 256;
-/// Lumps that a thread takes at a time.
-constexpr size_t kSharedLumps = 4;
+/// Lumps, and lists of neighbours, that a thread takes at a time.
+constexpr size_t kSharedLumps = 4, kSharedLists = 16;
 /// What one thread takes for a member, for its neighbours, and for those around a lump, microseconds.
 constexpr double kPerMember = 0.002, kPerList = 0.3, kPerLump = 5;
 
@@ -141,13 +141,16 @@ bool RigidSplitting::rimsHangTogether(std::span<const uint32_t> melted) const {
 std::vector<RigidSplitting::Lump> RigidSplitting::gatherLumps(std::span<const uint32_t> melted,
                                                               std::vector<uint32_t>& places) const {
   SharedSets sets(melted.size(), m_threads);
-  forShared(m_threads, melted.size(), kPerList, [&](size_t n) {
-    forHanging(melted[n], [&](size_t other) {
-      const auto found = std::lower_bound(melted.begin(), melted.end(), static_cast<uint32_t>(other));
-      if (found != melted.end() && *found == other)
-        sets.unite(static_cast<uint32_t>(n), static_cast<uint32_t>(found - melted.begin()));
-    });
-  });
+  forShared(
+      m_threads, melted.size(), kPerList,
+      [&](size_t n) {
+        forHanging(melted[n], [&](size_t other) {
+          const auto found = std::lower_bound(melted.begin(), melted.end(), static_cast<uint32_t>(other));
+          if (found != melted.end() && *found == other)
+            sets.unite(static_cast<uint32_t>(n), static_cast<uint32_t>(found - melted.begin()));
+        });
+      },
+      kSharedLists);
   std::vector<Lump> lumps;
   places.reserve(melted.size());
   for (const std::vector<size_t>& set : sets.sets()) {

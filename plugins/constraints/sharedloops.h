@@ -10,13 +10,13 @@ namespace ps::constraint {
 /// Elements that a thread takes at a time.
 inline constexpr size_t kSharedAtATime = 1024;
 
-/// visit(k) for each k below `count`, for each of which one thread takes about so long.
+/// visit(k) for each k below `count`, for each of which one thread takes about so long; `grain` at a time.
 template <class Visit>
-void forShared(const api::Threads* threads, size_t count, double microsecondsEach, const Visit& visit) {
-  api::shareAmong(threads, count, kSharedAtATime, microsecondsEach * static_cast<double>(count),
-                  [&](size_t first, size_t last) {
-                    for (size_t k = first; k < last; ++k) visit(k);
-                  });
+void forShared(const api::Threads* threads, size_t count, double microsecondsEach, const Visit& visit,
+               size_t grain = kSharedAtATime) {
+  api::shareAmong(threads, count, grain, microsecondsEach * static_cast<double>(count), [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) visit(k);
+  });
 }
 
 /// Those below `count` for which wanted(k) is true, ascending, whoever finds them. It is asked once.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of ConstraintSystem that hosts plugins of groups.
 #include "core/base/error.h"
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/matter.h"
 #include "core/solver/structure/constraintsystem.h"
 
@@ -187,11 +187,11 @@ void ConstraintSystem::putGroupsBack(Set& set, ParticleStore& store, std::span<c
 }
 
 void ConstraintSystem::findGroupMembers(const ParticleStore& store, std::vector<uint8_t>& marks) const {
-  marks.assign(store.size(), 0);
+  assignAll(marks, store.size(), uint8_t{0});
   for (const Set& set : m_sets) {
-    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
-      for (const uint32_t i : set.groups->members(g)) marks[i] = 1;
-    }
+    if (set.groups)
+      set.groups->eachMember(
+          [&](uint32_t i, size_t) { std::atomic_ref(marks[i]).store(1, std::memory_order_relaxed); });
   }
 }
 
