@@ -162,6 +162,19 @@ struct NewRigidGroup {
     for (const double c : {rest.x, rest.y, rest.z}) memberValues.push_back(static_cast<float>(c));
     memberValues.push_back(volume);
   }
+  /// Room for so many, each of which is then set().
+  void resize(size_t count) {
+    particles.resize(count);
+    memberValues.resize(count * RigidModel::kMemberValueCount);
+  }
+  void set(size_t n, uint32_t particle, Vector rest, float volume) {
+    particles[n] = particle;
+    float* values = memberValues.data() + n * RigidModel::kMemberValueCount;
+    values[RigidModel::kRestX] = static_cast<float>(rest.x);
+    values[RigidModel::kRestY] = static_cast<float>(rest.y);
+    values[RigidModel::kRestZ] = static_cast<float>(rest.z);
+    values[RigidModel::kRestVolume] = volume;
+  }
   void emit(Vector centre, Quaternion q, float scale, api::GroupSink& sink) const {
     std::array<float, RigidModel::kValueCount> values{};
     const double pose[] = {centre.x, centre.y, centre.z, q.x, q.y, q.z, q.w};

@@ -3,10 +3,10 @@
 #include "joining.h"
 #include "rigidbody.h"
 #include "rigidpieces.h"
+#include "rigidsplitting.h"
+#include "sharedloops.h"
 
 #include <algorithm>
-#include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,29 +20,16 @@ using api::NeighbourView;
 using api::ParticleView;
 
 constexpr uint32_t kNone = ~0u;
-constexpr size_t kNowhere = ~size_t{0};
 /// Faces of two bodies touch a spacing apart, where their lattices do not match with particles up to 1.22 spacings
 /// away from each other.
 constexpr double kTouchReach = 1.25;
 /// Pairs that must touch, and for how long in s, until two bodies are one: a brush in passing does not join them.
 constexpr size_t kLeastPairs = 3;
 constexpr double kHoldTime = 0.5;
-/// Members around a lump that has melted out of a body, beyond which all of the body is looked at as soon.
-constexpr size_t kMostRim = 256;
-/// Particles of a chunk that looks at their lists, and what one takes.
-constexpr size_t kSharedParticles = 1024;
-constexpr double kMicrosecondsPerList = 0.03;
+/// What one thread takes for a particle, and for its list, microseconds.
+constexpr double kPerParticle = 0.002, kPerList = 0.03;
 /// What Joining::freshness() says of a particle that a body has taken, while others may still freeze to it.
 constexpr uint8_t kTaken = 2;
-
-/// A body in the making: places of a group's members that are left, and particles that have come to them.
-struct Piece {
-  size_t group = 0;          ///< of the batch; its count for a piece that begins
-  bool whole = false;        ///< all members of the group are left, and not listed
-  std::vector<size_t> kept;  ///< else those that are
-  std::vector<uint32_t> joined;
-  bool changed = false;
-};
 
 class Reshaping {
  public:
@@ -60,12 +47,12 @@ class Reshaping {
   }
 
   void run(api::GroupSink& sink) {
-    for (size_t g = 0; g < m_all.count; ++g) split(g);
+    m_pieces = RigidSplitting(m_context, m_p, m_lists, m_all, m_threads).run(m_gone);
     const bool edited = std::any_of(m_all.changed, m_all.changed + m_all.count, [](uint8_t c) { return c != 0; });
     if (edited || m_joining.anybody(m_threads)) {
       m_pieceOf.assign(m_p.count, kNone);
       for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
-        forKept(m_pieces[piece], [&](size_t k) { m_pieceOf[m_all.particles[k]] = piece; });
+        eachKept(m_pieces[piece], [&](size_t, size_t k) { m_pieceOf[m_all.particles[k]] = piece; });
       }
       freeze();
       growTogether();
@@ -73,7 +60,7 @@ class Reshaping {
     for (size_t g = 0; g < m_all.count; ++g) {
       if (m_gone[g] != 0) sink.remove(g);
     }
-    for (const Piece& piece : m_pieces) {
+    for (const RigidPiece& piece : m_pieces) {
       if (piece.changed) emit(piece, sink);
     }
   }
@@ -81,106 +68,15 @@ class Reshaping {
  private:
   size_t least(uint32_t particle) const { return leastMembers(m_context.parametersOf(m_p.body[particle])); }
 
+  /// visit(n, place) for the n-th of the members that are left, by any thread.
   template <class Visit>
-  void forKept(const Piece& piece, Visit&& visit) const {
-    if (piece.whole) {
-      for (size_t k = m_all.begin[piece.group]; k < m_all.begin[piece.group + 1]; ++k) visit(k);
-    }
-    for (const size_t k : piece.kept) visit(k);
+  void eachKept(const RigidPiece& piece, const Visit& visit) const {
+    if (piece.group == m_all.count) return;
+    forShared(m_threads, piece.left(m_all), kPerParticle, [&](size_t n) { visit(n, piece.placeOf(m_all, n)); });
   }
-
-  /// Members that have melted leave; what is left falls into what hangs together.
-  void split(size_t g) {
-    const size_t first = m_all.begin[g], last = m_all.begin[g + 1], before = last - first;
-    size_t solid = 0;
-    for (size_t k = first; k < last; ++k) solid += melted(k) ? 0 : 1;
-    if (solid == before && m_all.changed[g] == 0) {
-      m_pieces.push_back({g, true, {}, {}, false});
-      return;
-    }
-    std::vector<size_t> kept;
-    kept.reserve(solid);
-    for (size_t k = first; k < last; ++k) {
-      if (!melted(k)) kept.push_back(k);
-    }
-    const size_t fewest = least(m_all.particles[m_all.begin[g]]);
-    if (m_all.changed[g] == 0 && kept.size() >= fewest && staysWhole(g)) {
-      m_gone[g] = 1;
-      m_pieces.push_back({g, false, std::move(kept), {}, true});
-      return;
-    }
-    std::vector<Vector> rest;
-    rest.reserve(kept.size());
-    for (const size_t k : kept) rest.push_back(restPlace(k));
-    std::function<bool(size_t, size_t)> parted;
-    if (m_context.cuts) parted = [&](size_t a, size_t b) { return isCut(kept[a], kept[b]); };
-    const std::vector<std::vector<size_t>> pieces = piecesOf(rest, kRigidReach * m_context.spacing, parted);
-    const bool whole = pieces.size() == 1 && kept.size() == before && before >= fewest;
-    m_gone[g] = whole ? 0 : 1;
-    for (const std::vector<size_t>& members : pieces) {
-      if (members.size() < fewest) continue;
-      Piece piece{g, false, {}, {}, !whole};
-      for (const size_t member : members) piece.kept.push_back(kept[member]);
-      m_pieces.push_back(std::move(piece));
-    }
-  }
-
   Vector restPlace(size_t k) const {
     return {m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
             m_all.memberValues[RigidModel::kRestZ][k]};
-  }
-  bool isCut(size_t k, size_t other) const {
-    return m_context.cuts && m_context.cuts->between(m_all.particles[k], m_all.particles[other]);
-  }
-  bool hangTogether(size_t k, size_t other) const {
-    const Vector d = restPlace(k) - restPlace(other);
-    const double reach = kRigidReach * m_context.spacing;
-    return dot(d, d) < reach * reach && !isCut(k, other);
-  }
-  /// Whether a body that has hung together still does without those that have melted, told by what is near them alone:
-  /// it does when all that each lump of them touched hangs together directly. False where that does not tell.
-  bool staysWhole(size_t g) {
-    const double scale = std::max(1.0, double{m_all.values[RigidModel::kScale][g]});
-    if (!(double{m_lists.searchRadius} > scale * kRigidReach * m_context.spacing)) return false;
-    const size_t first = m_all.begin[g], last = m_all.begin[g + 1];
-    m_placeOf.assign(m_p.count, kNowhere);
-    for (size_t k = first; k < last; ++k) m_placeOf[m_all.particles[k]] = k;
-    m_followed.assign(last - first, 0);
-    for (size_t k = first; k < last; ++k) {
-      if (melted(k) && m_followed[k - first] == 0 && !rimHangsTogether(k, first)) return false;
-    }
-    return true;
-  }
-  bool melted(size_t k) const { return m_p.motion[m_all.particles[k]] != Motion::Solid; }
-  /// visit(place) for members of the group that hung together with the one at place k.
-  template <class Visit>
-  void forHanging(size_t k, Visit&& visit) const {
-    const uint32_t i = m_all.particles[k];
-    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
-      const size_t other = m_placeOf[m_lists.index[q]];
-      if (other != kNowhere && hangTogether(k, other)) visit(other);
-    }
-  }
-  /// The lump of melted members that the one at place k belongs to; marks all of it.
-  bool rimHangsTogether(size_t k, size_t first) {
-    std::vector<size_t> open{k}, rim;
-    m_followed[k - first] = 1;
-    while (!open.empty()) {
-      const size_t at = open.back();
-      open.pop_back();
-      forHanging(at, [&](size_t other) {
-        if (std::exchange(m_followed[other - first], uint8_t{1}) == 0) (melted(other) ? open : rim).push_back(other);
-      });
-    }
-    for (const size_t r : rim) m_followed[r - first] = 0;  // another lump may touch it too
-    if (rim.size() > kMostRim) return false;
-    DisjointSets sets(rim.size());
-    for (size_t a = 0; a < rim.size(); ++a) {
-      for (size_t b = a + 1; b < rim.size(); ++b) {
-        if (hangTogether(rim[a], rim[b])) sets.unite(a, b);
-      }
-    }
-    return sets.sets().size() == 1;
   }
 
   double squaredDistance(uint32_t i, uint32_t j) const {
@@ -195,18 +91,22 @@ class Reshaping {
 
   /// What has frozen joins the piece of its nearest neighbour; what none is near begins a new one.
   void freeze() {
-    std::vector<uint32_t> loose;
-    std::vector<std::pair<uint32_t, uint32_t>> joins;
-    for (uint32_t i = 0; i < m_p.count; ++i) {
+    const std::vector<uint32_t> frozen = findShared(m_threads, m_p.count, kPerParticle, [&](size_t k) {
+      const auto i = static_cast<uint32_t>(k);
       const bool free = m_p.motion[i] == Motion::Solid && m_pieceOf[i] == kNone && m_joining.fresh(i);
-      if (!free || m_joining.keeper(i) == Keeper::Bonds || !m_joining.frozen(i)) continue;
-      const uint32_t host = nearestMember(i);
-      if (host != kNone)
-        joins.emplace_back(i, m_pieceOf[host]);
-      else if (m_joining.keeper(i) == Keeper::Rigid)
-        loose.push_back(i);
+      return free && m_joining.keeper(i) != Keeper::Bonds && m_joining.frozen(i);
+    });
+    std::vector<uint32_t> loose, hosts(frozen.size());  // hosts: pieces, as they are before anything joins
+    forShared(m_threads, frozen.size(), kPerList, [&](size_t n) {
+      const uint32_t nearest = nearestMember(frozen[n]);
+      hosts[n] = nearest == kNone ? kNone : m_pieceOf[nearest];
+    });
+    for (size_t n = 0; n < frozen.size(); ++n) {
+      if (hosts[n] != kNone)
+        assign(frozen[n], hosts[n]);
+      else if (m_joining.keeper(frozen[n]) == Keeper::Rigid)
+        loose.push_back(frozen[n]);
     }
-    for (const auto& [i, piece] : joins) assign(i, piece);
     if (loose.size() > 1) begin(loose);
   }
   uint32_t nearestMember(uint32_t i) const {
@@ -263,50 +163,65 @@ class Reshaping {
     if (d2 < std::max(squaredReach(i), squaredReach(j)) && m_joining.mayFreeze(i, j)) return Grip::Wet;
     return d2 < touch * touch && m_joining.maySinter(i, j) ? Grip::Dry : Grip::None;
   }
-  /// Members that have one of another piece in their list.
-  std::vector<uint8_t> findBorders() const {
-    std::vector<uint8_t> border(m_p.count, 0);
-    api::shareAmong(m_threads, m_p.count, kSharedParticles, kMicrosecondsPerList * static_cast<double>(m_p.count),
+  bool hasOtherNear(uint32_t i) const {
+    const uint32_t own = m_pieceOf[i];
+    bool other = false;
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const uint32_t piece = m_pieceOf[m_lists.index[q]];
+      other = other || (piece != kNone && piece != own);
+    }
+    return other;
+  }
+  /// Particles, and whether they were cut apart and are no more.
+  struct Touch {
+    uint32_t i, j;
+    bool healed;
+  };
+  /// What a member touches, and what follows from it, which is kept until all have looked.
+  void look(uint32_t i, std::vector<Touch>& touching) {
+    bool touches = false, wet = false;
+    for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
+      const uint32_t j = m_lists.index[q];
+      if (m_pieceOf[j] == kNone || m_pieceOf[j] == m_pieceOf[i]) continue;
+      const Grip g = grip(i, j);
+      if (g == Grip::None) continue;
+      touches = true;
+      wet = wet || g == Grip::Wet;
+      if (i < j || g == Grip::Healed) touching.push_back({i, j, g == Grip::Healed});
+    }
+    m_touched[i] = touches ? m_touch[i] + static_cast<float>(m_context.dt) : 0.0f;
+    // Dry by now, once nobody else is near.
+    m_drying[i] = m_joining.fresh(i) && !wet ? 1 : 0;
+  }
+  std::vector<std::vector<Touch>> findTouches() {
+    m_touched.assign(m_p.count, 0.0f);
+    m_drying.assign(m_p.count, 0);
+    std::vector<std::vector<Touch>> found((m_p.count + kSharedAtATime - 1) / kSharedAtATime);
+    api::shareAmong(m_threads, m_p.count, kSharedAtATime, kPerList * static_cast<double>(m_p.count),
                     [&](size_t first, size_t last) {
-                      for (size_t i = first; i < last; ++i) {
-                        const uint32_t own = m_pieceOf[i];
-                        if (own == kNone) continue;
-                        bool other = false;
-                        for (uint32_t q = m_lists.begin[i]; q < m_lists.last[i]; ++q) {
-                          const uint32_t piece = m_pieceOf[m_lists.index[q]];
-                          other = other || (piece != kNone && piece != own);
-                        }
-                        border[i] = other ? 1 : 0;
+                      std::vector<Touch> own;
+                      for (size_t k = first; k < last; ++k) {
+                        const auto i = static_cast<uint32_t>(k);
+                        if (m_pieceOf[i] == kNone) continue;
+                        if (hasOtherNear(i))
+                          look(i, own);
+                        else
+                          m_drying[i] = m_joining.fresh(i) ? 1 : 0;
                       }
+                      found[first / kSharedAtATime] = std::move(own);
                     });
-    return border;
+    return found;
   }
   /// Pieces whose members have touched for long enough become one.
   void growTogether() {
-    std::vector<std::pair<uint32_t, uint32_t>> touching;  // particles
     DisjointSets sets(m_pieces.size());
-    const std::vector<uint8_t> border = findBorders();
-    for (uint32_t i = 0; i < m_p.count; ++i) {
-      if (m_pieceOf[i] == kNone) continue;
-      bool touches = false, wet = false;
-      for (uint32_t q = m_lists.begin[i]; border[i] != 0 && q < m_lists.last[i]; ++q) {
-        const uint32_t j = m_lists.index[q];
-        if (m_pieceOf[j] == kNone || m_pieceOf[j] == m_pieceOf[i]) continue;
-        const Grip g = grip(i, j);
-        if (g == Grip::None) continue;
-        if (g == Grip::Healed) sets.unite(m_pieceOf[i], m_pieceOf[j]);
-        touches = true;
-        wet = wet || g == Grip::Wet;
-        if (i < j) touching.emplace_back(i, j);
-      }
-      m_touched.push_back(touches ? m_touch[i] + static_cast<float>(m_context.dt) : 0.0f);
-      // Dry by now, once nobody else is near.
-      m_drying.push_back(m_joining.fresh(i) && !wet ? 1 : 0);
-    }
     std::vector<std::pair<uint32_t, uint32_t>> held;  // pieces
-    for (const auto& [i, j] : touching) {
-      if (!returned(i, j) && std::min(m_touch[i], m_touch[j]) < static_cast<float>(kHoldTime)) continue;
-      held.push_back(std::minmax(m_pieceOf[i], m_pieceOf[j]));
+    for (const std::vector<Touch>& some : findTouches()) {
+      for (const auto& [i, j, healed] : some) {
+        if (healed) sets.unite(m_pieceOf[i], m_pieceOf[j]);
+        if (!(i < j) || (!returned(i, j) && std::min(m_touch[i], m_touch[j]) < static_cast<float>(kHoldTime))) continue;
+        held.push_back(std::minmax(m_pieceOf[i], m_pieceOf[j]));
+      }
     }
     keepTouches();
     std::sort(held.begin(), held.end());
@@ -319,42 +234,50 @@ class Reshaping {
     }
   }
   void keepTouches() {
-    size_t k = 0;
-    for (uint32_t i = 0; i < m_p.count; ++i) {
-      if (m_pieceOf[i] == kNone) continue;
-      m_touch[i] = m_touched[k] < kReturned ? m_touched[k] : 0.0f;
-      if (m_drying[k++] != 0) m_joining.freshness(i) = 0;
-    }
+    forShared(m_threads, m_p.count, kPerParticle, [&](size_t k) {
+      const auto i = static_cast<uint32_t>(k);
+      if (m_pieceOf[i] == kNone) return;
+      m_touch[i] = m_touched[i] < kReturned ? m_touched[i] : 0.0f;
+      if (m_drying[i] != 0) m_joining.freshness(i) = 0;
+    });
   }
   void merge(uint32_t from, size_t into) {
-    Piece &a = m_pieces[into], &b = m_pieces[from];
-    for (const Piece* piece : {&a, &b}) {
+    RigidPiece &a = m_pieces[into], &b = m_pieces[from];
+    for (const RigidPiece* piece : {&a, &b}) {
       if (piece->group < m_all.count) m_gone[piece->group] = 1;
     }
-    forKept(b, [&](size_t k) { a.joined.push_back(m_all.particles[k]); });
+    const size_t before = a.joined.size();
+    a.joined.resize(before + (b.group < m_all.count ? b.left(m_all) : 0));
+    eachKept(b, [&](size_t n, size_t k) { a.joined[before + n] = m_all.particles[k]; });
     a.joined.insert(a.joined.end(), b.joined.begin(), b.joined.end());
     a.changed = true;
     b = {m_all.count, false, {}, {}, false};
   }
 
   /// Members keep their velocities, and a body takes its momentum from them: none is lost on the way.
-  void emit(const Piece& piece, api::GroupSink& sink) const {
-    NewRigidGroup group;
-    if (piece.group == m_all.count) {
+  void emit(const RigidPiece& piece, api::GroupSink& sink) {
+    const bool begins = piece.group == m_all.count;
+    const size_t left = begins ? 0 : piece.left(m_all);
+    m_made.resize(left + piece.joined.size());
+    const auto join = [&](const auto& placeOf, double shrunk) {
+      forShared(m_threads, piece.joined.size(), kPerParticle, [&](size_t n) {
+        const uint32_t i = piece.joined[n];
+        m_made.set(left + n, i, placeOf(vectorOf(m_p.position[i])),
+                   static_cast<float>(double{m_p.position[i].w} * shrunk));
+      });
+    };
+    if (begins) {
       const Vector origin = vectorOf(m_p.position[piece.joined[0]]);
-      for (const uint32_t i : piece.joined) group.add(i, vectorOf(m_p.position[i]) - origin, m_p.position[i].w);
-      group.emit(centreOf(m_p, group.particles), {}, 1, sink);
-      return;
+      join([&](Vector at) { return at - origin; }, 1);
+      return m_made.emit(centreOf(m_p, m_made.particles), {}, 1, sink);
     }
     const RigidBody body(m_p, m_all, piece.group, m_threads);
-    forKept(piece, [&](size_t k) {
-      group.add(m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
+    eachKept(piece, [&](size_t n, size_t k) {
+      m_made.set(n, m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
     });
-    const double scale = body.scale(), shrunk = 1 / (scale * scale * scale);
-    for (const uint32_t i : piece.joined) {
-      group.add(i, body.restOf(vectorOf(m_p.position[i])), static_cast<float>(double{m_p.position[i].w} * shrunk));
-    }
-    group.emit(centreOf(m_p, group.particles), body.rotation(), m_all.values[RigidModel::kScale][piece.group], sink);
+    const double scale = body.scale();
+    join([&](Vector at) { return body.restOf(at); }, 1 / (scale * scale * scale));
+    m_made.emit(centreOf(m_p, m_made.particles), body.rotation(), m_all.values[RigidModel::kScale][piece.group], sink);
   }
 
   const ConstraintContext& m_context;
@@ -365,12 +288,11 @@ class Reshaping {
   const Joining m_joining;
   float* m_touch;
   std::vector<uint8_t> m_gone;  ///< groups that do not stay as they are
-  std::vector<Piece> m_pieces;
-  std::vector<size_t> m_placeOf;    ///< of particles in the group that is split
-  std::vector<uint8_t> m_followed;  ///< of its members
+  std::vector<RigidPiece> m_pieces;
   std::vector<uint32_t> m_pieceOf;  ///< by particle
-  std::vector<uint8_t> m_drying;    ///< of members, in order: nobody is left who may freeze to it
+  std::vector<uint8_t> m_drying;    ///< by member: nobody is left who may freeze to it
   std::vector<float> m_touched;     ///< s, likewise: what m_touch is after this frame
+  NewRigidGroup m_made;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/frame/hovering.h"
 
+#include "core/base/parallelarrays.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,57 +51,67 @@ void Hovering::observe(const Matter& matter) {
   remember();
   const auto isDue = [](const Piece& piece) { return piece.seconds >= kWatch; };
   if (std::none_of(m_pieces.begin(), m_pieces.end(), isDue)) return;
-  listMembers(matter);
-  for (uint32_t slot = 0; slot < m_pieces.size(); ++slot) {
-    if (!isDue(m_pieces[slot])) continue;
-    m_pieces[slot].solid = m_pieces[slot].liquid = 0;
-    judge(matter, slot);
-    m_pieces[slot].seconds = 0;
-  }
-}
-
-/// Counted into place: pieces may be thousands, all due in one frame.
-void Hovering::listMembers(const Matter& matter) {
-  m_end.assign(m_pieces.size() + 1, 0);
-  const auto slotOf = [&](uint32_t i) {
-    return matter.pieceOf[i] == ConstraintSystem::kNoPiece ? kNone : m_slot[matter.pieceOf[i]];
-  };
-  const auto count = static_cast<uint32_t>(matter.store.size());
-  for (uint32_t i = 0; i < count; ++i) {
-    if (slotOf(i) != kNone) ++m_end[slotOf(i) + 1];
-  }
-  for (size_t slot = 1; slot < m_end.size(); ++slot) m_end[slot] += m_end[slot - 1];
-  m_members.resize(m_end.back());
-  for (uint32_t i = 0; i < count; ++i) {
-    if (slotOf(i) != kNone) m_members[m_end[slotOf(i)]++] = i;
+  for (Piece& piece : m_pieces) {
+    if (!isDue(piece)) continue;
+    piece.solid = piece.liquid = 0;
+    judge(matter, piece);
+    piece.seconds = 0;
   }
 }
 
 void Hovering::findPieces(const Matter& matter) {
-  const ParticleStore& store = matter.store;
-  m_slot.assign(store.size(), kNone);
+  const PieceLists& lists = matter.pieces;
+  m_isWet.assign(lists.count(), 0);
   for (const uint32_t i : matter.wetSolids) {
-    const uint32_t piece = matter.pieceOf[i];
-    if (piece == ConstraintSystem::kNoPiece || m_slot[piece] != kNone) continue;
-    m_slot[piece] = static_cast<uint32_t>(m_pieces.size());
-    m_pieces.emplace_back();
+    const uint32_t first = matter.pieceOf[i];
+    if (first == ConstraintSystem::kNoPiece || m_isWet[lists.pieceOf(first)] != 0) continue;
+    Piece& piece = m_pieces.emplace_back();
+    piece.list = lists.pieceOf(first);
+    m_isWet[piece.list] = 1;
   }
   if (m_pieces.empty()) return;
-  m_hangs.assign(store.size(), 0);
-  for (const uint32_t i : matter.hanging) m_hangs[i] = 1;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (matter.pieceOf[i] == ConstraintSystem::kNoPiece || m_slot[matter.pieceOf[i]] == kNone) continue;
-    Piece& piece = m_pieces[m_slot[matter.pieceOf[i]]];
+  m_hangs.clear();
+  if (!matter.hanging.empty()) {
+    assignAll(m_hangs, matter.store.size(), uint8_t{0});
+    forChunks(matter.hanging.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      for (const uint32_t i : matter.hanging.subspan(first, last - first)) m_hangs[i] = 1;
+    });
+  }
+  m_runs.clear();
+  for (size_t p = 0; p < m_pieces.size(); ++p) {
+    const std::span<const uint32_t> members = lists.members(m_pieces[p].list);
+    for (size_t first = 0; first < members.size(); first += grain::kParticles)
+      m_runs.push_back({p, members.subspan(first, std::min(grain::kParticles, members.size() - first))});
+  }
+  m_parts.assign(m_runs.size(), {});
+  forChunks(m_runs.size(), 1, [&](size_t first, size_t last) {
+    for (size_t r = first; r < last; ++r) add(matter, m_runs[r], m_parts[r]);
+  });
+  for (size_t r = 0; r < m_runs.size(); ++r) {
+    Piece& piece = m_pieces[m_runs[r].piece];
+    if (piece.id == kNone) piece.material = matter.store.material()[m_runs[r].members[0]];
+    piece.id = std::min(piece.id, m_parts[r].id);
+    piece.free = piece.free && m_parts[r].free;
+    piece.mass += m_parts[r].mass;
+    piece.volume += m_parts[r].volume;
+    piece.moment += m_parts[r].moment;
+  }
+}
+
+void Hovering::add(const Matter& matter, const Run& run, Piece& piece) const {
+  const ParticleStore& store = matter.store;
+  Piece sums;
+  for (const uint32_t i : run.members) {
     const uint32_t body = store.body()[i];
     const bool thin = body < matter.thinBodies.size() && matter.thinBodies[body] != 0;
-    if (store.velocity()[i].w == 0 || m_hangs[i] != 0 || thin) piece.free = false;
-    if (piece.id == kNone) piece.material = store.material()[i];
-    piece.id = std::min(piece.id, store.id()[i]);
+    if (store.velocity()[i].w == 0 || (!m_hangs.empty() && m_hangs[i] != 0) || thin) sums.free = false;
+    sums.id = std::min(sums.id, store.id()[i]);
     const double mass = store.mass()[i];
-    piece.mass += mass;
-    piece.volume += double{store.position()[i].w};
-    piece.moment += mass * vectorOf(store.position()[i]).dot(m_up);
+    sums.mass += mass;
+    sums.volume += double{store.position()[i].w};
+    sums.moment += mass * vectorOf(store.position()[i]).dot(m_up);
   }
+  piece = sums;
 }
 
 /// Goes on with what was watched in the frame before.
@@ -162,15 +174,33 @@ void Hovering::lookAround(const Matter& matter, uint32_t i, Around& around) cons
   around.dry += filled < kFilled ? 1 : 0;
 }
 
-void Hovering::judge(const Matter& matter, uint32_t slot) {
-  Piece& piece = m_pieces[slot];
+void Hovering::Around::add(const Around& other) {
+  liquid += other.liquid, density += other.density, rise += other.rise, viscosity += other.viscosity;
+  yieldStress = std::max(yieldStress, other.yieldStress);
+  members += other.members, dry += other.dry;
+  stands = stands || other.stands;
+}
+
+/// Of one that stands on something the rest need not be known.
+Hovering::Around Hovering::around(const Matter& matter, std::span<const uint32_t> members) {
+  m_around.assign(chunkCount(members.size(), grain::kNeighbours), {});
+  anyChunk(members.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+    Around own;
+    for (size_t k = first; k < last && !own.stands; ++k) lookAround(matter, members[k], own);
+    m_around[first / grain::kNeighbours] = own;
+    return own.stands;
+  });
+  Around all;
+  for (const Around& some : m_around) all.add(some);
+  return all;
+}
+
+void Hovering::judge(const Matter& matter, Piece& piece) {
   if (!piece.free) return;
   const double density = piece.mass / piece.volume, size = std::cbrt(piece.volume);
   const double fastest = std::sqrt(std::max(0.0, m_gravity * size));
   if (piece.farthest > kStill * fastest * piece.seconds) return;  // too fast in any liquid that is not much lighter
-  Around around;
-  for (uint32_t k = slot > 0 ? m_end[slot - 1] : 0; k < m_end[slot] && !around.stands; ++k)
-    lookAround(matter, m_members[k], around);
+  const Around around = this->around(matter, matter.pieces.members(piece.list));
   if (around.stands || around.liquid == 0) return;
   if (static_cast<double>(around.dry) > kDryShare * static_cast<double>(around.members)) return;
   const double liquid = around.density / around.liquid, excess = density / liquid - 1;

@@ -6,6 +6,7 @@
 #include "core/solver/fluid/density.h"
 #include "core/solver/report.h"
 #include "core/solver/structure/constraintsystem.h"
+#include "core/solver/structure/piecelists.h"
 
 #include <span>
 #include <vector>
@@ -28,7 +29,9 @@ class Hovering {
   struct Matter {
     const ParticleStore& store;
     const Neighbours& neighbours;
-    std::span<const uint32_t> pieceOf, wetSolids, hanging;
+    std::span<const uint32_t> pieceOf;
+    const PieceLists& pieces;
+    std::span<const uint32_t> wetSolids, hanging;
     std::span<const uint8_t> thinBodies;
   };
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -42,6 +45,7 @@ class Hovering {
   static constexpr uint32_t kNone = ~0u;
   /// A piece with liquid around it, as the frame ended.
   struct Piece {
+    size_t list = 0;                              ///< of its members
     uint32_t id = kNone, material = 0;            ///< the least of its particles; of the first one
     bool free = true;                             ///< moves by itself
     double mass = 0, volume = 0, moment = 0;      ///< kg, m3, kg m
@@ -51,15 +55,22 @@ class Hovering {
   };
   /// What lies around a piece.
   struct Around {
+    void add(const Around& other);
     double liquid = 0, density = 0, rise = 0, viscosity = 0;  ///< neighbours, and sums over them
     double yieldStress = 0;                                   ///< Pa, the most of them
     size_t members = 0, dry = 0;
     bool stands = false;  ///< on something
   };
+  /// As many members of a piece as a chunk holds.
+  struct Run {
+    size_t piece;
+    std::span<const uint32_t> members;
+  };
   void findPieces(const Matter& matter);
   void remember();
-  void listMembers(const Matter& matter);
-  void judge(const Matter& matter, uint32_t slot);
+  void add(const Matter& matter, const Run& run, Piece& piece) const;
+  Around around(const Matter& matter, std::span<const uint32_t> members);
+  void judge(const Matter& matter, Piece& piece);
   void lookAround(const Matter& matter, uint32_t i, Around& around) const;
   double wallShare(const api::Float4& at) const;
 
@@ -70,10 +81,12 @@ class Hovering {
   HalfSpaceTable m_halfSpace;
   Vector3 m_up;  ///< zero without gravity
   double m_gravity = 0;
-  std::vector<uint32_t> m_slot;            ///< by particle's piece: where it stands in m_pieces
-  std::vector<uint8_t> m_hangs;            ///< by particle
-  std::vector<Piece> m_pieces, m_former;   ///< of this frame, and of the one before
-  std::vector<uint32_t> m_members, m_end;  ///< particles of one piece after the other, and where each ends
+  std::vector<uint8_t> m_isWet;           ///< by piece of the structure
+  std::vector<uint8_t> m_hangs;           ///< by particle
+  std::vector<Piece> m_pieces, m_former;  ///< of this frame, and of the one before
+  std::vector<Run> m_runs;
+  std::vector<Piece> m_parts;    ///< of runs
+  std::vector<Around> m_around;  ///< of chunks of a piece
 };
 
 }  // namespace ps

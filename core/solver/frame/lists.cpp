@@ -50,7 +50,8 @@ void Solver::Impl::listsChanged(bool newStructure) {
     constraints.findHanging(store, hanging);
     constraints.findPieces(store.size(), pieceOf);
     rebound.refresh();
-    pieceSpin.refresh(store, constraints.graph(store.size()), pieceOf);
+    pieces.refresh(pieceOf);
+    pieceSpin.refresh(store, constraints.graph(store.size()), pieces);
     constraints.findHeld(store);
     anchorsKnown = false;
     findThinSolids();

@@ -21,6 +21,7 @@
 #include "core/solver/heat/phasestage.h"
 #include "core/solver/solver.h"
 #include "core/solver/structure/constraintsystem.h"
+#include "core/solver/structure/piecelists.h"
 #include "core/solver/structure/piecespin.h"
 
 #include <chrono>
@@ -83,6 +84,7 @@ struct Solver::Impl {
   LiquidContact sheets{{0.9, 2}};
   std::vector<uint32_t> thinSolids;  ///< particles of sheets and lines, ascending
   RigidContact rigid;
+  PieceLists pieces;
   PieceSpin pieceSpin;
   std::vector<uint32_t> pieceOf;  ///< of the structure: ConstraintSystem::pieces()
   GasForces gas;
@@ -149,9 +151,9 @@ struct Solver::Impl {
   int structurePasses() const;
   void iterate(uint32_t index, double dt);
   void predict(uint32_t index, double dt);
-  Vector3 momentum();                     ///< kg m/s, of what moves
-  Vector3 momentumOfHanging() const;      ///< kg m/s
-  Vector3 displacementOfHanging() const;  ///< kg m, since the start of the substep
+  Vector3 momentum();               ///< kg m/s, of what moves
+  Vector3 momentumOfHanging();      ///< kg m/s
+  Vector3 displacementOfHanging();  ///< kg m, since the start of the substep
   /// Calls into plugins, and books what comes from outside: nothing, unless something hangs on what is fixed.
   template <class Call>
   void structure(Call&& call, double dt);

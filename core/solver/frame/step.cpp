@@ -45,18 +45,24 @@ Vector3 Solver::Impl::momentum() {
   });
 }
 
-Vector3 Solver::Impl::momentumOfHanging() const {
-  Vector3 sum;
-  for (const uint32_t i : hanging) sum += double{store.mass()[i]} * vectorOf(store.velocity()[i]);
-  return sum;
+Vector3 Solver::Impl::momentumOfHanging() {
+  return sumOfChunks(weight, hanging.size(), grain::kParticles, [&](size_t first, size_t last) {
+    Vector3 sum;
+    for (size_t k = first; k < last; ++k)
+      sum += double{store.mass()[hanging[k]]} * vectorOf(store.velocity()[hanging[k]]);
+    return sum;
+  });
 }
 
-Vector3 Solver::Impl::displacementOfHanging() const {
-  Vector3 sum;
-  for (const uint32_t i : hanging) {
-    sum += double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
-  }
-  return sum;
+Vector3 Solver::Impl::displacementOfHanging() {
+  return sumOfChunks(weight, hanging.size(), grain::kParticles, [&](size_t first, size_t last) {
+    Vector3 sum;
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = hanging[k];
+      sum += double{store.mass()[i]} * (vectorOf(store.position()[i]) - vectorOf(store.previous()[i]));
+    }
+    return sum;
+  });
 }
 
 template <class Call>
@@ -74,10 +80,10 @@ void Solver::Impl::findThinSolids() {
   const std::span<const uint8_t> thin = constraints.thinBodies();
   thinSolids.clear();
   if (std::find(thin.begin(), thin.end(), uint8_t{1}) == thin.end()) return;
-  for (uint32_t i = 0; i < store.size(); ++i) {
+  findIndices(store.size(), thinSolids, [&](size_t i) {
     const uint32_t body = store.body()[i];
-    if (store.motion()[i] == api::Motion::Solid && body < thin.size() && thin[body] != 0) thinSolids.push_back(i);
-  }
+    return store.motion()[i] == api::Motion::Solid && body < thin.size() && thin[body] != 0;
+  });
 }
 
 std::string Solver::Impl::describe(size_t i) const {
@@ -202,7 +208,7 @@ void Solver::Impl::judgeDensity() {
 void Solver::Impl::closeFrame() {
   judgeDensity();
   timed(Stage::Contact, [&] {
-    hovering.observe({store, neighbours, pieceOf, density.wetSolids(), hanging, constraints.thinBodies()});
+    hovering.observe({store, neighbours, pieceOf, pieces, density.wetSolids(), hanging, constraints.thinBodies()});
   });
   timed(Stage::Phase, [&] { changePhases(); });
   timed(Stage::Structure, [&] { structureChanged = constraints.topology(store, neighbours) || structureChanged; });

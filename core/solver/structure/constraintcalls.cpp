@@ -91,9 +91,8 @@ void ConstraintSystem::findHeld(const ParticleStore& store) {
   m_held.clear();
   if (std::none_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.springs && set.count > 0; })) return;
   const StructureGraph& ties = graph(store.size());
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (store.velocity()[i].w == 0 && ties.begin[i + 1] > ties.begin[i]) m_openHeld.push_back(i);
-  }
+  findIndices(store.size(), m_openHeld,
+              [&](size_t i) { return store.velocity()[i].w == 0 && ties.begin[i + 1] > ties.begin[i]; });
   if (m_openHeld.empty()) return;
   m_held.assign(store.size(), 0);
   for (const uint32_t i : m_openHeld) m_held[i] = 1;
@@ -183,11 +182,10 @@ bool ConstraintSystem::leapt(const ParticleStore& store) const {
 
 void ConstraintSystem::findMembers(Set& set, const ParticleStore& store) const {
   if (set.membersOf == store.size()) return;
-  set.members.clear();
-  for (uint32_t i = 0; i < store.size(); ++i) {
+  findIndices(store.size(), set.members, [&](size_t i) {
     const uint32_t body = store.body()[i];
-    if (body < set.used.size() && set.used[body] != 0) set.members.push_back(i);
-  }
+    return body < set.used.size() && set.used[body] != 0;
+  });
   set.membersOf = store.size();
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of ConstraintSystem that hosts plugins of groups.
 #include "core/base/error.h"
-#include "core/base/parallel.h"
+#include "core/base/parallelarrays.h"
 #include "core/solver/matter.h"
 #include "core/solver/structure/constraintsystem.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace ps {
@@ -25,13 +26,7 @@ class ConstraintSystem::Groups final : public api::GroupSink {
     if (!particles || !hasValues || !hasMembers) throw Error("added a group by a null pointer");
     ++m_serial;
     m_lastUse.resize(m_particles, 0);  // most calls add nothing
-    inSlices(0, count, [&](size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) {
-        if (particles[k] >= m_particles) throw Error("added a group with a particle that does not exist");
-        if (m_lastUse[particles[k]] == m_serial) throw Error("added a group that names a particle twice");
-        m_lastUse[particles[k]] = m_serial;
-      }
-    });
+    inSlices(0, count, [&](size_t first, size_t last) { check({particles + first, last - first}); });
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + count);
     m_edits.ends.push_back(m_edits.particles.size());
     m_edits.values.insert(m_edits.values.end(), values, values + m_lists.valueCount());
@@ -53,6 +48,16 @@ class ConstraintSystem::Groups final : public api::GroupSink {
   const GroupLists::Edits& edits() const { return m_edits; }
 
  private:
+  void check(std::span<const uint32_t> particles) {
+    forChunks(particles.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      for (const uint32_t i : particles.subspan(first, last - first)) {
+        if (i >= m_particles) throw Error("added a group with a particle that does not exist");
+        if (std::atomic_ref(m_lastUse[i]).exchange(m_serial, std::memory_order_relaxed) == m_serial)
+          throw Error("added a group that names a particle twice");
+      }
+    });
+  }
+
   const Set& m_set;
   const GroupLists& m_lists;
   size_t m_particles;
@@ -182,11 +187,11 @@ void ConstraintSystem::putGroupsBack(Set& set, ParticleStore& store, std::span<c
 }
 
 void ConstraintSystem::findGroupMembers(const ParticleStore& store, std::vector<uint8_t>& marks) const {
-  marks.assign(store.size(), 0);
+  assignAll(marks, store.size(), uint8_t{0});
   for (const Set& set : m_sets) {
-    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) {
-      for (const uint32_t i : set.groups->members(g)) marks[i] = 1;
-    }
+    if (set.groups)
+      set.groups->eachMember(
+          [&](uint32_t i, size_t) { std::atomic_ref(marks[i]).store(1, std::memory_order_relaxed); });
   }
 }
 

@@ -165,7 +165,7 @@ class ConstraintSystem {
   const std::string& culprit() const { return m_culprit; }
 
  private:
-  void addGroupsTo(StructureGraph& graph, size_t particles) const;
+  void addGroupsTo(StructureGraph& graph, size_t particles);
   /// Constraints from here on, up to the next run, belong to one body and one colour.
   struct Run {
     size_t first;
@@ -304,7 +304,7 @@ class ConstraintSystem {
   struct Sorting {
     std::vector<uint32_t> end, ofParticle, runOf, from, next;
   } m_sorting;
-  std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): lowest member of each
+  std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): a member of each, by its serial
   std::vector<uint32_t> m_open;              ///< of takeAlong(), still to be followed
   std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
   std::vector<api::Float4> m_correction;

@@ -1,14 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/solver/structure/grouplists.h"
 
+#include "core/base/parallelarrays.h"
 #include "core/base/progress.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <map>
 #include <utility>
 
 namespace ps {
+
+namespace {
+
+/// visit(part, from, to) for what of [first, last) lies within each of the parts that begin so, counted from its begin.
+template <class Visit>
+void eachPart(std::span<const size_t> begin, size_t first, size_t last, const Visit& visit) {
+  size_t part = static_cast<size_t>(std::upper_bound(begin.begin(), begin.end(), first) - begin.begin()) - 1;
+  for (size_t next = first; next < last; ++part) {
+    const size_t end = std::min(last, begin[part + 1]);
+    visit(part, next - begin[part], end - begin[part]);
+    next = end;
+  }
+}
+
+}  // namespace
 
 GroupLists::GroupLists(size_t values, size_t memberValues) : m_values(values), m_memberValues(memberValues) {}
 
@@ -21,94 +38,129 @@ void GroupLists::fill(Batch& batch, size_t first, size_t last) {
                 batch.values.data(), batch.memberValues.data(), m_changed.data() + first};
 }
 
-void GroupLists::append(std::span<const uint32_t> particles, const float* values, const float* memberValues,
-                        uint8_t changed, uint32_t body) {
-  m_particles.insert(m_particles.end(), particles.begin(), particles.end());
-  m_begin.push_back(m_particles.size());
-  m_changed.push_back(changed);
-  m_body.push_back(body);
-  for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(values[v]);
-  for (size_t k = 0; k < particles.size(); ++k) {
-    for (auto& column : m_memberValues) column.push_back(*memberValues++);
-  }
-}
-
-/// All columns would grow at once, and to move millions of members takes its time.
-void GroupLists::reserveMembers(size_t count) {
-  m_particles.reserve(count);
-  for (auto& column : m_memberValues) column.reserve(count);
-}
-
 void GroupLists::apply(const Edits& edits, std::span<const uint32_t> body) {
   if (edits.empty()) return;
-  GroupLists old(m_values.size(), m_memberValues.size());
-  std::swap(old, *this);
-  reserveMembers(old.m_particles.size() + edits.particles.size());
-  std::vector<float> values(m_values.size()), memberValues;
-  for (size_t g = 0; g < old.count(); ++g) {
-    if (!edits.removed.empty() && edits.removed[g] != 0) continue;
-    for (size_t v = 0; v < values.size(); ++v) values[v] = old.m_values[v][g];
-    memberValues.clear();
-    for (size_t k = old.m_begin[g]; k < old.m_begin[g + 1]; ++k) {
-      for (const auto& column : old.m_memberValues) memberValues.push_back(column[k]);
-    }
-    advance(0);
-    append(old.members(g), values.data(), memberValues.data(), old.m_changed[g], old.m_body[g]);
+  std::vector<Source> sources;
+  sources.reserve(count() + edits.ends.size());
+  for (size_t g = 0; g < count(); ++g) {
+    if (edits.removed.empty() || edits.removed[g] == 0)
+      sources.push_back({members(g), m_begin[g], static_cast<uint32_t>(g), m_body[g], false});
   }
   for (size_t g = 0, begin = 0; g < edits.ends.size(); begin = edits.ends[g++]) {
-    advance(edits.ends[g] - begin);
-    append({edits.particles.data() + begin, edits.ends[g] - begin}, edits.values.data() + g * m_values.size(),
-           edits.memberValues.data() + begin * m_memberValues.size(), 0, body[edits.particles[begin]]);
+    const std::span particles(edits.particles.data() + begin, edits.ends[g] - begin);
+    sources.push_back({particles, begin, static_cast<uint32_t>(g), body[particles[0]], true});
   }
-  colour(body.size());
+  arrange(sources, edits, body.size());
 }
 
 void GroupLists::bodiesChanged(std::span<const uint32_t> body) {
-  for (size_t g = 0; g < count(); ++g) m_body[g] = body[m_particles[m_begin[g]]];
-  colour(body.size());
+  std::vector<Source> sources;
+  for (size_t g = 0; g < count(); ++g)
+    sources.push_back({members(g), m_begin[g], static_cast<uint32_t>(g), body[m_particles[m_begin[g]]], false});
+  arrange(sources, {}, body.size());
 }
 
-void GroupLists::colour(size_t particles) {
-  std::vector<std::vector<uint64_t>> used;  // [word of 64 colours][particle]
-  std::vector<size_t> colourOf(count());
+/// Puts groups in order of colour and of body.
+void GroupLists::arrange(const std::vector<Source>& sources, const Edits& edits, size_t particles) {
+  std::vector<size_t> colourOf(sources.size()), order(sources.size());
+  const size_t colours = colourAll(sources, particles, colourOf);
+  for (size_t s = 0; s < order.size(); ++s) order[s] = s;
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return colourOf[a] != colourOf[b] ? colourOf[a] < colourOf[b] : sources[a].body < sources[b].body;
+  });
+  GroupLists made(m_values.size(), m_memberValues.size());
+  made.m_colourStart.assign(colours + 1, 0);
+  for (const size_t s : order) {
+    const Source& source = sources[s];
+    ++made.m_colourStart[colourOf[s] + 1];
+    made.m_begin.push_back(made.m_begin.back() + source.particles.size());
+    made.m_changed.push_back(source.added ? uint8_t{0} : m_changed[source.group]);
+    made.m_body.push_back(source.body);
+    for (size_t v = 0; v < m_values.size(); ++v)
+      made.m_values[v].push_back(source.added ? edits.values[source.group * m_values.size() + v]
+                                              : m_values[v][source.group]);
+  }
+  for (size_t c = 0; c < colours; ++c) made.m_colourStart[c + 1] += made.m_colourStart[c];
+  made.m_particles = std::move(m_spareParticles);
+  made.m_memberValues.swap(m_spareValues);
+  made.m_memberValues.resize(m_memberValues.size());
+  made.copyMembers(*this, sources, order, edits);
+  made.m_spareParticles.swap(m_particles);
+  made.m_spareValues.swap(m_memberValues);
+  *this = std::move(made);
+  if (!t_progress) return;  // of a scene in the making: there may be millions of them
+  m_spareParticles = {};
+  m_spareValues.clear();
+}
+
+/// The first colour that no group with one of its particles has.
+size_t GroupLists::colourAll(const std::vector<Source>& sources, size_t particles, std::vector<size_t>& colourOf) {
+  if (sources.empty()) return 0;
+  if (!anyShared(sources, particles)) return 1;  // as of rigid bodies
+  std::vector<std::vector<uint64_t>> used;       // [word of 64 colours][particle]
   size_t colours = 0;
-  for (size_t g = 0; g < count(); ++g) {
+  for (size_t s = 0; s < sources.size(); ++s) {
     advance(0);
     for (size_t word = 0;; ++word) {
       if (word == used.size()) used.emplace_back(particles, 0);
       uint64_t inUse = 0;
-      for (const uint32_t i : members(g)) inUse |= used[word][i];
+      for (const uint32_t i : sources[s].particles) inUse |= used[word][i];
       if (inUse == ~uint64_t{0}) continue;
       const size_t bit = static_cast<size_t>(std::countr_one(inUse));
-      for (const uint32_t i : members(g)) used[word][i] |= uint64_t{1} << bit;
-      colourOf[g] = 64 * word + bit;
+      for (const uint32_t i : sources[s].particles) used[word][i] |= uint64_t{1} << bit;
+      colourOf[s] = 64 * word + bit;
       break;
     }
-    colours = std::max(colours, colourOf[g] + 1);
+    colours = std::max(colours, colourOf[s] + 1);
   }
-  std::vector<size_t> order(count());
-  for (size_t g = 0; g < order.size(); ++g) order[g] = g;
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return colourOf[a] != colourOf[b] ? colourOf[a] < colourOf[b] : m_body[a] < m_body[b];
+  return colours;
+}
+
+bool GroupLists::anyShared(const std::vector<Source>& sources, size_t particles) {
+  std::vector<size_t> begin{0};
+  for (const Source& source : sources) begin.push_back(begin.back() + source.particles.size());
+  if (begin.back() > particles) return true;
+  std::vector<uint8_t> seen(particles, 0);
+  return anyChunk(begin.back(), grain::kNumbers, [&](size_t first, size_t last) {
+    bool shared = false;
+    eachPart(begin, first, last, [&](size_t s, size_t from, size_t to) {
+      for (size_t k = from; k < to; ++k) {
+        std::atomic_ref<uint8_t> mark(seen[sources[s].particles[k]]);
+        shared = mark.exchange(1, std::memory_order_relaxed) != 0 || shared;
+      }
+    });
+    return shared;
   });
-  GroupLists old(m_values.size(), m_memberValues.size());
-  std::swap(old, *this);
-  reserveMembers(old.m_particles.size());
-  m_colourStart.assign(colours + 1, 0);
-  for (const size_t g : order) {
-    advance(old.members(g).size());
-    ++m_colourStart[colourOf[g] + 1];
-    for (size_t v = 0; v < m_values.size(); ++v) m_values[v].push_back(old.m_values[v][g]);
-    for (size_t v = 0; v < m_memberValues.size(); ++v) {
-      const float* column = old.m_memberValues[v].data();
-      m_memberValues[v].insert(m_memberValues[v].end(), column + old.m_begin[g], column + old.m_begin[g + 1]);
+}
+
+/// From where they were, row by row or column by column.
+void GroupLists::copyMembers(const GroupLists& old, const std::vector<Source>& sources, std::span<const size_t> order,
+                             const Edits& edits) {
+  const size_t total = m_begin.back(), columns = m_memberValues.size();
+  lengthen(m_particles, total);
+  for (auto& column : m_memberValues) lengthen(column, total);
+  const auto copy = [&](size_t g, size_t from, size_t to) {
+    const Source& source = sources[order[g]];
+    const size_t place = m_begin[g] + from, n = to - from, before = source.from + from;
+    std::copy_n(source.particles.data() + from, n, m_particles.data() + place);
+    for (size_t v = 0; v < columns; ++v) {
+      float* column = m_memberValues[v].data() + place;
+      if (!source.added) {
+        std::copy_n(old.m_memberValues[v].data() + before, n, column);
+        continue;
+      }
+      const float* rows = edits.memberValues.data() + before * columns + v;
+      for (size_t k = 0; k < n; ++k) column[k] = rows[k * columns];
     }
-    m_particles.insert(m_particles.end(), old.members(g).begin(), old.members(g).end());
-    m_begin.push_back(m_particles.size());
-    m_changed.push_back(old.m_changed[g]);
-    m_body.push_back(old.m_body[g]);
-  }
-  for (size_t c = 0; c < colours; ++c) m_colourStart[c + 1] += m_colourStart[c];
+  };
+  const auto copyAll = [&](size_t begin, size_t end) {
+    forChunks(end - begin, grain::kNumbers,
+              [&](size_t first, size_t last) { eachPart(m_begin, begin + first, begin + last, copy); });
+  };
+  if (!t_progress) return copyAll(0, total);
+  // What is added is told twice, as what is coloured and what is put in order.
+  inSlices(0, edits.particles.size(), [](size_t, size_t) {});
+  inSlices(0, total, copyAll);
 }
 
 void GroupLists::renumber(std::span<const uint32_t> newIndex) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/base/parallel.h"
 #include "core/particles/particlestore.h"
 
 #include <phasesketch/constraint.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -62,6 +64,17 @@ class GroupLists {
   void bodiesChanged(std::span<const uint32_t> body);
   size_t valueCount() const { return m_values.size(); }
   size_t memberValueCount() const { return m_memberValues.size(); }
+  /// visit(i, g) for each member i of each group g, by any thread.
+  template <class Visit>
+  void eachMember(const Visit& visit) const {
+    forChunks(m_particles.size(), grain::kNumbers, [&](size_t first, size_t last) {
+      size_t g = static_cast<size_t>(std::upper_bound(m_begin.begin(), m_begin.end(), first) - m_begin.begin()) - 1;
+      for (size_t k = first; k < last; ++k) {
+        while (k >= m_begin[g + 1]) ++g;
+        visit(m_particles[k], g);
+      }
+    });
+  }
   /// Groups [first, last); valid until the lists change. `batch` is filled in place, because it points into itself.
   void fill(Batch& batch, size_t first, size_t last);
 
@@ -90,16 +103,28 @@ class GroupLists {
   static constexpr uint32_t kGone = ~0u;
 
  private:
-  void append(std::span<const uint32_t> particles, const float* values, const float* memberValues, uint8_t changed,
-              uint32_t body);
-  void reserveMembers(size_t count);
-  void colour(size_t particles);
+  /// Where a group comes from: it is there already, or the next of those that are added.
+  struct Source {
+    std::span<const uint32_t> particles;
+    size_t from;  ///< its first place, here or among those that are added
+    uint32_t group;
+    uint32_t body;
+    bool added;
+  };
+  void arrange(const std::vector<Source>& sources, const Edits& edits, size_t particles);
+  static size_t colourAll(const std::vector<Source>& sources, size_t particles, std::vector<size_t>& colourOf);
+  static bool anyShared(const std::vector<Source>& sources, size_t particles);
+  void copyMembers(const GroupLists& old, const std::vector<Source>& sources, std::span<const size_t> order,
+                   const Edits& edits);
   /// The group that holds most of those marked, or count().
   size_t homeOf(std::span<const uint8_t> companion) const;
 
   std::vector<size_t> m_begin{0};
   std::vector<uint32_t> m_particles;
   std::vector<std::vector<float>> m_values, m_memberValues;  ///< [value][group], [value][place]
+  /// What the lists of members were before: groups come and go in most frames while matter melts.
+  std::vector<uint32_t> m_spareParticles;
+  std::vector<std::vector<float>> m_spareValues;
   std::vector<uint8_t> m_changed;
   std::vector<uint32_t> m_body;
   std::vector<size_t> m_colourStart{0};

@@ -3,11 +3,13 @@
 
 #include "core/base/parallel.h"
 #include "core/solver/structure/constraintsystem.h"
+#include "core/solver/structure/piecelists.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <atomic>
 
 namespace ps {
 namespace {
@@ -17,37 +19,32 @@ namespace {
 constexpr double kLeastDeterminant = 1e-6;
 /// Places are in single precision: what a piece has less of, as a share of the moments about the origin, is rounding.
 constexpr double kRounding = 1e-10;
+/// What there is among the members of a piece.
+constexpr unsigned kFixed = 1, kGrouped = 2;
 
 }  // namespace
 
-void PieceSpin::refresh(const ParticleStore& store, const StructureGraph& graph, std::span<const uint32_t> pieceOf) {
+void PieceSpin::refresh(const ParticleStore& store, const StructureGraph& graph, const PieceLists& pieces) {
   m_runs.clear();
   m_pieces.clear();
-  m_members.clear();
-  m_count.assign(store.size(), 0);
-  m_grouped.assign(store.size(), 0);
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (pieceOf[i] != kNone) ++m_count[pieceOf[i]];
-  }
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    const uint32_t piece = pieceOf[i];
-    if (piece == kNone) continue;
-    if (store.velocity()[i].w == 0) m_count[piece] = 0;
-    if (graph.groupBegin[i + 1] != graph.groupBegin[i]) m_grouped[piece] = 1;
-  }
-  size_t members = 0;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    uint32_t& count = m_count[i];
-    const size_t first = members, last = members + count;
-    for (size_t k = first; k < last; k += grain::kParticles)
+  m_members = pieces.members();
+  m_kinds.assign(pieces.count(), 0);
+  forChunks(m_members.size(), grain::kNumbers, [&](size_t first, size_t last) {
+    pieces.eachPart(first, last, [&](size_t piece, std::span<const uint32_t> members) {
+      unsigned kinds = 0;
+      for (const uint32_t i : members) {
+        kinds |= store.velocity()[i].w == 0 ? kFixed : 0u;
+        kinds |= graph.groupBegin[i + 1] != graph.groupBegin[i] ? kGrouped : 0u;
+      }
+      std::atomic_ref(m_kinds[piece]).fetch_or(static_cast<uint8_t>(kinds), std::memory_order_relaxed);
+    });
+  });
+  for (size_t piece = 0; piece < pieces.count(); ++piece) {
+    if ((m_kinds[piece] & kFixed) != 0) continue;
+    const size_t last = pieces.begin()[piece + 1];
+    for (size_t k = pieces.begin()[piece]; k < last; k += grain::kParticles)
       m_runs.push_back({k, std::min(last, k + grain::kParticles), m_pieces.size()});
-    if (count > 0) m_pieces.emplace_back().grouped = m_grouped[i] != 0;
-    count = count > 0 ? static_cast<uint32_t>(first) : kNone;  // from now on where the next member goes
-    members = last;
-  }
-  m_members.resize(members);
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    if (pieceOf[i] != kNone && m_count[pieceOf[i]] != kNone) m_members[m_count[pieceOf[i]]++] = i;
+    m_pieces.emplace_back().grouped = (m_kinds[piece] & kGrouped) != 0;
   }
   m_sums.resize(m_runs.size());
 }

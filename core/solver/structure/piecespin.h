@@ -10,6 +10,7 @@
 
 namespace ps {
 
+class PieceLists;
 struct StructureGraph;
 
 /// Gives what hangs together back the angular momentum that velocities of first order lose. XPBD takes
@@ -22,8 +23,8 @@ struct StructureGraph;
 /// theirs themselves).
 class PieceSpin {
  public:
-  /// After a new order or a new structure; `pieceOf` as ConstraintSystem::pieces() has it.
-  void refresh(const ParticleStore& store, const StructureGraph& graph, std::span<const uint32_t> pieceOf);
+  /// After a new order or a new structure, whose pieces live as long as they are the same.
+  void refresh(const ParticleStore& store, const StructureGraph& graph, const PieceLists& pieces);
   /// While velocities are still those of the prediction. `couple` has by particle what turns its piece back, kg m2;
   /// none where nothing touched.
   void read(const ParticleStore& store, std::span<const api::Float4> couple, double dt);
@@ -48,10 +49,8 @@ class PieceSpin {
   };
   Sums sumOf(const ParticleStore& store, const Run& run, std::span<const api::Float4> couple, double dt) const;
 
-  static constexpr uint32_t kNone = ~0u;
-  std::vector<uint32_t> m_count;    ///< by the first particle of a piece: its members, 0 where it is left out
-  std::vector<uint8_t> m_grouped;   ///< likewise
-  std::vector<uint32_t> m_members;  ///< piece by piece
+  std::vector<uint8_t> m_kinds;         ///< of pieces: what there is among their members
+  std::span<const uint32_t> m_members;  ///< piece by piece
   std::vector<Run> m_runs;
   std::vector<Sums> m_sums;  ///< of runs
   std::vector<Piece> m_pieces;

@@ -108,12 +108,8 @@ void ConstraintSystem::findPieces(size_t particles, std::vector<uint32_t>& piece
   Forest forest(piece);
   everywhere([&](uint32_t i) { piece[i] = i; });
   m_groupFirst.clear();
-  for (uint32_t i = 0; i < particles && !ties.group.empty(); ++i) {
-    for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) {
-      if (ties.group[k] >= m_groupFirst.size()) m_groupFirst.resize(ties.group[k] + size_t{1}, kNoPiece);
-      uint32_t& first = m_groupFirst[ties.group[k]];
-      first = std::min(first, i);
-    }
+  for (const Set& set : m_sets) {
+    for (size_t g = 0; set.groups && g < set.groups->count(); ++g) m_groupFirst.push_back(set.groups->members(g)[0]);
   }
   everywhere([&](uint32_t i) {
     for (uint32_t k = ties.groupBegin[i]; k < ties.groupBegin[i + 1]; ++k) forest.link(i, m_groupFirst[ties.group[k]]);
@@ -186,27 +182,29 @@ void ConstraintSystem::findHanging(const ParticleStore& store, std::vector<uint3
   findIndices(store.size(), hanging, [&](size_t i) { return m_hangs[i] != 0 && !isFixed(static_cast<uint32_t>(i)); });
 }
 
-void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) const {
+void ConstraintSystem::addGroupsTo(StructureGraph& graph, size_t particles) {
   assignAll(graph.groupBegin, particles + 1, 0u);
   graph.group.clear();
   const bool any =
       std::any_of(m_sets.begin(), m_sets.end(), [](const Set& set) { return set.groups && set.groups->count() > 0; });
   if (!any) return;
-  const auto eachMember = [&](auto&& visit) {
-    uint32_t serial = 0;
+  const auto eachMember = [&](const auto& visit) {
+    size_t before = 0;  // groups of other sets
     for (const Set& set : m_sets) {
-      for (size_t g = 0; set.groups && g < set.groups->count(); ++g, ++serial) {
-        for (const uint32_t i : set.groups->members(g)) visit(i, serial);
-      }
+      if (!set.groups) continue;
+      set.groups->eachMember([&](uint32_t i, size_t g) { visit(i, static_cast<uint32_t>(before + g)); });
+      before += set.groups->count();
     }
   };
-  eachMember([&](uint32_t i, uint32_t) { ++graph.groupBegin[i + 1]; });
-  std::partial_sum(graph.groupBegin.begin(), graph.groupBegin.end(), graph.groupBegin.begin());
+  eachMember([&](uint32_t i, uint32_t) { addOne(graph.groupBegin[i + size_t{1}]); });
+  sumUp(graph.groupBegin);
   graph.group.resize(graph.groupBegin[particles]);
-  // Each beginning moves on to that of the next particle, and then back by one place.
-  eachMember([&](uint32_t i, uint32_t serial) { graph.group[graph.groupBegin[i]++] = serial; });
-  std::copy_backward(graph.groupBegin.begin(), graph.groupBegin.end() - 1, graph.groupBegin.end());
-  graph.groupBegin[0] = 0;
+  assignAll<uint32_t>(m_newIndex, graph.groupBegin);
+  eachMember([&](uint32_t i, uint32_t serial) { graph.group[addOne(m_newIndex[i])] = serial; });
+  forChunks(particles, grain::kParticles, [&](size_t first, size_t last) {
+    const auto at = [&](size_t i) { return graph.group.begin() + static_cast<std::ptrdiff_t>(graph.groupBegin[i]); };
+    for (size_t i = first; i < last; ++i) std::sort(at(i), at(i + 1));
+  });
 }
 
 }  // namespace ps

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <phasesketch/plugin.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace ps::constraint {
+
+/// Elements that a thread takes at a time.
+inline constexpr size_t kSharedAtATime = 1024;
+
+/// visit(k) for each k below `count`, for each of which one thread takes about so long; `grain` at a time.
+template <class Visit>
+void forShared(const api::Threads* threads, size_t count, double microsecondsEach, const Visit& visit,
+               size_t grain = kSharedAtATime) {
+  api::shareAmong(threads, count, grain, microsecondsEach * static_cast<double>(count), [&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) visit(k);
+  });
+}
+
+/// Those below `count` for which wanted(k) is true, ascending, whoever finds them. It is asked once.
+template <class Wanted>
+std::vector<uint32_t> findShared(const api::Threads* threads, size_t count, double microsecondsEach,
+                                 const Wanted& wanted) {
+  std::vector<std::vector<uint32_t>> found((count + kSharedAtATime - 1) / kSharedAtATime);
+  api::shareAmong(threads, count, kSharedAtATime, microsecondsEach * static_cast<double>(count),
+                  [&](size_t first, size_t last) {
+                    std::vector<uint32_t> own;
+                    for (size_t k = first; k < last; ++k) {
+                      if (wanted(k)) own.push_back(static_cast<uint32_t>(k));
+                    }
+                    found[first / kSharedAtATime] = std::move(own);
+                  });
+  size_t total = 0;
+  for (const std::vector<uint32_t>& some : found) total += some.size();
+  std::vector<uint32_t> all;
+  all.reserve(total);
+  for (const std::vector<uint32_t>& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+}  // namespace ps::constraint
