@@ -6,7 +6,8 @@
 namespace ps {
 namespace {
 
-/// Places from which on several threads sort them: below that, sharing the work costs more than it saves.
+/// Places, times how many threads help, from which on they sort them together: below that, sharing the work costs more
+/// than it saves.
 constexpr size_t kMany = 1 << 16;
 
 }  // namespace
@@ -38,25 +39,26 @@ void CellGrid::fit(const Bounds& bounds, size_t count, double edge, const Period
 void CellGrid::sortByCell() {
   m_starts.resize(cell(0, 0, m_cells[2]) + 1);
   m_order.resize(m_cellOf.size() + kSpareSlots);
-  if (m_cellOf.size() < kMany || threadCount() == 1)
+  if (m_cellOf.size() * static_cast<size_t>(threadCount() - 1) < kMany)
     sortAlone();
   else
     sortTogether();
 }
 
 void CellGrid::sortAlone() {
-  const size_t count = m_cellOf.size();
+  const size_t count = m_cellOf.size(), cells = m_starts.size() - 1;
   std::fill(m_starts.begin(), m_starts.end(), 0);
-  for (const uint32_t c : m_cellOf) ++m_starts[c + 1];
-  for (size_t c = 1; c < m_starts.size(); ++c) m_starts[c] += m_starts[c - 1];
+  // Where a cell begins stands with the next one until its places are put there.
+  for (const uint32_t c : m_cellOf) {
+    if (c + size_t{2} <= cells) ++m_starts[c + size_t{2}];
+  }
+  for (size_t c = 2; c <= cells; ++c) m_starts[c] += m_starts[c - 1];
   m_sorted = true;
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t slot = m_starts[m_cellOf[i]]++;
+    const uint32_t slot = m_starts[m_cellOf[i] + size_t{1}]++;
     m_order[slot] = static_cast<uint32_t>(i);
     m_sorted = m_sorted && slot == i;
   }
-  for (size_t c = m_starts.size() - 1; c > 0; --c) m_starts[c] = m_starts[c - 1];
-  m_starts[0] = 0;
 }
 
 /// Places come to their cells in the order that threads have them; each cell then sorts its own.

@@ -91,11 +91,14 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
     m_radiation.trace({store, lists, pairs.filled, m_surface, m_level, m_walls, m_emissivity, m_settings.surfaceArea,
                        m_bounds, m_solver.spacing, frame});
   }
-  forChunks(n, grain::kNeighbours, [&](size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) measureOne(store, pairs, i);
+  m_airTotal = parallelSum(n, grain::kNeighbours, [&](size_t first, size_t last) {
+    double sum = 0;
+    for (size_t i = first; i < last; ++i) {
+      measureOne(store, pairs, i);
+      sum += double{m_airConductance[i]};
+    }
+    return sum;
   });
-  m_airTotal = 0;
-  for (size_t i = 0; i < n; ++i) m_airTotal += double{m_airConductance[i]};
 }
 
 bool HeatSurroundings::isLike(double temperature, double tolerance) const {
