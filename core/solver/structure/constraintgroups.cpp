@@ -18,7 +18,15 @@ constexpr size_t kMembersPerChunk = 512;
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
 class ConstraintSystem::Groups final : public api::GroupSink {
  public:
-  Groups(const Set& set, const ParticleStore& store) : m_set(set), m_lists(*set.groups), m_particles(store.size()) {}
+  /// `edits`: room for them, whatever it held.
+  Groups(const Set& set, const ParticleStore& store, GroupLists::Edits& edits)
+      : m_set(set), m_lists(*set.groups), m_particles(store.size()), m_edits(edits) {
+    edits.removed.clear();
+    edits.ends.clear();
+    edits.particles.clear();
+    edits.values.clear();
+    edits.memberValues.clear();
+  }
   void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
     if (count == 0) throw Error("added a group without members");
     const bool hasValues = values || m_lists.valueCount() == 0,
@@ -63,7 +71,7 @@ class ConstraintSystem::Groups final : public api::GroupSink {
   size_t m_particles;
   std::vector<uint32_t> m_lastUse;
   uint32_t m_serial = 0;
-  GroupLists::Edits m_edits;
+  GroupLists::Edits& m_edits;
 };
 
 template <class Call>
@@ -127,7 +135,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
                                    std::span<const uint32_t> members) {
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  Groups sink(set, store);
+  GroupLists::Edits edits;  // of new matter, of which there may be millions
+  Groups sink(set, store, edits);
   sink.reserve(beginTying(set, members.size()));
   if (guarded(set, [&] {
         set.group->build(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(), neighbours.view(),
@@ -143,7 +152,7 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   if (set.disabled) return false;
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  Groups sink(set, store);
+  Groups sink(set, store, m_groupEdits);
   if (!guarded(set, [&] {
         set.group->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
       })) {

@@ -304,6 +304,7 @@ class ConstraintSystem {
   struct Sorting {
     std::vector<uint32_t> end, ofParticle, runOf, from, next;
   } m_sorting;
+  GroupLists::Edits m_groupEdits;            ///< of groupTopology()
   std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): a member of each, by its serial
   std::vector<uint32_t> m_open;              ///< of takeAlong(), still to be followed
   std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
