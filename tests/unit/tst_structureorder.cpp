@@ -155,6 +155,30 @@ struct Scene {
   uint32_t set = 0;
 };
 
+/// Of GroupLists, each with a number of its own as its value.
+struct Group {
+  std::vector<uint32_t> particles;
+  float number;
+  uint32_t body;
+};
+
+/// Each in the first colour that none of its particles has; in order of bodies.
+std::vector<std::vector<Group>> colouredPlainly(std::vector<Group> groups) {
+  std::vector<std::set<uint32_t>> taken;
+  std::vector<std::vector<Group>> colours;
+  for (Group& group : groups) {
+    size_t colour = 0;
+    const auto isTaken = [&](uint32_t i) { return taken[colour].contains(i); };
+    while (colour < taken.size() && std::any_of(group.particles.begin(), group.particles.end(), isTaken)) ++colour;
+    if (colour == taken.size()) taken.emplace_back(), colours.emplace_back();
+    taken[colour].insert(group.particles.begin(), group.particles.end());
+    colours[colour].push_back(std::move(group));
+  }
+  for (std::vector<Group>& colour : colours)
+    std::stable_sort(colour.begin(), colour.end(), [](const Group& a, const Group& b) { return a.body < b.body; });
+  return colours;
+}
+
 class TestStructureOrder : public QObject {
   Q_OBJECT
  private Q_SLOTS:
@@ -255,14 +279,9 @@ class TestStructureOrder : public QObject {
     QTest::newRow("apart") << false;
     QTest::newRow("overlapping") << true;
   }
-  /// Each in the first colour that none of its particles has, with its values; as groups come and go.
+  /// With their values and those of their members, as groups come and go.
   void groupsLieInOrderOfColourAndBody() {
     QFETCH(bool, overlap);
-    struct Group {
-      std::vector<uint32_t> particles;
-      float number;
-      uint32_t body;
-    };
     constexpr uint32_t kParticles = 20000;
     ps::testing::Random random(11);
     std::vector<uint32_t> body(kParticles);
@@ -295,23 +314,12 @@ class TestStructureOrder : public QObject {
         groups.push_back(std::move(group));
       }
       lists.apply(edits, body);
-      std::vector<std::set<uint32_t>> taken;
-      std::vector<std::vector<Group>> colours;
-      for (Group& group : groups) {
-        size_t colour = 0;
-        const auto isTaken = [&](uint32_t i) { return taken[colour].contains(i); };
-        while (colour < taken.size() && std::any_of(group.particles.begin(), group.particles.end(), isTaken)) ++colour;
-        if (colour == taken.size()) taken.emplace_back(), colours.emplace_back();
-        taken[colour].insert(group.particles.begin(), group.particles.end());
-        colours[colour].push_back(std::move(group));
-      }
+      const std::vector<std::vector<Group>> colours = colouredPlainly(std::move(groups));
       QCOMPARE(lists.colours(), colours.size());
       QCOMPARE(colours.size() > 1, overlap);
       model.clear();
       for (size_t colour = 0; colour < colours.size(); ++colour) {
         QCOMPARE(lists.colourStart(colour), model.size());
-        std::stable_sort(colours[colour].begin(), colours[colour].end(),
-                         [](const Group& a, const Group& b) { return a.body < b.body; });
         model.insert(model.end(), colours[colour].begin(), colours[colour].end());
       }
       QCOMPARE(lists.count(), model.size());
