@@ -2,10 +2,11 @@
 // Which bonds break and form, once per frame.
 #include "bondmodel.h"
 #include "joining.h"
+#include "sharedloops.h"
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -56,7 +57,8 @@ uint32_t mostBonds(const ConstraintContext& context, const ParticleView& p, uint
 /// would stay for good. Its rule is that of a bond's first particle.
 class LettingGo {
  public:
-  LettingGo(const ConstraintContext& context, const ParticleView& p, const api::Threads* threads) : m_state(p.count) {
+  LettingGo(const ConstraintContext& context, const ParticleView& p, const api::Threads* threads)
+      : m_state(std::make_unique_for_overwrite<uint8_t[]>(p.count)) {
     const auto find = [&](size_t first, size_t last) {
       for (size_t k = first; k < last; ++k) {
         const auto i = static_cast<uint32_t>(k);
@@ -73,7 +75,7 @@ class LettingGo {
 
  private:
   static constexpr unsigned kLoose = 1, kMelting = 2, kThesis = 4;
-  std::vector<uint8_t> m_state;
+  std::unique_ptr<uint8_t[]> m_state;
 };
 
 template <class Visit>
@@ -91,12 +93,12 @@ uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, 
 class BondGraph {
  public:
   template <class Open>
-  BondGraph(std::vector<uint32_t> degree, const ConstraintBatch& all, const std::vector<uint8_t>& gone,
-            const api::Threads* threads, const Open& open)
+  BondGraph(std::vector<uint32_t> degree, const ConstraintBatch& all, const uint8_t* gone, const api::Threads* threads,
+            const Open& open)
       : m_degree(std::move(degree)), m_begin(m_degree.size() + 1) {
     forEach(threads, m_degree.size(),
             [&](size_t i) { m_begin[i + 1] = open(static_cast<uint32_t>(i), m_degree[i]) ? m_degree[i] : 0; });
-    std::partial_sum(m_begin.begin(), m_begin.end(), m_begin.begin());
+    sumUpShared(threads, m_begin, kMicrosecondsPerBond);
     m_partner.resize(m_begin.back());
     std::vector<uint32_t> next(m_begin.begin(), m_begin.end());
     forEach(threads, all.count, [&](size_t k) {
@@ -125,12 +127,16 @@ class Search {
       : m_context(context), m_p(p), m_lists(lists), m_joining(joining), m_bonds(bonds) {}
 
   std::vector<Candidate> candidates(const api::Threads* threads) const {
-    const bool looseDry = anybodyLooseAndDry();
+    const bool looseDry = anyShared(threads, m_p.count, kMicrosecondsPerBond, [&](size_t k) {
+      const auto i = static_cast<uint32_t>(k);
+      return holds(m_p.motion[i]) && m_joining.dryJoiner(i) && !m_joining.isRigid(i);
+    });
     std::vector<std::vector<Candidate>> found((m_p.count + kSharedParticles - 1) / kSharedParticles);
     api::shareAmong(threads, m_p.count, kSharedParticles, kMicrosecondsPerList * static_cast<double>(m_p.count),
                     [&](size_t first, size_t last) {
-                      for (size_t i = first; i < last; ++i)
-                        look(static_cast<uint32_t>(i), looseDry, found[first / kSharedParticles]);
+                      std::vector<Candidate> own;
+                      for (size_t i = first; i < last; ++i) look(static_cast<uint32_t>(i), looseDry, own);
+                      found[first / kSharedParticles] = std::move(own);
                     });
     std::vector<Candidate> all;
     for (const std::vector<Candidate>& some : found) all.insert(all.end(), some.begin(), some.end());
@@ -145,12 +151,6 @@ class Search {
     // A dry member of a rigid body joins what is none: most bodies need not look for it.
     const bool dry = m_joining.dryJoiner(i) && (looseDry || !m_joining.isRigid(i));
     if (m_joining.fresh(i) || dry) join(i, found);
-  }
-  bool anybodyLooseAndDry() const {
-    for (uint32_t i = 0; i < m_p.count; ++i) {
-      if (holds(m_p.motion[i]) && m_joining.dryJoiner(i) && !m_joining.isRigid(i)) return true;
-    }
-    return false;
   }
   template <class Takes>
   void collect(uint32_t i, float reach, std::vector<Candidate>& found, Takes&& takes) const {
@@ -197,7 +197,7 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
                          const ConstraintBatch& all, api::ConstraintSink& sink) const {
   const Joining joining(context, p);
   joining.noteFluid(m_threads);
-  std::vector<uint8_t> gone(all.count, 0);
+  const auto gone = std::make_unique_for_overwrite<uint8_t[]>(all.count);  // each is set by who asks its bond
   std::vector<uint32_t> degree(p.count, 0);
   auto* ties = static_cast<uint8_t*>(p.fields->write(kTiesField, api::FieldType::UInt8));
   if (all.count > 0) {
@@ -207,8 +207,9 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
       gone[k] = letsGo(i, j) ? 1 : 0;
       if (gone[k] == 0) addOne(degree[i]), addOne(degree[j]);
     });
-    for (auto at = gone.begin(); (at = std::find(at, gone.end(), 1)) != gone.end(); ++at)
-      sink.remove(static_cast<size_t>(at - gone.begin()));
+    const uint8_t *const first = gone.get(), *const last = first + all.count;
+    for (const uint8_t* at = first; (at = std::find(at, last, 1)) != last; ++at)
+      sink.remove(static_cast<size_t>(at - first));
   }
   forEach(m_threads, p.count, [&](size_t i) { ties[i] = static_cast<uint8_t>(degree[i]); });
   const auto thesisRules = [](api::Span<const double> parameters) {
@@ -217,7 +218,7 @@ void BondModel::topology(const ConstraintContext& context, const ParticleView& p
   const bool thesis = std::any_of(context.bodyParameters.begin(), context.bodyParameters.end(), thesisRules) ||
                       thesisRules(context.parameters);
   if (!thesis && !joining.anybody(m_threads)) return;
-  const BondGraph bonds(std::move(degree), all, gone, m_threads, [&](uint32_t i, uint32_t count) {
+  const BondGraph bonds(std::move(degree), all, gone.get(), m_threads, [&](uint32_t i, uint32_t count) {
     return byThesis(context, p, i) || count < mostBonds(context, p, i);
   });
   const std::vector<Candidate> candidates = Search(context, p, lists, joining, bonds).candidates(m_threads);

@@ -7,6 +7,7 @@
 #include "sharedloops.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -50,7 +51,8 @@ class Reshaping {
     m_pieces = RigidSplitting(m_context, m_p, m_lists, m_all, m_threads).run(m_gone);
     const bool edited = std::any_of(m_all.changed, m_all.changed + m_all.count, [](uint8_t c) { return c != 0; });
     if (edited || m_joining.anybody(m_threads)) {
-      m_pieceOf.assign(m_p.count, kNone);
+      m_pieceOf = std::make_unique_for_overwrite<uint32_t[]>(m_p.count);
+      forShared(m_threads, m_p.count, kPerParticle, [&](size_t i) { m_pieceOf[i] = kNone; });
       for (uint32_t piece = 0; piece < m_pieces.size(); ++piece) {
         eachKept(m_pieces[piece], [&](size_t, size_t k) { m_pieceOf[m_all.particles[k]] = piece; });
       }
@@ -194,8 +196,8 @@ class Reshaping {
     m_drying[i] = m_joining.fresh(i) && !wet ? 1 : 0;
   }
   std::vector<std::vector<Touch>> findTouches() {
-    m_touched.assign(m_p.count, 0.0f);
-    m_drying.assign(m_p.count, 0);
+    m_touched = std::make_unique_for_overwrite<float[]>(m_p.count);
+    m_drying = std::make_unique_for_overwrite<uint8_t[]>(m_p.count);
     std::vector<std::vector<Touch>> found((m_p.count + kSharedAtATime - 1) / kSharedAtATime);
     api::shareAmong(m_threads, m_p.count, kSharedAtATime, kPerList * static_cast<double>(m_p.count),
                     [&](size_t first, size_t last) {
@@ -203,10 +205,9 @@ class Reshaping {
                       for (size_t k = first; k < last; ++k) {
                         const auto i = static_cast<uint32_t>(k);
                         if (m_pieceOf[i] == kNone) continue;
-                        if (hasOtherNear(i))
-                          look(i, own);
-                        else
-                          m_drying[i] = m_joining.fresh(i) ? 1 : 0;
+                        m_touched[i] = 0;
+                        m_drying[i] = m_joining.fresh(i) ? 1 : 0;
+                        if (hasOtherNear(i)) look(i, own);
                       }
                       found[first / kSharedAtATime] = std::move(own);
                     });
@@ -289,9 +290,9 @@ class Reshaping {
   float* m_touch;
   std::vector<uint8_t> m_gone;  ///< groups that do not stay as they are
   std::vector<RigidPiece> m_pieces;
-  std::vector<uint32_t> m_pieceOf;  ///< by particle
-  std::vector<uint8_t> m_drying;    ///< by member: nobody is left who may freeze to it
-  std::vector<float> m_touched;     ///< s, likewise: what m_touch is after this frame
+  std::unique_ptr<uint32_t[]> m_pieceOf;  ///< by particle
+  std::unique_ptr<uint8_t[]> m_drying;    ///< by member: nobody is left who may freeze to it
+  std::unique_ptr<float[]> m_touched;     ///< s, likewise: what m_touch is after this frame
   NewRigidGroup m_made;
 };
 

@@ -2,7 +2,9 @@
 #pragma once
 #include <phasesketch/plugin.h>
 
+#include <atomic>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace ps::constraint {
@@ -16,6 +18,34 @@ void forShared(const api::Threads* threads, size_t count, double microsecondsEac
                size_t grain = kSharedAtATime) {
   api::shareAmong(threads, count, grain, microsecondsEach * static_cast<double>(count), [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) visit(k);
+  });
+}
+
+/// Whether wanted(k) is true for any k below `count`; once it is, others are left out.
+template <class Wanted>
+bool anyShared(const api::Threads* threads, size_t count, double microsecondsEach, const Wanted& wanted) {
+  std::atomic<bool> any{false};
+  forShared(threads, count, microsecondsEach, [&](size_t k) {
+    if (!any.load(std::memory_order_relaxed) && wanted(k)) any.store(true, std::memory_order_relaxed);
+  });
+  return any;
+}
+
+/// Each number becomes the sum of all up to it.
+inline void sumUpShared(const api::Threads* threads, std::vector<uint32_t>& numbers, double microsecondsEach) {
+  std::vector<uint32_t> sums((numbers.size() + kSharedAtATime - 1) / kSharedAtATime);
+  const auto share = [&](const auto& part) {
+    api::shareAmong(threads, numbers.size(), kSharedAtATime, microsecondsEach * static_cast<double>(numbers.size()),
+                    part);
+  };
+  share([&](size_t first, size_t last) {
+    for (size_t k = first + 1; k < last; ++k) numbers[k] += numbers[k - 1];
+    sums[first / kSharedAtATime] = numbers[last - 1];
+  });
+  uint32_t before = 0;
+  for (uint32_t& sum : sums) before += std::exchange(sum, before);
+  share([&](size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) numbers[k] += sums[first / kSharedAtATime];
   });
 }
 

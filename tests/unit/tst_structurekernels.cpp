@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What structure is computed by, beside the plainest way to compute the same.
+#include "core/base/parallel.h"
 #include "core/solver/contact/nearneighbours.h"
 #include "core/solver/solver.h"
 #include "plugins/constraints/pairprojection.h"
@@ -24,6 +25,16 @@ std::vector<std::vector<size_t>> plainPieces(const std::vector<Vector>& points, 
   }
   return sets.sets();
 }
+
+/// The program's own, as its plugins have them.
+class HostThreads final : public ps::api::Threads {
+ public:
+  void share(size_t count, size_t grain, double microseconds, void (*body)(void* data, size_t first, size_t last),
+             void* data) const override {
+    ps::parallelFor(
+        count, grain, [&](size_t first, size_t last) { body(data, first, last); }, microseconds);
+  }
+};
 
 /// Every instruction set that this machine has, by name; the best one again at the end.
 template <class Call>
@@ -91,6 +102,8 @@ class TstStructureKernels : public QObject {
     QTest::newRow("few far apart") << 40 << 1e6 << 0.1;
     QTest::newRow("many pieces") << 500 << 1.0 << 0.1;
     QTest::newRow("some pieces") << 500 << 1.0 << 0.15;
+    QTest::newRow("thousands in some pieces") << 4000 << 1.0 << 0.06;
+    QTest::newRow("thousands in one") << 4000 << 1.0 << 0.2;
     QTest::newRow("all within one cell") << 60 << 0.01 << 0.5;
   }
   void piecesAreThoseOfEachPairAsked() {
@@ -103,7 +116,12 @@ class TstStructureKernels : public QObject {
       const double x = engine.next(-0.3, size), y = engine.next(2, size), z = engine.next(0, size);
       points.push_back({x, y, z});
     }
-    QCOMPARE(piecesOf(points, radius), plainPieces(points, radius));
+    const auto plain = plainPieces(points, radius);
+    QCOMPARE(piecesOf(points, radius), plain);
+    ps::setThreadCount(5);
+    const HostThreads threads;
+    for (int time = 0; time < 5; ++time) QCOMPARE(piecesOf(points, radius, {}, &threads), plain);
+    ps::setThreadCount(0);
   }
   void pairsMoveAsOneAfterTheOther_data() {
     QTest::addColumn<double>("damping");

@@ -2,6 +2,7 @@
 // Who is tied to whom as constraints come, go and are put in another order, beside the plainest way to keep it.
 #include "core/base/parallel.h"
 #include "core/solver/structure/constraintsystem.h"
+#include "core/solver/structure/piecelists.h"
 #include "tests/shared/random.h"
 
 #include <QTest>
@@ -154,6 +155,30 @@ struct Scene {
   uint32_t set = 0;
 };
 
+/// Of GroupLists, each with a number of its own as its value.
+struct Group {
+  std::vector<uint32_t> particles;
+  float number;
+  uint32_t body;
+};
+
+/// Each in the first colour that none of its particles has; in order of bodies.
+std::vector<std::vector<Group>> colouredPlainly(std::vector<Group> groups) {
+  std::vector<std::set<uint32_t>> taken;
+  std::vector<std::vector<Group>> colours;
+  for (Group& group : groups) {
+    size_t colour = 0;
+    const auto isTaken = [&](uint32_t i) { return taken[colour].contains(i); };
+    while (colour < taken.size() && std::any_of(group.particles.begin(), group.particles.end(), isTaken)) ++colour;
+    if (colour == taken.size()) taken.emplace_back(), colours.emplace_back();
+    taken[colour].insert(group.particles.begin(), group.particles.end());
+    colours[colour].push_back(std::move(group));
+  }
+  for (std::vector<Group>& colour : colours)
+    std::stable_sort(colour.begin(), colour.end(), [](const Group& a, const Group& b) { return a.body < b.body; });
+  return colours;
+}
+
 class TestStructureOrder : public QObject {
   Q_OBJECT
  private Q_SLOTS:
@@ -209,6 +234,107 @@ class TestStructureOrder : public QObject {
                            static_cast<uint32_t>(scene.store.indexOf(pair.second))));
       if (partners.empty()) partners = graph.partner;
       QVERIFY(graph.partner == partners);
+    }
+  }
+
+  /// Pieces that lie in runs, between each other and what belongs to none.
+  void piecesListTheirMembersInOrder() {
+    constexpr size_t kParticles = 9000;
+    ps::testing::Random random(3);
+    std::vector<uint32_t> pieceOf(kParticles, ps::ConstraintSystem::kNoPiece);
+    std::map<int, uint32_t> firstOf;
+    std::map<uint32_t, std::vector<uint32_t>> members;
+    for (uint32_t i = 0, piece = 0; i < kParticles; ++i) {
+      if (random.next() < 0.1) piece = static_cast<uint32_t>(random.next(0, 40));
+      if (piece < 5) continue;
+      pieceOf[i] = firstOf.try_emplace(static_cast<int>(piece), i).first->second;
+      members[pieceOf[i]].push_back(i);
+    }
+    ps::PieceLists lists;
+    for (const int threads : {1, 5}) {
+      ps::setThreadCount(threads);
+      lists.refresh(pieceOf);
+      QCOMPARE(lists.count(), members.size());
+      std::vector<uint32_t> all;
+      for (size_t piece = 0; const auto& [first, own] : members) {
+        QCOMPARE(lists.pieceOf(first), piece);
+        const std::span<const uint32_t> listed = lists.members(piece++);
+        QVERIFY(std::equal(listed.begin(), listed.end(), own.begin(), own.end()));
+        all.insert(all.end(), own.begin(), own.end());
+      }
+      std::vector<uint32_t> parts;
+      lists.eachPart(100, all.size() - 7, [&](size_t piece, std::span<const uint32_t> part) {
+        for (const uint32_t i : part) QCOMPARE(lists.pieceOf(pieceOf[i]), piece);
+        parts.insert(parts.end(), part.begin(), part.end());
+      });
+      QVERIFY(std::equal(parts.begin(), parts.end(), all.begin() + 100, all.end() - 7));
+    }
+    lists.refresh(std::vector<uint32_t>(5000, ps::ConstraintSystem::kNoPiece));
+    QCOMPARE(lists.count(), size_t{0});
+    QVERIFY(lists.members().empty());
+  }
+
+  void groupsLieInOrderOfColourAndBody_data() {
+    QTest::addColumn<bool>("overlap");
+    QTest::newRow("apart") << false;
+    QTest::newRow("overlapping") << true;
+  }
+  /// With their values and those of their members, as groups come and go.
+  void groupsLieInOrderOfColourAndBody() {
+    QFETCH(bool, overlap);
+    constexpr uint32_t kParticles = 20000;
+    ps::testing::Random random(11);
+    std::vector<uint32_t> body(kParticles);
+    for (uint32_t i = 0; i < kParticles; ++i) body[i] = i / 1000 % 3;
+    ps::GroupLists lists(1, 2);
+    std::vector<Group> model;
+    float number = 0;
+    uint32_t from = 0;
+    for (const int threads : {1, 2, 5}) {
+      ps::setThreadCount(threads);
+      ps::GroupLists::Edits edits;
+      edits.removed.assign(lists.count(), 0);
+      for (uint8_t& removed : edits.removed) removed = random.next() < 0.3 ? 1 : 0;
+      std::vector<Group> groups;
+      for (size_t g = 0; g < model.size(); ++g) {
+        if (edits.removed[g] == 0) groups.push_back(model[g]);
+      }
+      for (int k = 0; k < 12; ++k) {
+        Group group{{}, ++number, body[from]};
+        const auto count = static_cast<uint32_t>(random.next(1, 500));
+        for (uint32_t i = from; i < from + count; ++i) group.particles.push_back(i);
+        from += overlap ? count / 2 : count;
+        edits.particles.insert(edits.particles.end(), group.particles.begin(), group.particles.end());
+        edits.ends.push_back(edits.particles.size());
+        edits.values.push_back(group.number);
+        for (const uint32_t i : group.particles) {
+          edits.memberValues.push_back(static_cast<float>(i));
+          edits.memberValues.push_back(group.number);
+        }
+        groups.push_back(std::move(group));
+      }
+      lists.apply(edits, body);
+      const std::vector<std::vector<Group>> colours = colouredPlainly(std::move(groups));
+      QCOMPARE(lists.colours(), colours.size());
+      QCOMPARE(colours.size() > 1, overlap);
+      model.clear();
+      for (size_t colour = 0; colour < colours.size(); ++colour) {
+        QCOMPARE(lists.colourStart(colour), model.size());
+        model.insert(model.end(), colours[colour].begin(), colours[colour].end());
+      }
+      QCOMPARE(lists.count(), model.size());
+      ps::GroupLists::Batch batch;
+      lists.fill(batch, 0, lists.count());
+      for (size_t g = 0; g < model.size(); ++g) {
+        const std::span<const uint32_t> members = lists.members(g);
+        QVERIFY(std::equal(members.begin(), members.end(), model[g].particles.begin(), model[g].particles.end()));
+        QCOMPARE(lists.body(g), model[g].body);
+        QCOMPARE(batch.values[0][g], model[g].number);
+        for (size_t k = batch.view.begin[g]; k < batch.view.begin[g + 1]; ++k) {
+          QCOMPARE(batch.memberValues[0][k], static_cast<float>(batch.view.particles[k]));
+          QCOMPARE(batch.memberValues[1][k], model[g].number);
+        }
+      }
     }
   }
 

@@ -18,14 +18,22 @@ constexpr size_t kMembersPerChunk = 512;
 /// Collects what a plugin adds and removes; it takes effect when the call has returned.
 class ConstraintSystem::Groups final : public api::GroupSink {
  public:
-  Groups(const Set& set, const ParticleStore& store) : m_set(set), m_lists(*set.groups), m_particles(store.size()) {}
+  /// `room`: whatever it held.
+  Groups(const Set& set, const ParticleStore& store, GroupRoom& room)
+      : m_set(set), m_lists(*set.groups), m_particles(store.size()), m_room(room), m_edits(room.edits) {
+    m_edits.removed.clear();
+    m_edits.ends.clear();
+    m_edits.particles.clear();
+    m_edits.values.clear();
+    m_edits.memberValues.clear();
+  }
   void add(const uint32_t* particles, size_t count, const float* values, const float* memberValues) override {
     if (count == 0) throw Error("added a group without members");
     const bool hasValues = values || m_lists.valueCount() == 0,
                hasMembers = memberValues || m_lists.memberValueCount() == 0;
     if (!particles || !hasValues || !hasMembers) throw Error("added a group by a null pointer");
-    ++m_serial;
-    m_lastUse.resize(m_particles, 0);  // most calls add nothing
+    if (++m_room.serial == 0) m_room.lastUse.clear(), m_room.serial = 1;
+    m_room.lastUse.resize(m_particles, 0);  // most calls add nothing
     inSlices(0, count, [&](size_t first, size_t last) { check({particles + first, last - first}); });
     m_edits.particles.insert(m_edits.particles.end(), particles, particles + count);
     m_edits.ends.push_back(m_edits.particles.size());
@@ -49,10 +57,11 @@ class ConstraintSystem::Groups final : public api::GroupSink {
 
  private:
   void check(std::span<const uint32_t> particles) {
+    const uint32_t serial = m_room.serial;
     forChunks(particles.size(), grain::kNumbers, [&](size_t first, size_t last) {
       for (const uint32_t i : particles.subspan(first, last - first)) {
         if (i >= m_particles) throw Error("added a group with a particle that does not exist");
-        if (std::atomic_ref(m_lastUse[i]).exchange(m_serial, std::memory_order_relaxed) == m_serial)
+        if (std::atomic_ref(m_room.lastUse[i]).exchange(serial, std::memory_order_relaxed) == serial)
           throw Error("added a group that names a particle twice");
       }
     });
@@ -61,9 +70,8 @@ class ConstraintSystem::Groups final : public api::GroupSink {
   const Set& m_set;
   const GroupLists& m_lists;
   size_t m_particles;
-  std::vector<uint32_t> m_lastUse;
-  uint32_t m_serial = 0;
-  GroupLists::Edits m_edits;
+  GroupRoom& m_room;
+  GroupLists::Edits& m_edits;
 };
 
 template <class Call>
@@ -127,7 +135,8 @@ void ConstraintSystem::buildGroups(Set& set, const ParticleStore& store, const N
                                    std::span<const uint32_t> members) {
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  Groups sink(set, store);
+  GroupRoom room;  // of new matter, of which there may be millions
+  Groups sink(set, store, room);
   sink.reserve(beginTying(set, members.size()));
   if (guarded(set, [&] {
         set.group->build(context(set, m_settings.dt, 0, 0, store.body()[members[0]]), store.view(), neighbours.view(),
@@ -143,7 +152,7 @@ bool ConstraintSystem::groupTopology(Set& set, const ParticleStore& store, const
   if (set.disabled) return false;
   GroupLists::Batch all;
   set.groups->fill(all, 0, set.groups->count());
-  Groups sink(set, store);
+  Groups sink(set, store, m_groupRoom);
   if (!guarded(set, [&] {
         set.group->topology(context(set, m_settings.dt, 0, 0), store.view(), neighbours.view(), all.view, sink);
       })) {

@@ -200,7 +200,12 @@ class ConstraintSystem {
   };
   struct Edits;
   class Sink;
-  class Groups;     ///< collects the edits of groups
+  class Groups;  ///< collects the edits of groups
+  struct GroupRoom {
+    GroupLists::Edits edits;
+    std::vector<uint32_t> lastUse;  ///< by particle: the last group that named it
+    uint32_t serial = 0;            ///< of that group
+  };
   class CutsShown;  ///< while it lives, plugins see who is parted
 
   static size_t beginTying(const Set& set, size_t members);
@@ -304,6 +309,7 @@ class ConstraintSystem {
   struct Sorting {
     std::vector<uint32_t> end, ofParticle, runOf, from, next;
   } m_sorting;
+  GroupRoom m_groupRoom;                     ///< of groupTopology()
   std::vector<uint32_t> m_groupFirst;        ///< of findPieces(): a member of each, by its serial
   std::vector<uint32_t> m_open;              ///< of takeAlong(), still to be followed
   std::vector<uint8_t> m_hangs, m_setHangs;  ///< of findHanging(): by particle, by set
