@@ -2,6 +2,7 @@
 #pragma once
 #include "rigidkernels.h"
 #include "rigidmodel.h"
+#include "rigidrest.h"
 #include "rotation.h"
 
 #include <algorithm>
@@ -24,13 +25,15 @@ inline constexpr float kReturned = 1e9f;
 class RigidBody {
  public:
   RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g, const api::Threads* threads)
-      : m_p(p), m_batch(batch), m_threads(threads), m_group(g), m_first(batch.begin[g]), m_last(batch.begin[g + 1]) {
-    const RigidMass sums = massOf(p, members());
-    m_mass = sums.mass;
-    m_held = sums.lightest == 0;
-    m_pose.restCentre = 1 / m_mass * sums.moment;
-    load();
-  }
+      : RigidBody(p, batch, g, threads, nullptr) {}
+  /// As it is predicted: what rests is noted.
+  RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g, const api::Threads* threads,
+            RigidRests& rests)
+      : RigidBody(p, batch, g, threads, &rests.note(p, membersOf(batch, g, threads))) {}
+  /// Later in the substep.
+  RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g, const api::Threads* threads,
+            const RigidRests& rests)
+      : RigidBody(p, batch, g, threads, rests.find(membersOf(batch, g, threads))) {}
 
   size_t first() const { return m_first; }
   size_t last() const { return m_last; }
@@ -40,13 +43,7 @@ class RigidBody {
   double mass() const { return m_mass; }
   /// One of its members is held, and so is all that is one body with it.
   bool held() const { return m_held; }
-  RigidMembers members() const {
-    const auto of = [&](RigidModel::MemberValue v) { return m_batch.memberValues[v] + m_first; };
-    return {m_batch.particles + m_first,
-            m_last - m_first,
-            {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)},
-            m_threads};
-  }
+  RigidMembers members() const { return membersOf(m_batch, m_group, m_threads); }
   const RigidPose& pose() const { return m_pose; }
   Vector centre() const { return m_pose.centre; }
   Vector velocity() const { return valueVector(RigidModel::kVelocityX); }
@@ -104,7 +101,7 @@ class RigidBody {
   /// Places are stored in single precision: below 1e-5 of their distance from the origin there is no shape, as in a
   /// body of one grain, only rounding, which must not be taken for an inertia.
   Inertia restInertia() const {
-    const RigidSpread spread = spreadOf(m_p, members(), m_pose.restCentre);
+    const RigidSpread spread = m_rest ? m_rest->spread : spreadOf(m_p, members(), m_pose.restCentre);
     const double scale2 = m_scale * m_scale;
     const double trace = spread.second.row[0].x + spread.second.row[1].y + spread.second.row[2].z;
     Inertia inertia;
@@ -121,6 +118,29 @@ class RigidBody {
   }
 
  private:
+  RigidBody(const api::ParticleView& p, const api::GroupBatch& batch, size_t g, const api::Threads* threads,
+            const RigidRest* rest)
+      : m_p(p),
+        m_batch(batch),
+        m_threads(threads),
+        m_group(g),
+        m_first(batch.begin[g]),
+        m_last(batch.begin[g + 1]),
+        m_rest(rest) {
+    const RigidMass sums = rest ? rest->mass : massOf(p, members());
+    m_mass = sums.mass;
+    m_held = sums.lightest == 0;
+    m_pose.restCentre = 1 / m_mass * sums.moment;
+    load();
+  }
+  static RigidMembers membersOf(const api::GroupBatch& batch, size_t g, const api::Threads* threads) {
+    const size_t first = batch.begin[g];
+    const auto of = [&](RigidModel::MemberValue v) { return batch.memberValues[v] + first; };
+    return {batch.particles + first,
+            batch.begin[g + 1] - first,
+            {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)},
+            threads};
+  }
   float& value(RigidModel::Value v) const { return m_batch.values[v][m_group]; }
   Vector valueVector(size_t x) const {
     return {m_batch.values[x][m_group], m_batch.values[x + 1][m_group], m_batch.values[x + 2][m_group]};
@@ -147,6 +167,7 @@ class RigidBody {
   const api::GroupBatch& m_batch;
   const api::Threads* m_threads;
   size_t m_group, m_first, m_last;
+  const RigidRest* m_rest;  ///< nullptr: not known
   double m_mass = 0, m_scale = 1;
   bool m_held = false;
   RigidPose m_pose;

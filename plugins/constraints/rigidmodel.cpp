@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ps::constraint {
@@ -66,6 +67,9 @@ constexpr api::FieldDeclaration kFields[] = {
     kJoiningFields[1],
     {kTouchField, "s", "How long the particle has touched another rigid body that it may join", kFloat},
 };
+
+/// From predict() until the substep is over: one thread leads through it, and each that does has its own.
+thread_local RigidRests t_rests;
 
 Vector centreOf(const Float4* points, const RigidBody& body) {
   Vector sum;
@@ -178,7 +182,7 @@ void RigidModel::predict(const ConstraintContext& context, const api::MovablePar
                          const GroupBatch& batch) const {
   const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g, m_threads);
+    RigidBody body(p, batch, g, m_threads, t_rests);
     // A frame that went wrong leaves no pose; edits, a bound or a frame taken back may have moved members since it was
     // written.
     if (!body.hasPose()) body.setPose(centreOf(p.previous, body), {});
@@ -205,7 +209,7 @@ void RigidModel::project(const ConstraintContext& context, const api::MovablePar
                          const GroupBatch& batch) const {
   const ParticleView& p = particles;
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g, m_threads);
+    RigidBody body(p, batch, g, m_threads, std::as_const(t_rests));
     absorb(body, particles, context.dt);
   }
 }
@@ -215,7 +219,7 @@ void RigidModel::deriveVelocities(const ConstraintContext& context, const api::M
   const ParticleView& p = particles;
   const float rate = static_cast<float>(1 / context.dt);
   for (size_t g = 0; g < batch.count; ++g) {
-    RigidBody body(p, batch, g, m_threads);
+    RigidBody body(p, batch, g, m_threads, std::as_const(t_rests));
     // What viscosity gave: the velocity without the way of the substep, which was computed just so.
     const RigidMomentum momentum = extraMomentumOf(p, body.members(), body.centre(), rate);
     absorb(body, particles, context.dt);
