@@ -39,7 +39,6 @@ class SharedTime {
   }
   SharedTime(const SharedTime&) = delete;
   SharedTime& operator=(const SharedTime&) = delete;
-  Clock::time_point start() const { return m_start; }
 
  private:
   Clock::time_point m_start = Clock::now();
@@ -56,7 +55,7 @@ void run(size_t count, size_t grain, const Body& body, double microseconds, Loop
   const size_t threads = std::min(chunks, static_cast<size_t>(threadsWorth(microseconds)));
   const Workers::Own own = workers()->share(static_cast<int>(threads) - 1, chunks, std::cref(runChunk));
   if (cost && own.chunks > 0)
-    cost->learn(std::chrono::duration<double, std::micro>(own.end - counted.start()).count(),
+    cost->learn(std::chrono::duration<double, std::micro>(own.end - own.begin).count(),
                 std::min(count, own.chunks * grain));
 }
 }  // namespace

@@ -72,10 +72,11 @@ Workers::Loop* Workers::freeLoop() {
 }
 
 Workers::Own Workers::share(int helpers, size_t chunks, const std::function<void(size_t)>& body) {
+  const auto begin = Clock::now();
   Loop* const loop = helpers > 0 && chunks < kMostChunks ? freeLoop() : nullptr;
   if (!loop) {
     for (size_t chunk = 0; chunk < chunks; ++chunk) body(chunk);
-    return {chunks, Clock::now()};
+    return {chunks, begin, Clock::now()};
   }
   std::atomic<uint64_t>& post = m_posted[static_cast<size_t>(loop - m_loops.data())];
   loop->body = &body;
@@ -84,12 +85,15 @@ Workers::Own Workers::share(int helpers, size_t chunks, const std::function<void
   loop->number = (loop->number + 1) % kNumbers;
   post = posted(loop->number, loop->used);
   if (m_sleeping > 0) wakeTwo();
-  const Own own{run(*loop, 0), Clock::now()};
+  Own own;
+  own.begin = Clock::now();
+  own.chunks = run(*loop, 0);
+  own.end = Clock::now();
   // Who sits down from now on sees that it is too late: either post or seat is seen by the other one, as each writes
   // its own before it reads the other's.
   post = posted(loop->number, 0);
   for (size_t p = 1; p < loop->used; ++p)
-    for (Patience patience; loop->seats[p].taken;) patience.wait();
+    for (Patience patience; loop->seats[seatOfPart(p, loop->used)].taken;) patience.wait();
   const std::exception_ptr error = std::exchange(loop->error, nullptr);
   loop->taken = false;
   if (error) std::rethrow_exception(error);
@@ -128,14 +132,21 @@ bool Workers::take(Loop& loop, size_t part, size_t& chunk) {
 }
 
 /// Each place for a loop has its helpers in another order, so that two small ones have different ones.
-size_t Workers::partOf(size_t helper, size_t loop) const {
+size_t Workers::seatOf(size_t helper, size_t loop) const {
   const size_t count = m_helpers.size();
   return (helper + loop * (count / kLoops)) % count + 1;
 }
 
+/// The part of who sits there; 0, which is the caller's own: none.
+size_t Workers::partOf(size_t seat, size_t parts) const {
+  const size_t threads = m_helpers.size() + 1, part = (seat * parts + threads - 1) / threads;
+  return part < parts && seatOfPart(part, parts) == seat ? part : 0;
+}
+
 bool Workers::anyFor(size_t helper) const {
   for (size_t l = 0; l < kLoops; ++l) {
-    if (partOf(helper, l) < partsOf(m_posted[l])) return true;
+    const size_t parts = partsOf(m_posted[l]);
+    if (parts > 0 && partOf(seatOf(helper, l), parts) > 0) return true;
   }
   return false;
 }
@@ -144,14 +155,15 @@ bool Workers::anyFor(size_t helper) const {
 bool Workers::help(size_t helper) {
   for (size_t l = 0; l < kLoops; ++l) {
     const uint64_t now = m_posted[l].load(std::memory_order_acquire);
-    const size_t part = partOf(helper, l);
     uint64_t& done = m_helpers[helper].done[l];
-    if (part >= partsOf(now) || done == numberOf(now)) continue;
-    std::atomic<bool>& seat = m_loops[l].seats[part].taken;
-    seat = true;
-    if (m_posted[l] == now) run(m_loops[l], part);
-    seat.store(false, std::memory_order_release);
+    if (partsOf(now) == 0 || done == numberOf(now)) continue;
+    const size_t seat = seatOf(helper, l), part = partOf(seat, partsOf(now));
     done = numberOf(now);
+    if (part == 0) continue;
+    std::atomic<bool>& taken = m_loops[l].seats[seat].taken;
+    taken = true;
+    if (m_posted[l] == now) run(m_loops[l], part);
+    taken.store(false, std::memory_order_release);
     return true;
   }
   return false;

@@ -32,10 +32,10 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// What one thread has done of a loop, and until when.
+  /// What one thread has done of a loop, from when until when.
   struct Own {
     size_t chunks = 0;
-    std::chrono::steady_clock::time_point end;
+    std::chrono::steady_clock::time_point begin, end;
   };
   /// Calls body(chunk) once for each chunk below `chunks`, on this thread and on up to `helpers` others; says what this
   /// one has done. Throws the first of what the bodies threw, once all that had begun have ended; those that had not
@@ -43,8 +43,9 @@ class Workers {
   Own share(int helpers, size_t chunks, const std::function<void(size_t chunk)>& body);
 
  private:
-  /// Chunks that are one thread's: it has them first, and then helps others with theirs. What a chunk of one loop has
-  /// read lies in the caches of who takes it in the next one.
+  /// Chunks that are one thread's: it has them first, and then helps others with theirs. Loops of few threads and of
+  /// many cut what they go through in the same order, and each thread's part lies where it lies in those of all of
+  /// them: what a chunk of one loop has read lies in the caches of who takes it in the next one.
   struct alignas(64) Part {
     std::atomic<uint64_t> begun = 0;  ///< the loop that it is of, and the number of chunks that somebody has taken
   };
@@ -70,7 +71,9 @@ class Workers {
   Loop* freeLoop();
   static size_t run(Loop& loop, size_t self);  ///< the number of chunks
   static bool take(Loop& loop, size_t part, size_t& chunk);
-  size_t partOf(size_t helper, size_t loop) const;
+  size_t seatOf(size_t helper, size_t loop) const;
+  size_t seatOfPart(size_t part, size_t parts) const { return part * (m_helpers.size() + 1) / parts; }
+  size_t partOf(size_t seat, size_t parts) const;
   bool help(size_t helper);
   bool anyFor(size_t helper) const;
   void wakeTwo();

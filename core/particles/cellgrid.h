@@ -22,14 +22,14 @@ class CellGrid {
   /// last cell.
   template <class PlaceOf>
   void sort(size_t count, double edge, const Period& period, PlaceOf&& placeOf) {
-    m_bounds.assign(chunkCount(count, grain::kNumbers), {});
-    forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) m_bounds[first / grain::kNumbers].add(placeOf(i));
+    m_bounds.assign(chunkCount(count, grain::kParticles), {});
+    forChunks(count, grain::kParticles, [&](size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i) m_bounds[first / grain::kParticles].add(placeOf(i));
     });
     Bounds whole;
     for (const Bounds& part : m_bounds) whole.add(part);
     fit(whole, count, edge, period);
-    forChunks(count, grain::kNumbers, [&](size_t first, size_t last) {
+    forChunks(count, grain::kParticles, [&](size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) m_cellOf[i] = cellOf(placeOf(i));
     });
     sortByCell();

@@ -126,7 +126,7 @@ void Neighbours::loadSlots(std::span<const api::Float4> position, const Period& 
   const size_t n = position.size();
   m_slotOf.resize(n);
   for (std::vector<float>* v : {&m_x, &m_y, &m_z}) v->resize(n + kSpareSlots);
-  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(n, grain::kParticles, [&](size_t first, size_t last) {
     for (size_t slot = first; slot < last; ++slot) {
       const size_t i = m_grid.order()[slot];
       const api::Double3 p = period.wrapped({position[i].x, position[i].y, position[i].z});
@@ -291,7 +291,7 @@ void Neighbours::makeLists(std::span<const api::Float4> position, const Period& 
   all = false;
   if (giveMoreRoom()) forChunks(n, grain::kNeighbours, search);
   m_built.resize(n);
-  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(n, grain::kParticles, [&](size_t first, size_t last) {
     std::copy(position.begin() + static_cast<ptrdiff_t>(first), position.begin() + static_cast<ptrdiff_t>(last),
               m_built.begin() + static_cast<ptrdiff_t>(first));
   });
@@ -301,7 +301,7 @@ bool Neighbours::stale(const ParticleStore& store) const {
   const size_t n = store.size();
   if (m_built.size() != n) return true;
   const api::Float4* position = store.position();
-  return anyChunk(n, grain::kNumbers, [&](size_t first, size_t last) {
+  return anyChunk(n, grain::kParticles, [&](size_t first, size_t last) {
     float most = 0;
     for (size_t i = first; i < last; ++i) {
       const float x = position[i].x - m_built[i].x, y = position[i].y - m_built[i].y, z = position[i].z - m_built[i].z;

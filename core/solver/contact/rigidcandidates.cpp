@@ -334,7 +334,7 @@ void RigidContact::refreshContacts(const ParticleStore& store, const Neighbours&
   // With room to spare: their number changes a little with each new list, and a steady frame allocates nothing.
   if (m_candidates.size() > m_contacts.capacity()) m_contacts.reserve(m_candidates.size() + m_candidates.size() / 2);
   m_contacts.resize(m_candidates.size());
-  forChunks(m_contacts.size(), grain::kConstraints, [&](size_t first, size_t last) {
+  forChunks(m_contacts.size(), grain::kNeighbours, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) m_contacts[k] = contactOf(store, m_candidates[k]);
   });
   keepImpulses();

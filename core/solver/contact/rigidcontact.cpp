@@ -199,8 +199,9 @@ Vector3 RigidContact::readSide(const ParticleStore& store, Side& side, const Vec
   return way + body.turned.cross(place - side.start);
 }
 
+/// Many at a time: who solves them next, one after another, would have to get what others have written.
 void RigidContact::readPlaces(const ParticleStore& store) {
-  forChunks(m_open.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+  forChunks(m_open.size(), grain::kConstraints, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) readPlace(store, m_open[k]);
   });
 }
@@ -328,7 +329,7 @@ void RigidContact::project(ParticleStore& store) {
     }
     if (std::max(most, moveSinceMark()) < kStill * kStill * m_spacing * m_spacing) break;
   }
-  forChunks(m_open.size(), grain::kParticles, [&](size_t first, size_t last) {
+  forChunks(m_open.size(), grain::kConstraints, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       Contact& c = *m_open[k].contact;
       if (!c.met) continue;

@@ -91,7 +91,7 @@ void DensityStage::refresh(const ParticleStore& store, const Neighbours& neighbo
   m_weights = {};
   const api::Motion* motion = store.motion();
   const api::Float4 *position = store.position(), *velocity = store.velocity();
-  forChunks(n, grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(n, grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) m_volume[i] = m_shapes->isShaped(i) ? 0 : position[i].w;
   });
   findIndices(n, m_fluid, [&](size_t i) { return isFluid(motion[i]) && velocity[i].w > 0; });
@@ -119,7 +119,7 @@ void DensityStage::weigh(const ParticleStore& store) {
   } else {
     std::copy(kinds.inverseMass.begin(), kinds.inverseMass.end(), m_weights.inverseMass);
   }
-  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const float volume = m_volume[i] * scale, inverseMass = velocity[i].w;
       m_volume[i] = volume;
@@ -199,7 +199,7 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
   findIndices(store.size(), m_some, [&](size_t i) { return counts(i) && m_touched[i] != 0; });
   if (m_some.empty()) return;
   const api::Float4* position = store.position();
-  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i)
       m_points[i] = {position[i].x, position[i].y, position[i].z, counts(i) ? 1.0f : 0.0f};
   });
@@ -216,7 +216,7 @@ void DensityStage::solidVolumes(const ParticleStore& store, const PairLists& pai
 
 void DensityStage::loadPoints(const ParticleStore& store) {
   const api::Float4* position = store.position();
-  forChunks(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+  forChunks(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       m_points[i] = {position[i].x, position[i].y, position[i].z, m_volume[i]};
       if (m_isFluid[i] == 0) m_multipliers[i] = {position[i].x, position[i].y, position[i].z, 0};

@@ -72,7 +72,7 @@ void Solver::Impl::checkBounds() {
 }
 
 bool Solver::Impl::allFinite() const {
-  return !anyChunk(store.size(), grain::kNumbers, [&](size_t first, size_t last) {
+  return !anyChunk(store.size(), grain::kParticles, [&](size_t first, size_t last) {
     constexpr uint32_t kSingle = 0x7f800000u;
     constexpr uint64_t kDouble = 0x7ff0000000000000u;
     return !allFiniteOf(&store.position()[first].x, 4 * (last - first), kSingle) ||
