@@ -21,10 +21,10 @@ void LiquidContact::configure(double spacing, double skin) {
 
 void LiquidContact::refresh(const ParticleStore& store, const Neighbours& neighbours,
                             std::span<const uint32_t> solids) {
-  const size_t chunks = chunkCount(solids.size(), grain::kNeighbours);
+  const size_t chunks = chunkCount(solids.size(), grain::kPairs);
   m_chunks.resize(std::max(m_chunks.size(), chunks));
-  forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / grain::kNeighbours]);
+  forChunks(solids.size(), grain::kPairs, [&](size_t first, size_t last) {
+    findLiquids(store, neighbours, solids.subspan(first, last - first), m_chunks[first / grain::kPairs]);
   });
   m_contacts.clear();
   m_partner.clear();

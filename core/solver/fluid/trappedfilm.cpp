@@ -85,7 +85,7 @@ void TrappedFilm::refresh(const ParticleStore& store, const Neighbours& neighbou
   m_below.resize(store.size());
   assignAll(m_gap, store.size(), double{HUGE_VAL});
   m_inside.resize(solids.size());
-  forChunks(solids.size(), grain::kNeighbours, [&](size_t first, size_t last) {
+  forChunks(solids.size(), grain::kPairs, [&](size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const uint32_t solid = solids[k];
       m_inside[k] = outweighsLiquid(store, neighbours, solid) && !restsOnOwn(store, neighbours, solid) ? 0 : 1;
