@@ -219,12 +219,17 @@ void RigidContact::readPlace(const ParticleStore& store, Open& open) const {
     image = b - vectorOf(store.position()[c.b.particle]);
   }
   c.way = readSide(store, c.a, place) - readSide(store, c.b, place - image);
-  c.ofA = responseOf(c.a, c.normal);
-  c.ofB = responseOf(c.b, c.normal);
-  c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
+  c.mass = 0;
   open.normal = c.normal;
   open.leverA = c.a.arm.cross(c.normal), open.leverB = c.b.arm.cross(c.normal);
   open.gap = c.gap;
+}
+
+/// Of those that touch: most of what is open does not.
+void RigidContact::readResponse(Contact& c) const {
+  c.ofA = responseOf(c.a, c.normal);
+  c.ofB = responseOf(c.b, c.normal);
+  c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
 }
 
 /// m, by how far the two are apart now.
@@ -252,6 +257,7 @@ void RigidContact::resume(ParticleStore& store) {
 /// Returns the square of how far it moved the two, in m².
 double RigidContact::solve(ParticleStore& store, Contact& c, double gap) {
   c.met = true;
+  if (c.mass == 0) readResponse(c);
   const double before = c.push;
   c.push = std::max(0.0, before - (gap * c.mass + kCompliance * before) / (1 + kCompliance));
   const double more = c.push - before;

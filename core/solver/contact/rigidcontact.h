@@ -138,7 +138,7 @@ class RigidContact {
     double distance = 0;                               ///< m, along the normal at rest; for a plane its offset
     double gap = 0;                                    ///< m, when positions were read
     Vector3 way;                                       ///< m, of a against b since the start of the substep, likewise
-    double mass = 0;                                   ///< kg, generalised, along the normal
+    double mass = 0;                                   ///< kg, generalised, along the normal; 0: not known
     bool active = false, met = false, slides = false;  ///< met: overlapped at some time of the substep
     double push = 0;                                   ///< kg m, summed over the substep
     Vector3 rub;                                       ///< kg m
@@ -220,6 +220,7 @@ class RigidContact {
   void beginContact(const ParticleStore& store, Contact& contact) const;
   void readPlaces(const ParticleStore& store);
   void readPlace(const ParticleStore& store, Open& open) const;
+  void readResponse(Contact& contact) const;
   static void readMasses(const ParticleStore& store, Body& body, const api::Float4* points);
   Vector3 velocityOf(const ParticleStore& store, const Side& side) const;
   Vector3 velocityOf(const ParticleStore& store, const Contact& contact) const;

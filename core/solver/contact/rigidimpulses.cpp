@@ -200,9 +200,7 @@ void RigidContact::readStart(const ParticleStore& store, Contact& c) {
   const Vector3 place = m.place + share * m.wayOfA - 0.5 * line;
   c.a.arm = place - body.centre - time * body.shift;
   if (c.b.body != kNone) c.b.arm = place - m.image - m_bodies[c.b.body].centre - time * m_bodies[c.b.body].shift;
-  c.ofA = responseOf(c.a, c.normal);
-  c.ofB = responseOf(c.b, c.normal);
-  c.mass = 1 / (c.ofA.inverseMass + c.ofB.inverseMass);
+  readResponse(c);
   c.before = velocityOf(store, c);
   c.approach = c.before.dot(c.normal);
   c.strikes = c.strikes && c.approach < -m_slowest;
@@ -322,6 +320,7 @@ void RigidContact::bounce(ParticleStore& store) {
     body.touched = false;
   }
   readPlaces(store);
+  for (Contact* c : m_taking) readResponse(*c);
   findIslands();
   readApproaches(store);
   solveSpeeds(store);
