@@ -147,7 +147,8 @@ void TstBench::loopsOfOneChunkAreNotShared() {
   });
   const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count(),
                shared = secondsShared() - start;
-  QVERIFY2(shared >= 0.006 && shared <= passed, qPrintable(QString("%1 of %2").arg(shared).arg(passed)));
+  // At least its own nap and the one within, where others take both of the rest.
+  QVERIFY2(shared >= 0.004 && shared <= passed, qPrintable(QString("%1 of %2").arg(shared).arg(passed)));
 }
 
 void TstBench::threadsFollowTheWork() {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace ps {
@@ -91,14 +92,15 @@ void HeatSurroundings::measure(const ParticleStore& store, const api::NeighbourV
     m_radiation.trace({store, lists, pairs.filled, m_surface, m_level, m_walls, m_emissivity, m_settings.surfaceArea,
                        m_bounds, m_solver.spacing, frame});
   }
-  m_airTotal = parallelSum(n, grain::kNeighbours, [&](size_t first, size_t last) {
+  const auto measureSome = [&](size_t first, size_t last) {
     double sum = 0;
     for (size_t i = first; i < last; ++i) {
       measureOne(store, pairs, i);
       sum += double{m_airConductance[i]};
     }
     return sum;
-  });
+  };
+  m_airTotal = parallelSum(n, grain::kNeighbours, std::cref(measureSome));
 }
 
 bool HeatSurroundings::isLike(double temperature, double tolerance) const {
