@@ -82,7 +82,7 @@ class Neighbours {
   std::array<double, 4> m_cells{};  ///< of the lists that there are: cells of one metre, where they begin
   size_t m_slots = 0;               ///< of all
   std::vector<float> m_x, m_y, m_z;
-  std::vector<api::Float4> m_built;
+  RoomVector<api::Float4> m_built;
   /// A hair more than the radius, so that rounding never puts two neighbours two cells apart.
   static constexpr double kCellMargin = 1.0001;
   CellGrid m_grid;
