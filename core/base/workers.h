@@ -14,7 +14,7 @@
 // Why not a library: a frame of a thousand particles has some hundred loops of 5 to 100 microseconds, and what stands
 // between them runs on one thread. oneTBB, whose arenas hand threads over by way of a common market, took 10 to 30
 // microseconds for a loop of no work on 16 threads, more where loops of few and of many threads follow each other;
-// these take about 3. They look for work for half a millisecond before they sleep, so that between two loops of a frame
+// these take 3 to 4. They look for work for half a millisecond before they sleep, so that between two loops of a frame
 // nobody has to be woken, and what sleeps is woken by others that have just been.
 //
 // What takes time is a cache line that several threads write, one after the other. So a thread that comes to a loop and
