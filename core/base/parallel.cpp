@@ -13,11 +13,12 @@ namespace ps {
 namespace {
 int g_threads = 0;
 /// By which each thread that helps makes a loop longer, to come and to be waited for: work / n + this * n is least
-/// where n is the root of their ratio. ThreadSanitizer is to see small loops shared too.
+/// where n is the root of their ratio. What takes less than kLeastShared is over before others have come, and lies in
+/// the caches of who does it. ThreadSanitizer is to see small loops shared too.
 #if defined(__SANITIZE_THREAD__)
-constexpr double kMicrosecondsPerThread = 0.001;
+constexpr double kMicrosecondsPerThread = 0.001, kLeastShared = 0;
 #else
-constexpr double kMicrosecondsPerThread = 0.2;
+constexpr double kMicrosecondsPerThread = 0.2, kLeastShared = 5;
 #endif
 
 std::unique_ptr<Workers>& workers() {
@@ -74,6 +75,7 @@ int threadCount() {
 }
 
 int threadsWorth(double microseconds) {
+  if (microseconds < kLeastShared) return 1;
   const double worth = std::sqrt(std::max(0.0, microseconds) / kMicrosecondsPerThread);
   return static_cast<int>(std::clamp(worth, 1.0, static_cast<double>(threadCount())));
 }

@@ -153,7 +153,7 @@ void TstBench::loopsOfOneChunkAreNotShared() {
 
 void TstBench::threadsFollowTheWork() {
   setThreadCount(8);
-  for (const auto& [microseconds, threads] : {std::pair{0.0, 1}, {0.7, 1}, {0.9, 2}, {5.1, 5}, {1e6, 8}})
+  for (const auto& [microseconds, threads] : {std::pair{0.0, 1}, {4.9, 1}, {5.1, 5}, {9.0, 6}, {1e6, 8}})
     QCOMPARE(threadsWorth(microseconds), threads);
   // As many chunks of something quick get fewer than those of something that takes long, and the least stay with the
   // one who calls.
