@@ -2,6 +2,7 @@
 // Which particles of rigid bodies may touch what, and how they face each other.
 #include "core/base/parallelarrays.h"
 #include "core/base/statestream.h"
+#include "core/particles/mostaround.h"
 #include "core/solver/contact/rigidcontact.h"
 
 #include <algorithm>
@@ -31,38 +32,6 @@ bool anyAbove(const uint32_t* list, size_t count, const std::vector<uint32_t>& r
   }
   return false;
 }
-
-/// Highest rank of all whose lists may name each other, by the cells that lists go by: within a body it is the body's
-/// own, and nobody's list has to be read there.
-class HighestRanks {
- public:
-  HighestRanks(const CellGrid& grid, const std::vector<uint32_t>& rank, std::vector<uint32_t>& ofCell)
-      : m_grid(grid), m_ofCell(ofCell) {
-    const std::span<const uint32_t> starts = grid.starts(), order = grid.order();
-    ofCell.resize(starts.size() - 1);
-    forChunks(ofCell.size(), grain::kParticles, [&](size_t first, size_t last) {
-      for (size_t c = first; c < last; ++c) {
-        uint32_t highest = 0;
-        for (uint32_t slot = starts[c]; slot < starts[c + 1]; ++slot) highest = std::max(highest, rank[order[slot]]);
-        ofCell[c] = highest;
-      }
-    });
-  }
-  /// In the cells around that of a particle; whoever asks for those of one cell one after another has it looked up
-  /// once.
-  uint32_t around(uint32_t particle) {
-    const uint32_t cell = m_grid.cellOfEach()[particle];
-    if (cell == m_cell) return m_around;
-    m_cell = cell, m_around = 0;
-    m_grid.aroundCell(cell, [&](size_t c) { m_around = std::max(m_around, m_ofCell[c]); });
-    return m_around;
-  }
-
- private:
-  const CellGrid& m_grid;
-  const std::vector<uint32_t>& m_ofCell;
-  uint32_t m_cell = ~0u, m_around = 0;
-};
 
 }  // namespace
 
@@ -247,9 +216,10 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
     const std::atomic_ref<bool> touched(m_bodies[body].hasContacts);
     if (!touched.load(std::memory_order_relaxed)) touched.store(true, std::memory_order_relaxed);
   };
-  const HighestRanks highest(neighbours.grid(), m_rank, m_highestRank);
+  // Within a body the highest rank around is the body's own.
+  const MostAround highest(neighbours.grid(), m_rank, m_highestRank);
   forChunks(store.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    HighestRanks ranks = highest;
+    MostAround ranks = highest;
     WallSet walls;
     std::vector<Candidate>& found = m_candidatesOf[first / grain::kNeighbours];
     found.clear();
@@ -263,7 +233,7 @@ void RigidContact::findCandidates(const ParticleStore& store, const Neighbours& 
       });
       // Each pair of bodies once, from the body that comes first.
       const uint32_t own = m_bodyOf[i] + 1;
-      if (ranks.around(i) <= own) continue;
+      if (ranks.at(i) <= own) continue;
       if (!anyAbove(view.index + view.begin[i], view.last[i] - view.begin[i], m_rank, own)) continue;
       for (uint32_t q = view.begin[i]; q < view.last[i]; ++q) {
         const uint32_t j = view.index[q];

@@ -3,6 +3,7 @@
 
 #include "core/base/parallelarrays.h"
 #include "core/base/room.h"
+#include "core/particles/mostaround.h"
 
 #include <algorithm>
 #include <array>
@@ -162,29 +163,14 @@ void DensityStage::refreshLists(const ParticleStore& store, const Neighbours& ne
   m_film.refresh(store, neighbours, m_wet);
 }
 
-/// What has fluid in its list. Where the cells around hold none, nobody's list has to be read.
+/// What has fluid in its list.
 void DensityStage::findTouched(const Neighbours& neighbours) {
-  const CellGrid& grid = neighbours.grid();
-  const std::span<const uint32_t> starts = grid.starts(), order = grid.order(), cellOf = grid.cellOfEach();
-  m_cellHasFluid.resize(starts.size() - 1);
-  forChunks(m_cellHasFluid.size(), grain::kParticles, [&](size_t first, size_t last) {
-    for (size_t c = first; c < last; ++c) {
-      uint8_t any = 0;
-      for (uint32_t slot = starts[c]; slot < starts[c + 1]; ++slot) any |= m_isFluid[order[slot]];
-      m_cellHasFluid[c] = any;
-    }
-  });
+  const MostAround fluids(neighbours.grid(), m_isFluid, m_cellHasFluid);
   const api::NeighbourView view = neighbours.view();
   forChunks(m_isFluid.size(), grain::kNeighbours, [&](size_t first, size_t last) {
-    uint32_t cell = static_cast<uint32_t>(m_cellHasFluid.size());
-    uint8_t around = 0;
+    MostAround around = fluids;
     for (size_t i = first; i < last; ++i) {
-      if (m_isFluid[i] != 0) continue;
-      if (cellOf[i] != cell) {
-        cell = cellOf[i], around = 0;
-        grid.aroundCell(cell, [&](size_t c) { around |= m_cellHasFluid[c]; });
-      }
-      if (around == 0) continue;
+      if (m_isFluid[i] != 0 || around.at(i) == 0) continue;
       const auto isFluid = [&](uint32_t j) { return m_isFluid[j] != 0; };
       m_touched[i] = std::any_of(view.index + view.begin[i], view.index + view.last[i], isFluid) ? 1 : 0;
     }
