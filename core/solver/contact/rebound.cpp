@@ -4,10 +4,12 @@
 #include "core/base/parallelarrays.h"
 #include "core/base/statestream.h"
 #include "core/solver/contact/membersums.h"
+#include "core/solver/structure/piecelists.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -56,30 +58,36 @@ void Rebound::configure(const SolverSettings& settings, const std::vector<Wall>&
 void Rebound::findPieces(const ParticleStore& store, const Structure& structure) {
   m_stale = false;
   m_anySoft = false;
-  assignAll(m_pieceOf, structure.pieceOf);  // by now the first member of each
+  const PieceLists& lists = structure.pieces;
+  lengthen(m_pieceOf, store.size());
+  forChunks(store.size(), grain::kNumbers, [&](size_t from, size_t to) {
+    for (size_t i = from; i < to; ++i) {
+      const uint32_t first = structure.pieceOf[i];
+      m_pieceOf[i] = first == ConstraintSystem::kNoPiece ? kNone : static_cast<uint32_t>(lists.pieceOf(first));
+    }
+  });
   const std::span<const uint8_t> thin = structure.constraints.thinBodies();
   const std::span<const uint32_t> bodyOf = structure.rigid.bodyOf();
-  size_t count = 0;
-  for (uint32_t i = 0; i < store.size(); ++i) {
-    const uint32_t first = m_pieceOf[i];
-    if (first == ConstraintSystem::kNoPiece) continue;
-    if (first == i) {
-      if (count == m_pieces.size()) m_pieces.emplace_back();
-      m_pieces[count].members.clear();
-      m_pieces[count].whole = true;
-      m_pieces[count].body = bodyOf[i];
-      m_pieces[count].readAt = 0;
-      m_pieceOf[i] = static_cast<uint32_t>(count++);
-    } else {
-      m_pieceOf[i] = m_pieceOf[first];
-    }
-    Piece& piece = m_pieces[m_pieceOf[i]];
+  const auto breaks = [&](uint32_t i, uint32_t rigid) {
     const uint32_t body = store.body()[i];
     const bool isThin = body < thin.size() && thin[body] != 0;
-    if (store.velocity()[i].w == 0 || isThin || bodyOf[i] != piece.body) piece.whole = false;
-    piece.members.push_back(i);
+    return store.velocity()[i].w == 0 || isThin || bodyOf[i] != rigid;
+  };
+  m_broken.assign(lists.count(), 0);
+  forChunks(lists.members().size(), grain::kNumbers, [&](size_t from, size_t to) {
+    lists.eachPart(from, to, [&](size_t piece, std::span<const uint32_t> members) {
+      const uint32_t rigid = bodyOf[lists.members(piece)[0]];
+      if (std::any_of(members.begin(), members.end(), [&](uint32_t i) { return breaks(i, rigid); }))
+        std::atomic_ref(m_broken[piece]).store(1, std::memory_order_relaxed);
+    });
+  });
+  m_pieces.resize(lists.count());
+  for (size_t k = 0; k < m_pieces.size(); ++k) {
+    m_pieces[k].members = lists.members(k);
+    m_pieces[k].whole = m_broken[k] == 0;
+    m_pieces[k].body = bodyOf[m_pieces[k].members[0]];
+    m_pieces[k].readAt = 0;
   }
-  m_pieces.resize(count);
   for (const Piece& piece : m_pieces) m_anySoft = m_anySoft || (piece.whole && piece.body == kNone);
   findAgain(store);
 }

@@ -10,6 +10,7 @@
 
 namespace ps {
 
+class PieceLists;
 class StateReader;
 class StateWriter;
 
@@ -33,10 +34,12 @@ class StateWriter;
 /// bounce one by one). Rigid bodies have RigidContact among themselves; with soft ones they meet here.
 class Rebound {
  public:
-  /// Who hangs together, as ConstraintSystem::pieces() has it, and what rigid bodies touch.
+  /// Who hangs together, as ConstraintSystem::findPieces() has it, and what rigid bodies touch. Lists of pieces live
+  /// until refresh().
   struct Structure {
     const ConstraintSystem& constraints;
     std::span<const uint32_t> pieceOf;
+    const PieceLists& pieces;
     const RigidContact& rigid;
   };
   void configure(const SolverSettings& settings, const std::vector<Wall>& walls,
@@ -65,7 +68,7 @@ class Rebound {
     Vector3 velocity, spin;
   };
   struct Piece {
-    std::vector<uint32_t> members;
+    std::span<const uint32_t> members;
     bool whole = true;      ///< free, not thin, and either soft or one rigid body
     uint32_t body = kNone;  ///< of RigidContact
     uint64_t readAt = 0;    ///< when what follows was read
@@ -140,6 +143,7 @@ class Rebound {
   bool m_stale = true, m_anySoft = false;
   uint64_t m_now = 0;  ///< counts the times when velocities have changed
   std::vector<uint32_t> m_pieceOf;
+  std::vector<uint8_t> m_broken;  ///< of findPieces(): by piece, 1 where it is no whole
   std::vector<Piece> m_pieces;
   std::vector<Encounter> m_encounters;
   std::vector<Touch> m_touches;  ///< by encounter

@@ -331,7 +331,7 @@ void Solver::Impl::substep(uint32_t index) {
     rigid.begin(store);
     contact.begin(store);
     impacts.collect(store, contact, constraints, rigid.members());
-    rebound.meet(store, {constraints, pieceOf, rigid}, impacts);
+    rebound.meet(store, {constraints, pieceOf, pieces, rigid}, impacts);
   });
   balance.mark(store, Part::Impact, 1 / dt);
   structure([&] { constraints.carry(store, index); }, dt);
@@ -367,7 +367,7 @@ void Solver::Impl::changeVelocities(uint32_t index, double dt) {
   timed(Stage::Contact, [&] {
     impacts.bounce(store);
     rigid.bounce(store);
-    rebound.part(store, {constraints, pieceOf, rigid});
+    rebound.part(store, {constraints, pieceOf, pieces, rigid});
   });
   balance.mark(store, Part::Impact, 0);
   for (ExternalImpulse* impulse :

@@ -12,21 +12,6 @@
 
 namespace ps {
 
-namespace {
-
-/// visit(part, from, to) for what of [first, last) lies within each of the parts that begin so, counted from its begin.
-template <class Visit>
-void eachPart(std::span<const size_t> begin, size_t first, size_t last, const Visit& visit) {
-  size_t part = static_cast<size_t>(std::upper_bound(begin.begin(), begin.end(), first) - begin.begin()) - 1;
-  for (size_t next = first; next < last; ++part) {
-    const size_t end = std::min(last, begin[part + 1]);
-    visit(part, next - begin[part], end - begin[part]);
-    next = end;
-  }
-}
-
-}  // namespace
-
 GroupLists::GroupLists(size_t values, size_t memberValues) : m_values(values), m_memberValues(memberValues) {}
 
 void GroupLists::clear() { *this = GroupLists(m_values.size(), m_memberValues.size()); }
@@ -123,7 +108,7 @@ bool GroupLists::anyShared(const std::vector<Source>& sources, size_t particles)
   std::vector<uint8_t> seen(particles, 0);
   return anyChunk(begin.back(), grain::kNumbers, [&](size_t first, size_t last) {
     bool shared = false;
-    eachPart(begin, first, last, [&](size_t s, size_t from, size_t to) {
+    eachFlatPart(begin, first, last, [&](size_t s, size_t from, size_t to) {
       for (size_t k = from; k < to; ++k) {
         std::atomic_ref<uint8_t> mark(seen[sources[s].particles[k]]);
         shared = mark.exchange(1, std::memory_order_relaxed) != 0 || shared;
@@ -155,7 +140,7 @@ void GroupLists::copyMembers(const GroupLists& old, const std::vector<Source>& s
   };
   const auto copyAll = [&](size_t begin, size_t end) {
     forChunks(end - begin, grain::kNumbers,
-              [&](size_t first, size_t last) { eachPart(m_begin, begin + first, begin + last, copy); });
+              [&](size_t first, size_t last) { eachFlatPart(m_begin, begin + first, begin + last, copy); });
   };
   if (!t_progress) return copyAll(0, total);
   // What is added is told twice, as what is coloured and what is put in order.

@@ -2,10 +2,10 @@
 #pragma once
 #include "core/base/parallel.h"
 #include "core/particles/particlestore.h"
+#include "core/solver/structure/flatparts.h"
 
 #include <phasesketch/constraint.h>
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -68,11 +68,9 @@ class GroupLists {
   template <class Visit>
   void eachMember(const Visit& visit) const {
     forChunks(m_particles.size(), grain::kNumbers, [&](size_t first, size_t last) {
-      size_t g = static_cast<size_t>(std::upper_bound(m_begin.begin(), m_begin.end(), first) - m_begin.begin()) - 1;
-      for (size_t k = first; k < last; ++k) {
-        while (k >= m_begin[g + 1]) ++g;
-        visit(m_particles[k], g);
-      }
+      eachFlatPart(m_begin, first, last, [&](size_t g, size_t from, size_t to) {
+        for (const uint32_t i : members(g).subspan(from, to - from)) visit(i, g);
+      });
     });
   }
   /// Groups [first, last); valid until the lists change. `batch` is filled in place, because it points into itself.

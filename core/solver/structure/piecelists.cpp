@@ -38,8 +38,4 @@ void PieceLists::refresh(std::span<const uint32_t> pieceOf) {
   });
 }
 
-size_t PieceLists::pieceAt(size_t place) const {
-  return static_cast<size_t>(std::upper_bound(m_begin.begin(), m_begin.end(), place) - m_begin.begin()) - 1;
-}
-
 }  // namespace ps

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "core/solver/structure/flatparts.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,16 +30,11 @@ class PieceLists {
   /// visit(piece, members) for what of [first, last) in members() belongs to each piece.
   template <class Visit>
   void eachPart(size_t first, size_t last, const Visit& visit) const {
-    for (size_t piece = pieceAt(first); first < last; ++piece) {
-      const size_t end = m_begin[piece + 1] < last ? m_begin[piece + 1] : last;
-      visit(piece, members().subspan(first, end - first));
-      first = end;
-    }
+    eachFlatPart(m_begin, first, last,
+                 [&](size_t piece, size_t from, size_t to) { visit(piece, members(piece).subspan(from, to - from)); });
   }
 
  private:
-  size_t pieceAt(size_t place) const;
-
   std::vector<size_t> m_begin{0};
   std::vector<uint32_t> m_members;
   std::vector<uint32_t> m_first;       ///< members of pieces
