@@ -5,7 +5,6 @@
 #include "sharedloops.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -28,6 +27,12 @@ constexpr uint32_t kThesisMost = 4;
 /// Particles and bonds that threads take at a time, and what one thread takes for each, microseconds.
 constexpr size_t kSharedParticles = 256, kSharedBonds = 4096;
 constexpr double kMicrosecondsPerList = 0.03, kMicrosecondsPerBond = 0.002;
+
+/// visit(k) for each particle or bond.
+template <class Visit>
+void forEach(const api::Threads* threads, size_t count, const Visit& visit) {
+  forShared(threads, count, kMicrosecondsPerBond, visit, kSharedBonds);
+}
 
 float distanceSquared(const ParticleView& p, uint32_t i, uint32_t j) {
   const api::Float4 d = api::separation(p, i, j);
@@ -59,14 +64,11 @@ class LettingGo {
  public:
   LettingGo(const ConstraintContext& context, const ParticleView& p, const api::Threads* threads)
       : m_state(std::make_unique_for_overwrite<uint8_t[]>(p.count)) {
-    const auto find = [&](size_t first, size_t last) {
-      for (size_t k = first; k < last; ++k) {
-        const auto i = static_cast<uint32_t>(k);
-        const unsigned loose = holds(p.motion[i]) ? 0 : kLoose, melting = p.solidFraction[i] < 1 ? kMelting : 0;
-        m_state[i] = static_cast<uint8_t>(loose | melting | (byThesis(context, p, i) ? kThesis : 0));
-      }
-    };
-    api::shareAmong(threads, p.count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(p.count), find);
+    forEach(threads, p.count, [&](size_t k) {
+      const auto i = static_cast<uint32_t>(k);
+      const unsigned loose = holds(p.motion[i]) ? 0 : kLoose, melting = p.solidFraction[i] < 1 ? kMelting : 0;
+      m_state[i] = static_cast<uint8_t>(loose | melting | (byThesis(context, p, i) ? kThesis : 0));
+    });
   }
   bool operator()(uint32_t i, uint32_t j) const {
     const unsigned a = m_state[i], b = m_state[j];
@@ -77,17 +79,6 @@ class LettingGo {
   static constexpr unsigned kLoose = 1, kMelting = 2, kThesis = 4;
   std::unique_ptr<uint8_t[]> m_state;
 };
-
-template <class Visit>
-void forEach(const api::Threads* threads, size_t count, const Visit& visit) {
-  api::shareAmong(threads, count, kSharedBonds, kMicrosecondsPerBond * static_cast<double>(count),
-                  [&](size_t first, size_t last) {
-                    for (size_t k = first; k < last; ++k) visit(k);
-                  });
-}
-
-/// Returns what it was. Numbers that are only counted do not depend on who came first.
-uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
 
 /// How many bonds a particle has, and to whom, in no order, where it may take more.
 class BondGraph {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joining.h"
 
-#include <atomic>
+#include "sharedloops.h"
 
 namespace ps::constraint {
 namespace {
@@ -10,8 +10,7 @@ uint8_t* fieldOf(const api::ParticleView& p, const char* name) {
   return static_cast<uint8_t*>(p.fields->write(name, api::FieldType::UInt8));
 }
 
-/// Particles that threads take at a time, and what one thread takes for each, microseconds.
-constexpr size_t kShared = 4096;
+/// What one thread takes for a particle.
 constexpr double kMicroseconds = 0.002;
 
 bool isFluid(api::Motion motion) { return motion == api::Motion::Liquid || motion == api::Motion::Gas; }
@@ -41,7 +40,8 @@ Joining::Joining(const api::ConstraintContext& context, const api::ParticleView&
 }
 
 void Joining::noteFluid(const api::Threads* threads) const {
-  share(threads, [&](uint32_t i) {
+  forShared(threads, m_p.count, kMicroseconds, [&](size_t k) {
+    const auto i = static_cast<uint32_t>(k);
     if (!isFluid(m_p.motion[i])) return;
     m_fresh[i] = 1;
     if (keeper(i) == Keeper::Guest) setKeeper(i, Keeper::None);
@@ -49,20 +49,10 @@ void Joining::noteFluid(const api::Threads* threads) const {
 }
 
 bool Joining::anybody(const api::Threads* threads) const {
-  std::atomic<bool> any{false};
-  share(threads, [&](uint32_t i) {
-    if (any.load(std::memory_order_relaxed)) return;
-    if (m_p.motion[i] == api::Motion::Solid && (fresh(i) || dryJoiner(i))) any.store(true, std::memory_order_relaxed);
+  return anyShared(threads, m_p.count, kMicroseconds, [&](size_t k) {
+    const auto i = static_cast<uint32_t>(k);
+    return m_p.motion[i] == api::Motion::Solid && (fresh(i) || dryJoiner(i));
   });
-  return any;
-}
-
-template <class Visit>
-void Joining::share(const api::Threads* threads, const Visit& visit) const {
-  api::shareAmong(threads, m_p.count, kShared, kMicroseconds * static_cast<double>(m_p.count),
-                  [&](size_t first, size_t last) {
-                    for (size_t i = first; i < last; ++i) visit(static_cast<uint32_t>(i));
-                  });
 }
 
 }  // namespace ps::constraint

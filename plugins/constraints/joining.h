@@ -65,8 +65,6 @@ class Joining {
     double solidus;
     bool sinters;
   };
-  template <class Visit>
-  void share(const api::Threads* threads, const Visit& visit) const;
   const Rule& ruleOf(uint32_t i) const { return m_rules[m_p.material[i]]; }
   bool cut(uint32_t i) const { return m_cuts && m_cuts->at(i); }
   bool akin(uint32_t a, uint32_t b) const { return a == b || m_adhesion[a * m_rules.size() + b] != 0; }

@@ -20,6 +20,12 @@ inline constexpr const char* kTouchField = "rigid.touch";
 /// What it says of members that undo has put back, until the next frame.
 inline constexpr float kReturned = 1e9f;
 
+/// m, of the member at place k of the batch, in the undeformed frame.
+inline Vector restPlaceOf(const api::GroupBatch& batch, size_t k) {
+  const auto of = [&](RigidModel::MemberValue v) { return batch.memberValues[v][k]; };
+  return {of(RigidModel::kRestX), of(RigidModel::kRestY), of(RigidModel::kRestZ)};
+}
+
 /// One group and its pose, which lives in the group's values, in single precision: what is computed from it is the same
 /// whenever it is computed, so that a body that nothing has touched is found to be exactly where it was put.
 class RigidBody {
@@ -39,7 +45,7 @@ class RigidBody {
   size_t last() const { return m_last; }
   uint32_t particle(size_t k) const { return m_batch.particles[k]; }
   double mass(size_t k) const { return m_p.mass[particle(k)]; }
-  Vector rest(size_t k) const { return restPlace(k) - m_pose.restCentre; }
+  Vector rest(size_t k) const { return restPlaceOf(m_batch, k) - m_pose.restCentre; }
   double mass() const { return m_mass; }
   /// One of its members is held, and so is all that is one body with it.
   bool held() const { return m_held; }
@@ -149,10 +155,6 @@ class RigidBody {
     m_batch.values[x][m_group] = static_cast<float>(v.x);
     m_batch.values[x + 1][m_group] = static_cast<float>(v.y);
     m_batch.values[x + 2][m_group] = static_cast<float>(v.z);
-  }
-  Vector restPlace(size_t k) const {
-    return {m_batch.memberValues[RigidModel::kRestX][k], m_batch.memberValues[RigidModel::kRestY][k],
-            m_batch.memberValues[RigidModel::kRestZ][k]};
   }
   void load() {
     m_pose.centre = valueVector(RigidModel::kCentreX);

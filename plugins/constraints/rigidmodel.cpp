@@ -267,8 +267,7 @@ void RigidModel::restoreMembers(const ConstraintContext&, const api::MovablePart
     for (size_t k = first; k < last; ++k) {
       if (returned[k] == 0) continue;
       touch[all.particles[k]] = kReturned;
-      const Vector place{all.memberValues[kRestX][k], all.memberValues[kRestY][k], all.memberValues[kRestZ][k]};
-      const Vector arm = stayed.armOf(place);
+      const Vector arm = stayed.armOf(restPlaceOf(all, k));
       setVector(particles.position[all.particles[k]], stayed.centre() + arm);
       setVector(particles.velocity[all.particles[k]], velocity + cross(spin, arm));
     }

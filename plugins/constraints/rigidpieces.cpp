@@ -111,7 +111,7 @@ class PointCells {
       cell[k] = static_cast<uint32_t>((place(d.z, 2) * m_count[1] + place(d.y, 1)) * m_count[0] + place(d.x, 0));
       addOne(m_begin[cell[k] + size_t{1}]);
     });
-    for (size_t c = 1; c < m_begin.size(); ++c) m_begin[c] += m_begin[c - 1];
+    sumUpShared(threads, m_begin, kMicrosecondsPerPoint);
     m_order.resize(points.size());
     std::vector<uint32_t> next(m_begin.begin(), m_begin.end() - 1);
     // In no order within a cell: who hangs together does not depend on it.
@@ -134,7 +134,6 @@ class PointCells {
   }
 
  private:
-  static uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
   std::pair<Vector, Vector> boundsOf(const std::vector<Vector>& points) const {
     struct Bounds {
       Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};

@@ -16,7 +16,8 @@ struct RigidRest {
 };
 inline RigidRest restOf(const api::ParticleView& particles, const RigidMembers& members) {
   RigidRest rest{massOf(particles, members), {}};
-  rest.spread = spreadOf(particles, members, 1 / rest.mass.mass * rest.mass.moment);
+  if (rest.mass.lightest > 0)  // what is held does not turn
+    rest.spread = spreadOf(particles, members, 1 / rest.mass.mass * rest.mass.moment);
   return rest;
 }
 

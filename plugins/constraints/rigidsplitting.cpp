@@ -71,7 +71,7 @@ void RigidSplitting::split(size_t g, std::span<const uint32_t> melted, std::vect
     return;
   }
   std::vector<Vector> rest(kept.size());
-  forShared(m_threads, kept.size(), kPerMember, [&](size_t n) { rest[n] = restPlace(kept[n]); });
+  forShared(m_threads, kept.size(), kPerMember, [&](size_t n) { rest[n] = restPlaceOf(m_all, kept[n]); });
   std::function<bool(size_t, size_t)> parted;
   if (m_context.cuts) parted = [&](size_t a, size_t b) { return isCut(kept[a], kept[b]); };
   const std::vector<std::vector<size_t>> found = piecesOf(rest, kRigidReach * m_context.spacing, parted, m_threads);
@@ -89,13 +89,8 @@ void RigidSplitting::split(size_t g, std::span<const uint32_t> melted, std::vect
   }
 }
 
-Vector RigidSplitting::restPlace(size_t k) const {
-  return {m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
-          m_all.memberValues[RigidModel::kRestZ][k]};
-}
-
 bool RigidSplitting::hangTogether(size_t k, size_t other) const {
-  const Vector d = restPlace(k) - restPlace(other);
+  const Vector d = restPlaceOf(m_all, k) - restPlaceOf(m_all, other);
   const double reach = kRigidReach * m_context.spacing;
   return dot(d, d) < reach * reach && !isCut(k, other);
 }

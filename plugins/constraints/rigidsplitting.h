@@ -53,7 +53,6 @@ class RigidSplitting {
     return m_context.cuts && m_context.cuts->between(m_all.particles[k], m_all.particles[other]);
   }
   bool isMelted(size_t k) const { return m_p.motion[m_all.particles[k]] != api::Motion::Solid; }
-  Vector restPlace(size_t k) const;
 
   const api::ConstraintContext& m_context;
   const api::ParticleView& m_p;

@@ -76,10 +76,6 @@ class Reshaping {
     if (piece.group == m_all.count) return;
     forShared(m_threads, piece.left(m_all), kPerParticle, [&](size_t n) { visit(n, piece.placeOf(m_all, n)); });
   }
-  Vector restPlace(size_t k) const {
-    return {m_all.memberValues[RigidModel::kRestX][k], m_all.memberValues[RigidModel::kRestY][k],
-            m_all.memberValues[RigidModel::kRestZ][k]};
-  }
 
   double squaredDistance(uint32_t i, uint32_t j) const {
     const Vector d = vectorOf(m_p.position[i]) - vectorOf(m_p.position[j]);
@@ -274,7 +270,7 @@ class Reshaping {
     }
     const RigidBody body(m_p, m_all, piece.group, m_threads);
     eachKept(piece, [&](size_t n, size_t k) {
-      m_made.set(n, m_all.particles[k], restPlace(k), m_all.memberValues[RigidModel::kRestVolume][k]);
+      m_made.set(n, m_all.particles[k], restPlaceOf(m_all, k), m_all.memberValues[RigidModel::kRestVolume][k]);
     });
     const double scale = body.scale();
     join([&](Vector at) { return body.restOf(at); }, 1 / (scale * scale * scale));

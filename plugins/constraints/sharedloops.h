@@ -21,6 +21,9 @@ void forShared(const api::Threads* threads, size_t count, double microsecondsEac
   });
 }
 
+/// Returns what it was. Threads come in any order: numbers that are only counted do not depend on it.
+inline uint32_t addOne(uint32_t& number) { return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed); }
+
 /// Whether wanted(k) is true for any k below `count`; once it is, others are left out.
 template <class Wanted>
 bool anyShared(const api::Threads* threads, size_t count, double microsecondsEach, const Wanted& wanted) {
