@@ -72,9 +72,9 @@ Workers::Loop* Workers::freeLoop() {
 }
 
 Workers::Own Workers::share(int helpers, size_t chunks, const std::function<void(size_t)>& body) {
-  const auto begin = Clock::now();
   Loop* const loop = helpers > 0 && chunks < kMostChunks ? freeLoop() : nullptr;
   if (!loop) {
+    const auto begin = Clock::now();
     for (size_t chunk = 0; chunk < chunks; ++chunk) body(chunk);
     return {chunks, begin, Clock::now()};
   }

@@ -164,16 +164,18 @@ class TestParallel : public QObject {
 
   /// A chunk that waits for the others ends only when helpers come: of those that slept, all that were asked.
   void sleepersAreWoken() {
-    Workers workers(3);
+    constexpr int kHelpers = 5;
+    Workers workers(kHelpers);
     for (int round = 0; round < 20; ++round) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      const int threads = 2 + round % kHelpers;
       std::atomic<int> here = 0;
       const auto body = [&](size_t) {
         ++here;
-        while (here < 4) std::this_thread::yield();
+        while (here < threads) std::this_thread::yield();
       };
-      workers.share(3, 4, body);
-      QCOMPARE(here.load(), 4);
+      workers.share(threads - 1, static_cast<size_t>(threads), body);
+      QCOMPARE(here.load(), threads);
     }
   }
 

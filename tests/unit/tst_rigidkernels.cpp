@@ -2,6 +2,7 @@
 // Sums over rigid bodies and the places of their members, beside the plainest way to compute the same.
 #include "core/solver/solver.h"
 #include "plugins/constraints/rigidkernels.h"
+#include "plugins/constraints/rigidrest.h"
 #include "tests/shared/random.h"
 
 #include <QTest>
@@ -165,6 +166,29 @@ class TstRigidKernels : public QObject {
     scene.threads = &threads;
     QVERIFY(bytesOf(sumsOf(scene)) == alone);
     QCOMPARE(threads.loops > 0, members > 1024);
+  }
+  /// What is noted of two bodies is found until they are predicted again, by when masses may be others.
+  void whatRestsIsNotedAnewInEachSubstep() {
+    BodyScene scene(100);
+    const RigidMembers whole = scene.members(), one{whole.particles, 40, whole.rest};
+    const RigidMembers other{whole.particles + 40, 60, {whole.rest[0] + 40, whole.rest[1] + 40, whole.rest[2] + 40}};
+    RigidRests rests;
+    QVERIFY(!rests.find(one));
+    for (int substep = 0; substep < 3; ++substep) {
+      for (float& mass : scene.mass) mass *= 1.5f;
+      rests.note(scene.view, one);
+      rests.note(scene.view, other);
+      for (const RigidMembers& members : {one, other}) {
+        const RigidRest* rest = rests.find(members);
+        QVERIFY(rest);
+        const RigidMass mass = massOf(scene.view, members);
+        QCOMPARE(rest->mass.mass, mass.mass);
+        QCOMPARE(rest->spread.farthest2, spreadOf(scene.view, members, 1 / mass.mass * mass.moment).farthest2);
+        QCOMPARE(rest->spread.second.row[1].y,
+                 spreadOf(scene.view, members, 1 / mass.mass * mass.moment).second.row[1].y);
+      }
+      QVERIFY2(!rests.find(whole), "another group that begins at the same place");
+    }
   }
   void membersStandWhereThePoseHasThem_data() { bodiesAreSummed_data(); }
   void membersStandWhereThePoseHasThem() {
